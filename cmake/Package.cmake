@@ -1,0 +1,1 @@
+# completed in the packaging step

@@ -1,0 +1,77 @@
+# How every target of the project is made: one place for warnings, sanitizers, install and RPATH.
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+
+# quadmap_target_options(<target>): what holds for libraries, programs and tests alike.
+function(quadmap_target_options target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion)
+  if(QUADMAP_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(QUADMAP_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE})
+  endif()
+endfunction()
+
+# quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILE ...): target quadmap::<name>,
+# file libquadmap-<name>.so, headers in include/quadmap/<name>.
+function(quadmap_add_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  add_library(quadmap_${name} ${arg_SOURCES})
+  add_library(quadmap::${name} ALIAS quadmap_${name})
+  set_target_properties(quadmap_${name} PROPERTIES
+    OUTPUT_NAME quadmap-${name} EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_include_directories(quadmap_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(quadmap_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  if(arg_PRECOMPILE)
+    target_precompile_headers(quadmap_${name} PRIVATE ${arg_PRECOMPILE})
+  endif()
+  quadmap_target_options(quadmap_${name})
+  install(TARGETS quadmap_${name} EXPORT quadmapTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# quadmap_add_program(<name> SOURCES ... LINK ...): program quadmap-<...> in bin.
+function(quadmap_add_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_compile_definitions(${name} PRIVATE QUADMAP_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE ${arg_LINK} mrpt::tclap)
+  quadmap_target_options(${name})
+  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# quadmap_add_test(<name> SOURCES ... LINK ...): a GoogleTest program whose cases CTest lists one by one.
+# Tests find their fixtures in QUADMAP_TESTS_DIR, the programs in QUADMAP_BIN_DIR.
+function(quadmap_add_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;PRECOMPILE" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_compile_definitions(${name} PRIVATE
+    QUADMAP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" QUADMAP_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
+    QUADMAP_LIB_DIR="${CMAKE_BINARY_DIR}/lib")
+  target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest GTest::gtest_main)
+  if(arg_PRECOMPILE)
+    target_precompile_headers(${name} PRIVATE ${arg_PRECOMPILE})
+  endif()
+  quadmap_target_options(${name})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${arg_TIMEOUT})
+endfunction()

@@ -1,0 +1,1 @@
+#include "quadmap/geometry/Plane.h"

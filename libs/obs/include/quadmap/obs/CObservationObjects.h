@@ -1,0 +1,53 @@
+#pragma once
+
+#include <mrpt/img/TCamera.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "quadmap/geometry/PinholeCamera.h"
+#include "quadmap/obs/DetectedObject.h"
+
+namespace quadmap
+{
+/** Depth of the frame on a coarse grid over the image, for visibility tests without the image:
+ * depth [m] of each cell (a median), 0 where nothing was measured. Row major. */
+struct CoarseDepth
+{
+  unsigned columns = 0, rows = 0;
+  std::vector<float> depth;
+
+  bool empty() const { return depth.empty(); }
+};
+
+/** The objects a detector saw in one image, with the measurements perception made of them.
+ * Belongs to the range scan with the same sensorLabel and time stamp. */
+class CObservationObjects : public mrpt::obs::CObservation
+{
+  DEFINE_SERIALIZABLE(CObservationObjects, quadmap)
+
+ public:
+  mrpt::img::TCamera cameraParams;   //!< Of the image the boxes live in
+  mrpt::poses::CPose3D sensorPose;   //!< T_robot_sensor; sensor frame x forward, y left, z up
+  std::vector<DetectedObject> objects;
+  CoarseDepth coarseDepth;           //!< Empty when no depth was looked at
+
+  void getSensorPose(mrpt::poses::CPose3D& out) const override { out = sensorPose; }
+  void setSensorPose(const mrpt::poses::CPose3D& p) override { sensorPose = p; }
+  void getDescriptionAsText(std::ostream& o) const override;
+
+  bool exportTxtSupported() const override { return true; }
+  std::string exportTxtHeader() const override;
+  std::string exportTxtDataRow() const override;
+};
+
+/** The pinhole part of an MRPT calibration. */
+PinholeCamera pinholeFrom(const mrpt::img::TCamera& camera);
+
+/** Registers the classes of this library with MRPT's factory. Calling it also keeps the linker from
+ * dropping the library in programs that need it through serialization only. */
+void registerObsClasses();
+
+}  // namespace quadmap

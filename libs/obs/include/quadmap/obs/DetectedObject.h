@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadmap/geometry/ImageBox.h"
+#include "quadmap/obs/ObjectMeasurement.h"
+
+namespace quadmap
+{
+/** Which pixels of a box belong to the object, one byte (0 or 1) per pixel, row major. */
+struct ObjectMask
+{
+  unsigned x0 = 0, y0 = 0;         //!< Upper left pixel in the image
+  unsigned width = 0, height = 0;  //!< [px]
+  std::vector<std::uint8_t> pixels;  //!< width * height
+
+  /** False for pixels outside the mask's rectangle. */
+  bool contains(unsigned x, unsigned y) const
+  {
+    return x >= x0 && y >= y0 && x < x0 + width && y < y0 + height &&
+           pixels[(y - y0) * width + (x - x0)] != 0;
+  }
+};
+
+/** One box of a detector, and what perception made of it. */
+struct DetectedObject
+{
+  std::string label;  //!< As the detector spelled it
+  double score = 1;   //!< In [0, 1]
+  ImageBox box;
+  std::optional<ObjectMask> mask;
+  std::optional<std::uint32_t> instanceId;  //!< When the input already knows which object it is
+  ObjectMeasurement measurement;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+namespace quadmap
+{
+/** A file that appears complete or not at all: write to temporaryPath(), then commit(). Without
+ * commit() the destructor removes the temporary file and the final name stays untouched. */
+class OutputFile
+{
+ public:
+  /** \exception std::runtime_error If the directory is missing or not writable. */
+  explicit OutputFile(std::string finalPath);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /** In the same directory, with the same extension (writers look at it). */
+  const std::string& temporaryPath() const { return temporaryPath_; }
+  const std::string& finalPath() const { return finalPath_; }
+
+  /** Checks that the file's data reached the disk (fsync) and renames it.
+   *  \exception std::runtime_error For a full disk or a failed rename; names the file. */
+  void commit();
+
+ private:
+  std::string finalPath_, temporaryPath_;
+  bool committed_ = false;
+};
+
+/** Writes a whole text that way. */
+void writeTextFile(const std::string& path, const std::string& text);
+
+}  // namespace quadmap

@@ -1,0 +1,1 @@
+#include "quadmap/obs/CObservationObjects.h"

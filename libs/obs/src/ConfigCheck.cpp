@@ -1,0 +1,1 @@
+#include "quadmap/obs/ConfigCheck.h"
