@@ -29,10 +29,10 @@ class CObservationObjects : public mrpt::obs::CObservation
   DEFINE_SERIALIZABLE(CObservationObjects, quadmap)
 
  public:
-  mrpt::img::TCamera cameraParams;   //!< Of the image the boxes live in
-  mrpt::poses::CPose3D sensorPose;   //!< T_robot_sensor; sensor frame x forward, y left, z up
+  mrpt::img::TCamera cameraParams;  //!< Of the image the boxes live in
+  mrpt::poses::CPose3D sensorPose;  //!< T_robot_sensor; sensor frame x forward, y left, z up
   std::vector<DetectedObject> objects;
-  CoarseDepth coarseDepth;           //!< Empty when no depth was looked at
+  CoarseDepth coarseDepth;  //!< Empty when no depth was looked at
 
   void getSensorPose(mrpt::poses::CPose3D& out) const override { out = sensorPose; }
   void setSensorPose(const mrpt::poses::CPose3D& p) override { sensorPose = p; }

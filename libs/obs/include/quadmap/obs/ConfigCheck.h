@@ -2,13 +2,21 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 
+#include <optional>
 #include <set>
 #include <string>
 
 namespace quadmap
 {
-/** Opens an INI file strictly (MRPT reads a missing file as an empty one).
- * \exception std::runtime_error If the file does not exist or cannot be read. */
+/** The number a text consists of, blanks around it aside; nothing for "4abc", "ten" and "". The
+ * locale plays no part. "nan" and "inf" are numbers: check the bounds. */
+std::optional<double> parseNumber(const std::string& text);
+
+/** Opens an INI file strictly: MRPT reads a missing file as an empty one, drops lines it does not
+ * understand, and lets the last of two equal keys win.
+ * \exception std::runtime_error If the file does not exist or cannot be read, for a line that is
+ * neither `[section]`, `key = value`, a comment nor an @-directive, and for a section or key that
+ * stands there twice; names file and line. */
 void requireReadableIni(const std::string& path);
 
 /** \exception std::invalid_argument If the section has a key that is not in `known`: a misspelt key

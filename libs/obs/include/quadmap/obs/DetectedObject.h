@@ -13,8 +13,8 @@ namespace quadmap
 /** Which pixels of a box belong to the object, one byte (0 or 1) per pixel, row major. */
 struct ObjectMask
 {
-  unsigned x0 = 0, y0 = 0;         //!< Upper left pixel in the image
-  unsigned width = 0, height = 0;  //!< [px]
+  unsigned x0 = 0, y0 = 0;           //!< Upper left pixel in the image
+  unsigned width = 0, height = 0;    //!< [px]
   std::vector<std::uint8_t> pixels;  //!< width * height
 
   /** False for pixels outside the mask's rectangle. */

@@ -19,14 +19,14 @@ enum class UsualSupport
 /** What is known about a class of objects before seeing one. */
 struct LabelProperties
 {
-  std::string name;              //!< Canonical spelling (COCO's)
-  double shapeExponent = 1.5;    //!< q of h_q: 1 cuboid ... 2 ellipsoid
-  bool dominantDirection = true; //!< False: round or shapeless, its yaw means nothing
+  std::string name;               //!< Canonical spelling (COCO's)
+  double shapeExponent = 1.5;     //!< q of h_q: 1 cuboid ... 2 ellipsoid
+  bool dominantDirection = true;  //!< False: round or shapeless, its yaw means nothing
   UsualSupport support = UsualSupport::Any;
   Eigen::Vector3d typicalSize = Eigen::Vector3d(0.5, 0.5, 0.5);  //!< Full sizes (x, y, z) [m]
-  double sizeSpread = 1.0;  //!< Standard deviation of the logarithm of a size [-]
+  double sizeSpread = 1.0;                //!< Standard deviation of the logarithm of a size [-]
   std::vector<std::string> confusedWith;  //!< Canonical names a detector mistakes it for
-  bool known = false;       //!< False: not in the table, the values above are neutral
+  bool known = false;                     //!< False: not in the table, the values above are neutral
 };
 
 /** The classes of a detector, under all their usual spellings. Read from an INI file: one section

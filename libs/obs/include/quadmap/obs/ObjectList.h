@@ -19,9 +19,9 @@ struct ObjectRecord
   Ellipsoid object;  //!< JSON: center, size (full edge lengths of the cuboid), rotation
   bool orientationDefined = true;
 
-  std::optional<unsigned> framesVisible;  //!< Ground truth: frames in which it can be seen
-  std::optional<unsigned> observations;   //!< Map: measurements that made it
-  std::optional<double> existence;        //!< Map: probability that it exists, in [0, 1]
+  std::optional<unsigned> framesVisible;        //!< Ground truth: frames in which it can be seen
+  std::optional<unsigned> observations;         //!< Map: measurements that made it
+  std::optional<double> existence;              //!< Map: probability that it exists, in [0, 1]
   std::map<std::string, unsigned> labelCounts;  //!< Map: how often it was called what
   /** Map: covariance of (x, y, z [m], yaw [rad], ln a, ln b, ln c). */
   std::optional<Eigen::Matrix<double, 7, 7>> covariance;

@@ -50,7 +50,7 @@ enum class EdgeState : std::uint8_t
 /** One box edge as a plane through the camera centre, tangent to the object. */
 struct EdgeMeasurement
 {
-  Plane plane_sensor;  //!< In the sensor frame, d = 0, normal towards the object
+  Plane plane_sensor;     //!< In the sensor frame, d = 0, normal towards the object
   double sigmaAngle = 0;  //!< sigma_px / f [rad]; times the range it is a distance
   EdgeState state = EdgeState::Usable;
 };

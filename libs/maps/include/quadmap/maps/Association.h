@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadmap
+{
+/** Parameters of the Dirichlet process (DESIGN section 4; Mu et al., IROS 2016). */
+struct AssociationParameters
+{
+  double alpha = 0.5;         //!< Concentration of the Dirichlet process, > 0
+  double beta = 0.3;          //!< Dirichlet prior of the label histogram, > 0
+  unsigned labels = 80;       //!< U, number of classes
+  double newObjectVolume = 100.0;  //!< V, volume (area in 2-D) a new object may lie in [m^D]
+};
+
+/** What the posterior needs to know of an object. D = 2 or 3 is the size of the vectors. */
+struct AssociationTarget
+{
+  Eigen::VectorXd position;    //!< [m]
+  Eigen::MatrixXd covariance;  //!< Uncertainty of the position plus the object's extent [m^2]
+  unsigned observations = 0;   //!< m_i
+  std::vector<std::pair<std::string, unsigned>> labelCounts;
+};
+
+struct AssociationCandidate
+{
+  Eigen::VectorXd position;    //!< Measured position in the map [m]
+  Eigen::MatrixXd covariance;  //!< Measurement plus pose uncertainty [m^2]
+  std::string label;
+  bool mayStartObject = true;  //!< False for partial measurements: join or wait
+};
+
+struct AssociationDecision
+{
+  std::size_t measurement = 0;        //!< Index of the box in its frame
+  std::optional<std::size_t> target;  //!< Index of the object; nothing: see startsObject
+  bool startsObject = false;          //!< True: a new object; false with no target: waits
+  double logPosterior = 0;            //!< Normalised over all alternatives, of the one chosen
+  double logPosteriorSecond = 0;      //!< Of the best alternative
+};
+
+/** Assigns the boxes of one frame: the most probable assignment in which no two boxes share an
+ * object (optimal, not greedy). `extraLogLikelihood(k, i)`, when given, has one row per measurement
+ * and one column per target and is added to the position's log-likelihood. */
+std::vector<AssociationDecision> associateFrame(
+    const std::vector<AssociationCandidate>& measurements,
+    const std::vector<AssociationTarget>& targets,
+    const AssociationParameters& parameters,
+    const Eigen::MatrixXd& extraLogLikelihood = {});
+
+}  // namespace quadmap

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <mrpt/maps/CMetricMap.h>
+#include <mrpt/maps/CSimpleMap.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadmap/maps/Association.h"
+#include "quadmap/maps/MapObject.h"
+#include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/obs/ObjectList.h"
+
+namespace quadmap
+{
+using mrpt::maps::CMetricMap;  // the serialization macros need it here
+
+/** Objects (ellipsoids with labels) as an MRPT metric map: insert observations, query, draw,
+ * localise in it. The map frame is z-up.
+ *
+ * Threads: const methods may run concurrently; anything that changes the map needs the caller's
+ * lock. */
+class CQuadricObjectMap : public mrpt::maps::CMetricMap
+{
+  DEFINE_SERIALIZABLE(CQuadricObjectMap, quadmap)
+
+ public:
+  CQuadricObjectMap();
+
+  using Objects = std::map<ObjectId, MapObject>;
+  const Objects& objects() const;                     //!< All, confirmed or not
+  std::vector<const MapObject*> confirmedObjects() const;  //!< Those worth reporting, by id
+
+  // Queries over the confirmed objects -------------------------------------------------------
+  const MapObject* find(ObjectId id) const;  //!< Any object; null when there is none
+  std::vector<const MapObject*> withLabel(const std::string& label) const;
+  /** Objects whose centre lies in the axis-aligned region [m]. */
+  std::vector<const MapObject*> inRegion(
+      const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) const;
+  /** The object (of a label, unless empty) whose centre is nearest; null in an empty map. */
+  const MapObject* nearest(const Eigen::Vector3d& p, const std::string& label = {}) const;
+  /** The cuboid's outline on the floor, counter-clockwise (x, y) [m].
+   *  \exception std::out_of_range If there is no such object. */
+  std::vector<Eigen::Vector2d> footprint(ObjectId id) const;
+
+  // Editing ----------------------------------------------------------------------------------
+  void merge(ObjectId kept, ObjectId absorbed);  //!< \exception std::out_of_range
+  void relabel(ObjectId id, const std::string& label);  //!< \exception std::out_of_range
+  void remove(ObjectId id);                             //!< \exception std::out_of_range
+
+  /** Settles the map after a batch of insertions: merges overlapping compatible objects,
+   *  re-estimates, decides which objects are confirmed. Cheap to repeat. */
+  void consolidate();
+
+  /** The confirmed objects in the form of objects.json. */
+  std::vector<ObjectRecord> toRecords() const;
+
+  /** How the boxes of the last inserted observation were assigned (for reports). */
+  struct Decision
+  {
+    std::size_t box = 0;
+    std::optional<ObjectId> object;  //!< Nothing: the measurement was not used
+    bool startedObject = false;
+    double logPosterior = 0, logPosteriorSecond = 0;
+  };
+  const std::vector<Decision>& lastDecisions() const;
+
+  // CMetricMap -------------------------------------------------------------------------------
+  bool isEmpty() const override;
+  std::string asString() const override;
+  void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
+  /** Writes PREFIX.json (the objects), PREFIX.3Dscene and PREFIX.txt. */
+  void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
+};
+
+/** Registers the classes of this library (and of obs) with MRPT's factory; see registerObsClasses. */
+void registerMapClasses();
+
+}  // namespace quadmap

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mrpt/core/Clock.h>
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "quadmap/geometry/Ellipsoid.h"
+
+namespace quadmap
+{
+using ObjectId = std::uint32_t;
+
+/** An upright object's state: (x, y, z [m], yaw [rad], ln a, ln b, ln c), in the map frame. */
+using UprightState = Eigen::Matrix<double, 7, 1>;
+using UprightCovariance = Eigen::Matrix<double, 7, 7>;
+
+UprightState uprightStateOf(const Ellipsoid& object);
+Ellipsoid ellipsoidOf(const UprightState& state);
+
+/** One landmark of the object map. */
+struct MapObject
+{
+  ObjectId id = 0;
+  Ellipsoid object;                      //!< In the map frame, z up
+  UprightCovariance covariance = UprightCovariance::Identity();
+  std::map<std::string, unsigned> labelCounts;  //!< Canonical label -> measurements that said so
+  unsigned completeCount = 0, partialCount = 0;  //!< Measurements that were used
+  unsigned missCount = 0;                //!< Frames that should have shown it and did not
+  bool orientationDefined = true;
+  double existenceLogOdds = 0;           //!< From measurements and misses
+  bool confirmed = false;                //!< Enough evidence to be reported
+  mrpt::Clock::time_point firstSeen, lastSeen;
+
+  unsigned observations() const { return completeCount + partialCount; }
+  std::string label() const;  //!< The most frequent one; ties go to the alphabetically first
+  double existence() const;   //!< Probability, in [0, 1]
+};
+
+}  // namespace quadmap

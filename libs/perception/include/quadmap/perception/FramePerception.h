@@ -1,0 +1,40 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <Eigen/Dense>
+#include <memory>
+#include <optional>
+
+#include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/PerceptionOptions.h"
+
+namespace quadmap
+{
+/** Turns the detector boxes of one RGB-D frame into measurements (DESIGN section 4).
+ *
+ * Holds no state between frames: the same frame gives the same measurements. */
+class FramePerception
+{
+ public:
+  FramePerception(const PerceptionOptions& options, const LabelTable& labels);
+  ~FramePerception();
+
+  /** Fills `measurement` of every box, and coarseDepth.
+   * \param scan Depth image with calibration; need not be unprojected.
+   * \param boxes Of the same image.
+   * \param up_sensor Unit vector that points up in the sensor frame, e.g. from the robot's pose in
+   * a z-up world; when absent, up comes from the planes of the scene.
+   * \exception std::runtime_error If the scan has no depth image or no usable calibration. */
+  void measure(
+      const mrpt::obs::CObservation3DRangeScan& scan,
+      CObservationObjects& boxes,
+      const std::optional<Eigen::Vector3d>& up_sensor) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadmap

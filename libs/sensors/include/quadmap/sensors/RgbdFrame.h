@@ -1,0 +1,25 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <cstddef>
+#include <optional>
+
+#include "quadmap/obs/CObservationObjects.h"
+
+namespace quadmap
+{
+/** One RGB-D image of one sensor with everything the input says about it. */
+struct RgbdFrame
+{
+  std::size_t record = 0;  //!< Index of the scan in its rawlog (0 = first object), for messages
+  mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< Loaded; time stamp and sensorLabel inside
+  CObservationObjects::Ptr objects;  //!< Boxes of the same label and time; null: nobody looked
+  std::optional<mrpt::poses::CPose3D> T_odom_robot;   //!< From the rawlog's odometry, any kind
+  std::optional<mrpt::poses::CPose3D> T_world_robot;  //!< From the "ground_truth" poses
+
+  double time() const { return mrpt::Clock::toDouble(scan->timestamp); }  //!< [s]
+};
+
+}  // namespace quadmap
