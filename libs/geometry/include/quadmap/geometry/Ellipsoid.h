@@ -25,9 +25,9 @@ class Ellipsoid
    *  not finite. */
   Ellipsoid(const mrpt::poses::CPose3D& T_ref_obj, const Eigen::Vector3d& semiAxes);
 
-  const mrpt::poses::CPose3D& pose() const { return pose_; }  //!< T_ref_obj
+  const mrpt::poses::CPose3D& pose() const { return pose_; }     //!< T_ref_obj
   const Eigen::Vector3d& semiAxes() const { return semiAxes_; }  //!< (a, b, c) [m]
-  Eigen::Vector3d center() const;  //!< In the reference frame [m]
+  Eigen::Vector3d center() const;                                //!< In the reference frame [m]
   Eigen::Matrix3d rotation() const;  //!< R_ref_obj; its columns are the object's axes
   double cuboidVolume() const { return 8.0 * semiAxes_.prod(); }  //!< [m^3]
 

@@ -4,7 +4,7 @@
 
 namespace quadmap
 {
-/** p-quantile (0 <= p <= 1, linear interpolation) of the values; NaN values are ignored.
+/** p-quantile (0 <= p <= 1, linear interpolation) of the finite values.
  * \exception std::invalid_argument If there is no finite value or p is out of range. */
 double quantile(std::vector<double> values, double p);
 

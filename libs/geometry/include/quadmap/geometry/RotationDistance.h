@@ -11,8 +11,7 @@ struct SymmetricRotation
 };
 
 /** Smallest rotation between two boxes' axes over the 24 proper relabelings of b's axes. */
-SymmetricRotation symmetricRotationDistance(
-    const Eigen::Matrix3d& R_a, const Eigen::Matrix3d& R_b);
+SymmetricRotation symmetricRotationDistance(const Eigen::Matrix3d& R_a, const Eigen::Matrix3d& R_b);
 
 /** Smallest |difference| of two yaws that mean the same every `period` [rad]; result in
  * [0, period/2]. */

@@ -8,7 +8,7 @@
 
 namespace quadmap
 {
-/** Where |x| is replaced by sqrt(x^2 + k^2) - smooth at zero; relative to the largest semi-axis. */
+/** Where |x| is replaced by sqrt(x^2 + k^2) - smooth at zero: k = this * |s|. */
 constexpr double kSupportSmoothing = 1e-3;
 
 /** Half width of an object along a direction, from the family of DESIGN section 4
@@ -20,8 +20,7 @@ constexpr double kSupportSmoothing = 1e-3;
  * \tparam T double or an automatic-differentiation scalar.
  * \param n_obj Unit direction in the object's frame. \param s Semi-axes [m]. \return [m]. */
 template <typename T>
-T supportFunction(
-    const Eigen::Matrix<T, 3, 1>& n_obj, const Eigen::Matrix<T, 3, 1>& s, double q);
+T supportFunction(const Eigen::Matrix<T, 3, 1>& n_obj, const Eigen::Matrix<T, 3, 1>& s, double q);
 
 /** h_q with its derivatives. */
 struct SupportWithDerivatives
