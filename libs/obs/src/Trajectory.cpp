@@ -1,0 +1,111 @@
+#include "quadmap/obs/Trajectory.h"
+
+#include <mrpt/core/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "quadmap/obs/OutputFile.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::size_t kColumns = 8;
+
+mrpt::poses::CPose3D poseFrom(const Eigen::Quaterniond& q, const Eigen::Vector3d& t)
+{
+  mrpt::math::CMatrixDouble44 T;
+  T.setIdentity();
+  T.asEigen().topLeftCorner<3, 3>() = q.toRotationMatrix();
+  T.asEigen().topRightCorner<3, 1>() = t;
+  return mrpt::poses::CPose3D(T);
+}
+
+Eigen::Quaterniond quaternionOf(const mrpt::poses::CPose3D& T)
+{
+  return Eigen::Quaterniond(Eigen::Matrix3d(T.getRotationMatrix().asEigen()));
+}
+
+Eigen::Vector3d translationOf(const mrpt::poses::CPose3D& T) { return {T.x(), T.y(), T.z()}; }
+
+/** \param place "file:line" for messages. */
+double parseNumber(const std::string& word, const std::string& place)
+{
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value))
+    throw std::runtime_error(place + ": '" + word + "' is not a finite number");
+  return value;
+}
+
+StampedPose parsePose(const std::vector<std::string>& words, const std::string& place)
+{
+  if (words.size() != kColumns)
+    throw std::runtime_error(
+        mrpt::format("%s: expected %zu columns, got %zu", place.c_str(), kColumns, words.size()));
+  std::array<double, kColumns> v{};
+  for (std::size_t i = 0; i < kColumns; ++i) v[i] = parseNumber(words[i], place);
+  const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);  // Eigen's constructor starts with w
+  if (!(q.norm() > 1e-6)) throw std::runtime_error(place + ": quaternion is zero");
+  return {v[0], poseFrom(q.normalized(), {v[1], v[2], v[3]})};
+}
+}  // namespace
+
+Trajectory readTumTrajectory(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot read the trajectory");
+
+  Trajectory trajectory;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number)
+  {
+    std::istringstream text(line.substr(0, line.find('#')));
+    std::vector<std::string> words;
+    for (std::string word; text >> word;) words.push_back(word);
+    if (!words.empty()) trajectory.push_back(parsePose(words, path + ":" + std::to_string(number)));
+  }
+  if (file.bad()) throw std::runtime_error(path + ": read error");
+  return trajectory;
+}
+
+void writeTumTrajectory(const std::string& path, const Trajectory& trajectory)
+{
+  std::string text = "# time tx ty tz qx qy qz qw\n";
+  for (const auto& [time, T] : trajectory)
+  {
+    const Eigen::Quaterniond q = quaternionOf(T);
+    text += mrpt::format(
+        "%.6f %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", time, T.x(), T.y(), T.z(), q.x(), q.y(), q.z(),
+        q.w());
+  }
+  writeTextFile(path, text);
+}
+
+std::optional<mrpt::poses::CPose3D> poseAt(const Trajectory& trajectory, double time, double maxGap)
+{
+  const auto after = std::lower_bound(
+      trajectory.begin(), trajectory.end(), time,
+      [](const StampedPose& sample, double t) { return sample.time < t; });
+  if (after == trajectory.end()) return std::nullopt;
+  if (after->time == time) return after->pose;
+  if (after == trajectory.begin()) return std::nullopt;
+
+  const auto before = after - 1;
+  const double gap = after->time - before->time;
+  if (gap > maxGap) return std::nullopt;
+  const double share = (time - before->time) / gap;
+  const Eigen::Vector3d t =
+      (1 - share) * translationOf(before->pose) + share * translationOf(after->pose);
+  return poseFrom(quaternionOf(before->pose).slerp(share, quaternionOf(after->pose)), t);
+}
+
+}  // namespace quadmap
