@@ -11,7 +11,7 @@ namespace quadmap
 struct StampedPose
 {
   double time = 0;            //!< [s], usually since 1970
-  mrpt::poses::CPose3D pose;  //!< T_world_x, x said by the file's owner
+  mrpt::poses::CPose3D pose;  //!< T_world_body; which body, the owner of the file says
 };
 
 using Trajectory = std::vector<StampedPose>;
