@@ -1,1 +1,170 @@
 #include "quadmap/obs/LabelTable.h"
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/core/format.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "quadmap/obs/ConfigCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+using mrpt::config::CConfigFile;
+
+/** What two spellings of one class have in common: letters and digits, in lower case. */
+std::string keyOf(const std::string& label)
+{
+  std::string key;
+  for (const char c : label)
+    if (c != ' ' && c != '\t' && c != '_' && c != '-')
+      key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return key;
+}
+
+std::string withoutInstanceNumber(std::string key)
+{
+  while (!key.empty() && std::isdigit(static_cast<unsigned char>(key.back()))) key.pop_back();
+  return key;
+}
+
+/** "a, b c, d" as {"a", "b c", "d"}. */
+std::vector<std::string> readList(
+    const CConfigFile& config, const std::string& section, const std::string& key)
+{
+  std::vector<std::string> parts, list;
+  mrpt::system::tokenize(config.read_string(section, key, ""), ",", parts);
+  for (const auto& part : parts)
+    if (const auto word = mrpt::system::trim(part); !word.empty()) list.push_back(word);
+  return list;
+}
+
+UsualSupport readSupport(const CConfigFile& config, const std::string& section)
+{
+  const auto word = mrpt::system::lowerCase(config.read_string(section, "support", "any"));
+  if (word == "floor") return UsualSupport::Floor;
+  if (word == "object") return UsualSupport::Object;
+  if (word == "wall") return UsualSupport::Wall;
+  if (word == "any") return UsualSupport::Any;
+  throw std::invalid_argument(
+      "[" + section + "] support=" + word + ": must be floor, object, wall or any");
+}
+
+Eigen::Vector3d readSize(const CConfigFile& config, const std::string& section)
+{
+  constexpr double kLargest = 100.0;  // [m]
+  const auto text = config.read_string(section, "typicalSize", "");
+  std::vector<std::string> words;
+  mrpt::system::tokenize(text, " \t,", words);
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < words.size() && i < 3; ++i)
+    size[static_cast<int>(i)] = parseNumber(words[i]).value_or(0.0);
+  if (words.size() != 3 || !(size.minCoeff() > 0) || !(size.maxCoeff() <= kLargest))
+    throw std::invalid_argument(
+        "[" + section + "] typicalSize=" + text + ": must be three lengths in (0, 100] m");
+  return size;
+}
+
+LabelProperties readProperties(const CConfigFile& config, const std::string& section)
+{
+  rejectUnknownKeys(
+      config, section,
+      {"aliases", "shapeExponent", "dominantDirection", "support", "typicalSize", "sizeSpread",
+       "confusedWith"});
+  LabelProperties p;
+  p.name = section;
+  p.known = true;
+  readNumber(config, section, "shapeExponent", p.shapeExponent, 1.0, 2.0);
+  readFlag(config, section, "dominantDirection", p.dominantDirection);
+  p.support = readSupport(config, section);
+  p.typicalSize = readSize(config, section);
+  readNumber(config, section, "sizeSpread", p.sizeSpread, 0.01, 3.0);
+  p.confusedWith = readList(config, section, "confusedWith");
+  return p;
+}
+
+bool lists(const LabelProperties& p, const std::string& other)
+{
+  return std::find(p.confusedWith.begin(), p.confusedWith.end(), other) != p.confusedWith.end();
+}
+
+}  // namespace
+
+LabelTable LabelTable::fromFile(const std::string& path)
+{
+  requireReadableIni(path);
+  try
+  {
+    const CConfigFile config(path);
+    return LabelTable(config);
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(path + ": " + e.what());
+  }
+}
+
+LabelTable::LabelTable(const CConfigFile& config)
+{
+  std::vector<std::string> sections;
+  config.getAllSections(sections);
+  for (const auto& section : sections)
+  {
+    byName_[section] = readProperties(config, section);
+    addSpelling(section, section);
+    for (const auto& alias : readList(config, section, "aliases")) addSpelling(alias, section);
+  }
+  if (byName_.empty()) throw std::runtime_error("no label in it: expected one [section] per class");
+  for (auto& [name, properties] : byName_)
+    for (auto& other : properties.confusedWith)
+    {
+      const auto found = canonicalByKey_.find(keyOf(other));
+      if (found == canonicalByKey_.end())
+        throw std::invalid_argument("[" + name + "] confusedWith: no label \"" + other + "\"");
+      other = found->second;
+    }
+}
+
+void LabelTable::addSpelling(const std::string& spelling, const std::string& name)
+{
+  const auto key = keyOf(spelling);
+  if (key.empty()) throw std::invalid_argument("[" + name + "] a label without letters");
+  const auto [at, isNew] = canonicalByKey_.emplace(key, name);
+  if (!isNew && at->second != name)
+    throw std::invalid_argument(
+        "[" + name + "] spelling \"" + spelling + "\" already belongs to [" + at->second + "]");
+}
+
+LabelTable LabelTable::installed() { return fromFile(findShareFile("labels.ini")); }
+
+std::string LabelTable::canonical(const std::string& label) const
+{
+  const auto key = keyOf(label);
+  auto found = canonicalByKey_.find(key);
+  if (found == canonicalByKey_.end()) found = canonicalByKey_.find(withoutInstanceNumber(key));
+  return found == canonicalByKey_.end() ? label : found->second;
+}
+
+LabelProperties LabelTable::properties(const std::string& label) const
+{
+  const auto found = byName_.find(canonical(label));
+  if (found != byName_.end()) return found->second;
+  LabelProperties neutral;
+  neutral.name = label;
+  return neutral;
+}
+
+bool LabelTable::compatible(const std::string& a, const std::string& b) const
+{
+  const auto nameA = canonical(a), nameB = canonical(b);
+  if (keyOf(nameA) == keyOf(nameB)) return true;
+  const auto foundA = byName_.find(nameA), foundB = byName_.find(nameB);
+  return (foundA != byName_.end() && lists(foundA->second, nameB)) ||
+         (foundB != byName_.end() && lists(foundB->second, nameA));
+}
+
+}  // namespace quadmap

@@ -1,1 +1,236 @@
 #include "quadmap/obs/ObjectList.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "quadmap/obs/OutputFile.h"
+
+namespace quadmap
+{
+namespace
+{
+using Json = nlohmann::ordered_json;  // keeps the order of insertion: files are reproducible
+
+/** How far a stored rotation may be from a true one before it is an error [-]. */
+constexpr double kRotationTolerance = 1e-3;
+
+[[noreturn]] void reject(const std::string& what) { throw std::runtime_error(what); }
+
+const Json& require(const Json& object, const char* key)
+{
+  const auto found = object.find(key);
+  if (found == object.end()) reject(std::string("\"") + key + "\" is missing");
+  return *found;
+}
+
+double readFinite(const Json& value, const char* key)
+{
+  const double number = value.is_number() ? value.get<double>() : NAN;
+  if (!std::isfinite(number)) reject(std::string("\"") + key + "\" must be of finite numbers");
+  return number;
+}
+
+unsigned readCount(const Json& value, const char* key)
+{
+  constexpr std::uint64_t kMost = std::numeric_limits<unsigned>::max();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kMost)
+    reject(std::string("\"") + key + "\" must be a whole number >= 0");
+  return value.get<unsigned>();
+}
+
+template <int ROWS, int COLUMNS>
+Eigen::Matrix<double, ROWS, COLUMNS> readMatrix(const Json& value, const char* key)
+{
+  const auto shape = std::to_string(ROWS) + (COLUMNS == 1 ? "" : "x" + std::to_string(COLUMNS));
+  const auto check = [&](const Json& array, std::size_t size)
+  {
+    if (!array.is_array() || array.size() != size)
+      reject(std::string("\"") + key + "\" must be an array of " + shape + " numbers");
+  };
+  Eigen::Matrix<double, ROWS, COLUMNS> m;
+  check(value, ROWS);
+  for (int row = 0; row < ROWS; ++row)
+  {
+    const Json& line = value[static_cast<std::size_t>(row)];
+    if (COLUMNS == 1)
+    {
+      m(row, 0) = readFinite(line, key);
+      continue;
+    }
+    check(line, COLUMNS);
+    for (int column = 0; column < COLUMNS; ++column)
+      m(row, column) = readFinite(line[static_cast<std::size_t>(column)], key);
+  }
+  return m;
+}
+
+std::string readId(const Json& value)
+{
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_string() && !value.get<std::string>().empty()) return value.get<std::string>();
+  reject("\"id\" must be a whole number or a text");
+}
+
+/** The nearest true rotation. */
+Eigen::Matrix3d readRotation(const Json& value)
+{
+  const Eigen::Matrix3d r = readMatrix<3, 3>(value, "rotation");
+  const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kRotationTolerance) || r.determinant() < 0)
+    reject("\"rotation\" is not a rotation: its columns must be orthonormal and right-handed");
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Ellipsoid readEllipsoid(const Json& object, bool orientationDefined)
+{
+  const Eigen::Vector3d center = readMatrix<3, 1>(require(object, "center"), "center");
+  const Eigen::Vector3d size = readMatrix<3, 1>(require(object, "size"), "size");
+  if (!(size.minCoeff() > 0)) reject("\"size\" must be > 0");
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  if (orientationDefined || object.contains("rotation"))
+    rotation = readRotation(require(object, "rotation"));
+  const mrpt::math::CMatrixDouble33 r(rotation);
+  const auto pose = mrpt::poses::CPose3D::FromRotationAndTranslation(
+      r, mrpt::math::TPoint3D(center.x(), center.y(), center.z()));
+  return Ellipsoid(pose, 0.5 * size);
+}
+
+ObjectRecord readRecord(const Json& object)
+{
+  if (!object.is_object()) reject("must be a JSON object");
+  ObjectRecord record;
+  record.id = readId(require(object, "id"));
+  const Json& label = require(object, "label");
+  if (!label.is_string()) reject("\"label\" must be a text");
+  record.label = label.get<std::string>();
+  if (object.contains("orientation_defined"))
+  {
+    const Json& defined = object["orientation_defined"];
+    if (!defined.is_boolean()) reject("\"orientation_defined\" must be true or false");
+    record.orientationDefined = defined.get<bool>();
+  }
+  record.object = readEllipsoid(object, record.orientationDefined);
+  if (object.contains("frames_visible"))
+    record.framesVisible = readCount(object["frames_visible"], "frames_visible");
+  if (object.contains("observations"))
+    record.observations = readCount(object["observations"], "observations");
+  if (object.contains("existence")) record.existence = readFinite(object["existence"], "existence");
+  if (object.contains("label_counts"))
+  {
+    const Json& counts = object["label_counts"];
+    if (!counts.is_object()) reject("\"label_counts\" must be a JSON object");
+    for (const auto& [name, count] : counts.items())
+      record.labelCounts[name] = readCount(count, "label_counts");
+  }
+  if (object.contains("covariance"))
+    record.covariance = readMatrix<7, 7>(object["covariance"], "covariance");
+  return record;
+}
+
+Json parseFile(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file) reject("cannot be read (does the file exist?)");
+  return Json::parse(file);  // its errors give line and column
+}
+
+std::string describeRecord(const Json& object, std::size_t index)
+{
+  std::string name = "object " + std::to_string(index);
+  if (object.is_object() && object.contains("id") && object["id"].is_primitive())
+    name += " (id " + object["id"].dump(-1, ' ', false, Json::error_handler_t::replace) + ")";
+  return name;
+}
+
+template <typename Derived>
+Json jsonOf(const Eigen::MatrixBase<Derived>& m)
+{
+  Json rows = Json::array();
+  for (int row = 0; row < m.rows(); ++row)
+  {
+    Json line = Json::array();
+    for (int column = 0; column < m.cols(); ++column) line.push_back(double(m(row, column)));
+    rows.push_back(m.cols() == 1 ? line[0] : line);
+  }
+  return rows;
+}
+
+/** The text of a whole number that reads back as the same text? */
+bool isPlainNumber(const std::string& id)
+{
+  constexpr std::size_t kExactInEveryReader = 15;  // digits of a double
+  return !id.empty() && id.size() <= kExactInEveryReader &&
+         id.find_first_not_of("0123456789") == std::string::npos && (id == "0" || id[0] != '0');
+}
+
+Json jsonOf(const ObjectRecord& record)
+{
+  if (record.covariance && !record.covariance->allFinite())
+    throw std::invalid_argument("object " + record.id + ": its covariance is not finite");
+  if (record.existence && !std::isfinite(*record.existence))
+    throw std::invalid_argument("object " + record.id + ": its existence is not finite");
+  Json j;
+  if (isPlainNumber(record.id))
+    j["id"] = std::stoull(record.id);
+  else
+    j["id"] = record.id;
+  j["label"] = record.label;
+  j["center"] = jsonOf(record.object.center());
+  j["size"] = jsonOf((2.0 * record.object.semiAxes()).eval());
+  j["rotation"] = jsonOf(record.object.rotation());
+  j["orientation_defined"] = record.orientationDefined;
+  if (record.framesVisible) j["frames_visible"] = *record.framesVisible;
+  if (record.observations) j["observations"] = *record.observations;
+  if (record.existence) j["existence"] = *record.existence;
+  if (!record.labelCounts.empty()) j["label_counts"] = record.labelCounts;
+  if (record.covariance) j["covariance"] = jsonOf(*record.covariance);
+  return j;
+}
+
+}  // namespace
+
+std::vector<ObjectRecord> readObjectsJson(const std::string& path)
+try
+{
+  const Json file = parseFile(path);
+  if (!file.is_object()) reject("expected {\"objects\": [...]}");
+  const Json& objects = require(file, "objects");
+  if (!objects.is_array()) reject("\"objects\" must be an array");
+
+  std::vector<ObjectRecord> records;
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+  {
+    try
+    {
+      records.push_back(readRecord(objects[i]));
+      if (!ids.insert(records.back().id).second) reject("its \"id\" stands in the file twice");
+    }
+    catch (const std::exception& e)
+    {
+      reject(describeRecord(objects[i], i) + ": " + e.what());
+    }
+  }
+  return records;
+}
+catch (const std::exception& e)
+{
+  throw std::runtime_error(path + ": " + e.what());
+}
+
+void writeObjectsJson(const std::string& path, const std::vector<ObjectRecord>& objects)
+{
+  std::string text = "{\"objects\":[";
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    text += (i == 0 ? "\n " : ",\n ") +
+            jsonOf(objects[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+  writeTextFile(path, text + "\n]}\n");
+}
+
+}  // namespace quadmap
