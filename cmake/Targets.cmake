@@ -1,8 +1,10 @@
 # How every target of the project is made: one place for warnings, sanitizers, install and RPATH.
 
+# ccache can reuse objects that were built with a precompiled header only when told so.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 if(NOT CMAKE_BUILD_TYPE)
@@ -20,13 +22,23 @@ function(quadmap_target_options target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(QUADMAP_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE} -fno-omit-frame-pointer)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=${QUADMAP_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE})
   endif()
 endfunction()
 
+# quadmap_precompile(<target> <header>...): heavy headers are read once per target. The flags make
+# what the compilers write reproducible, so that ccache recognises it.
+function(quadmap_precompile target)
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+    $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
+endfunction()
+
 # quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILE ...): target quadmap::<name>,
-# file libquadmap-<name>.so, headers in include/quadmap/<name>.
+# file libquadmap-<name>.so, headers in include/quadmap/<name>, component <name> of the package.
 function(quadmap_add_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   add_library(quadmap_${name} ${arg_SOURCES})
@@ -39,12 +51,16 @@ function(quadmap_add_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(quadmap_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   if(arg_PRECOMPILE)
-    target_precompile_headers(quadmap_${name} PRIVATE ${arg_PRECOMPILE})
+    quadmap_precompile(quadmap_${name} ${arg_PRECOMPILE})
   endif()
   quadmap_target_options(quadmap_${name})
-  install(TARGETS quadmap_${name} EXPORT quadmapTargets
+  install(TARGETS quadmap_${name} EXPORT quadmap-${name}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+  set_property(GLOBAL APPEND PROPERTY QUADMAP_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY QUADMAP_PUBLIC_${name} ${arg_PUBLIC})
+  set_property(GLOBAL PROPERTY QUADMAP_PRIVATE_${name} ${arg_PRIVATE})
 endfunction()
 
 # quadmap_add_program(<name> SOURCES ... LINK ...): program quadmap-<...> in bin.
@@ -58,7 +74,7 @@ function(quadmap_add_program name)
 endfunction()
 
 # quadmap_add_test(<name> SOURCES ... LINK ...): a GoogleTest program whose cases CTest lists one by one.
-# Tests find their fixtures in QUADMAP_TESTS_DIR, the programs in QUADMAP_BIN_DIR.
+# Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;PRECOMPILE" ${ARGN})
   if(NOT arg_TIMEOUT)
@@ -70,7 +86,7 @@ function(quadmap_add_test name)
     QUADMAP_LIB_DIR="${CMAKE_BINARY_DIR}/lib")
   target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest GTest::gtest_main)
   if(arg_PRECOMPILE)
-    target_precompile_headers(${name} PRIVATE ${arg_PRECOMPILE})
+    quadmap_precompile(${name} ${arg_PRECOMPILE})
   endif()
   quadmap_target_options(${name})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${arg_TIMEOUT})
