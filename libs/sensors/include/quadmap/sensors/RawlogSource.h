@@ -18,8 +18,8 @@ struct RawlogSourceOptions
   std::string objectsFile;  //!< Sidecar with the boxes; empty: NAME.objects.rawlog when it exists
   std::string sensorLabel;  //!< Only this RGB-D sensor; empty: all
   bool keepGoing = false;   //!< Drop broken records (and count them) instead of throwing
-  double maxBoxDelay = 0.005;      //!< Boxes belong to a scan within this time [s], >= 0
-  double maxOdometryGap = 1.0;     //!< Poses are interpolated over at most this time [s], > 0
+  double maxBoxDelay = 0.005;   //!< Boxes belong to a scan within this time [s], >= 0
+  double maxOdometryGap = 1.0;  //!< Poses are interpolated over at most this time [s], > 0
 };
 
 /** Something in the input that could not be used. */
@@ -29,6 +29,7 @@ struct InputProblem
   std::size_t record = 0;
   std::string sensor;  //!< May be empty
   std::string what;
+
   std::string text() const;  //!< "file: record 12 (camera): what"
 };
 
@@ -55,8 +56,12 @@ class RawlogSource : public mrpt::system::COutputLogger
   double progress() const;                            //!< Share of the file read, in [0, 1]
   std::size_t recordsRead() const;
   std::size_t framesRead() const;
-  bool hasBoxes() const;                              //!< A sidecar or embedded boxes were seen
-  std::string odometryKind() const;  //!< "CObservationRobotPose", ... or "" while none was seen
+  bool hasBoxes() const;             //!< A sidecar or embedded boxes were seen
+  std::string odometryKind() const;  //!< "CObservationRobotPose odometry", ...; "" while unseen
+
+  /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
+   */
+  std::string contentSummary() const;
 
  private:
   struct Impl;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace quadmap
+{
+/** Sensor labels of the CObservationRobotPose records in our rawlogs. */
+inline const std::string kOdometryLabel = "odometry";
+inline const std::string kGroundTruthLabel = "ground_truth";  //!< The true pose, not odometry
+
+/** Where the boxes of a rawlog live: NAME.rawlog -> NAME.objects.rawlog, with .gz at the end when
+ * the rawlog has it. */
+std::string objectsFileOf(const std::string& rawlog);
+
+/** Where the external images of a rawlog live: NAME.rawlog -> NAME_Images (MRPT's convention). */
+std::string imagesFolderOf(const std::string& rawlog);
+
+}  // namespace quadmap

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <mrpt/io/CStream.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <string>
+
+namespace quadmap
+{
+/** Reads a file, gzip-compressed or not. Unlike MRPT's stream it tells the clean end of a file from
+ * a truncated or damaged one, and knows how much of the compressed file has been read. */
+class GzInput : public mrpt::io::CStream
+{
+ public:
+  /** \exception std::runtime_error If the file cannot be opened. */
+  explicit GzInput(const std::string& path);
+  ~GzInput() override;
+  GzInput(const GzInput&) = delete;
+  GzInput& operator=(const GzInput&) = delete;
+
+  /** What is read from here on is one record: only before its first byte may the file end. */
+  void startRecord();
+  /** The first bytes of the record, as far as they have been read. */
+  const std::string& recordHead() const { return head_; }
+  std::uint64_t recordBytes() const { return recordBytes_; }
+  /** Why reading failed; empty while nothing did. */
+  const std::string& failure() const { return failure_; }
+  double progress() const;  //!< Share of the file read, in [0, 1]
+
+  /** \exception std::runtime_error If the file ends within a record or is damaged. */
+  std::size_t Read(void* buffer, std::size_t count) override;
+  std::size_t Write(const void* buffer, std::size_t count) override;
+  std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
+  std::uint64_t getTotalBytesCount() const override { return fileBytes_; }
+  std::uint64_t getPosition() const override { return position_; }
+
+ private:
+  std::size_t fail(const std::string& why);
+
+  gzFile file_ = nullptr;
+  std::uint64_t fileBytes_ = 0, position_ = 0, recordBytes_ = 0;
+  std::string head_, failure_;
+};
+
+/** Writes a gzip file whose bytes depend on the data only (no time stamp in its header), and
+ * reports every failed write, that of the last bytes included. */
+class GzOutput : public mrpt::io::CStream
+{
+ public:
+  /** \exception std::runtime_error If the file cannot be created. */
+  GzOutput(const std::string& path, int level);
+  ~GzOutput() override;
+  GzOutput(const GzOutput&) = delete;
+  GzOutput& operator=(const GzOutput&) = delete;
+
+  /** Writes what is still buffered. \exception std::runtime_error If that fails (disk full). */
+  void close();
+
+  std::size_t Read(void* buffer, std::size_t count) override;
+  std::size_t Write(const void* buffer, std::size_t count) override;
+  std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
+  std::uint64_t getTotalBytesCount() const override { return position_; }
+  std::uint64_t getPosition() const override { return position_; }
+  const std::string& failure() const { return failure_; }  //!< Empty while nothing failed
+
+ private:
+  [[noreturn]] void fail(int zlibError);
+
+  std::string path_;
+  gzFile file_ = nullptr;
+  std::uint64_t position_ = 0;
+  std::string failure_;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,79 @@
+#include "OdometryReader.h"
+
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <stdexcept>
+
+#include "quadmap/sensors/RawlogNames.h"
+
+namespace quadmap
+{
+namespace
+{
+std::optional<mrpt::poses::CPose3D> movementIn(const mrpt::obs::CActionCollection& actions)
+{
+  mrpt::poses::CPose3D increment;
+  if (actions.getFirstMovementEstimationMean(increment)) return increment;
+  if (const auto move = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
+    return move->poseChange.mean;
+  if (const auto move = actions.getBestMovementEstimation())
+    return mrpt::poses::CPose3D(move->poseChange->getMeanVal());
+  return std::nullopt;
+}
+
+double secondsOf(const mrpt::obs::CObservation& observation)
+{
+  if (observation.timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
+  return mrpt::Clock::toDouble(observation.timestamp);
+}
+}  // namespace
+
+bool OdometryReader::accept(const std::string& kind)
+{
+  if (kind_.empty()) kind_ = kind;
+  if (kind_ == kind) return true;
+  ignoredKind_ = kind;
+  return false;
+}
+
+bool OdometryReader::read(const mrpt::obs::CObservation& observation)
+{
+  using mrpt::obs::CObservationOdometry;
+  using mrpt::obs::CObservationRobotPose;
+  if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
+  {
+    if (accept("CObservationOdometry " + odometry->sensorLabel))
+      track_.add(secondsOf(*odometry), mrpt::poses::CPose3D(odometry->odometry));
+    return true;
+  }
+  if (const auto* pose = dynamic_cast<const CObservationRobotPose*>(&observation))
+  {
+    if (pose->sensorLabel == kGroundTruthLabel)
+      truth_.add(secondsOf(*pose), pose->pose.mean);
+    else if (accept("CObservationRobotPose " + pose->sensorLabel))
+      track_.add(secondsOf(*pose), pose->pose.mean);
+    return true;
+  }
+  return false;
+}
+
+void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
+{
+  const auto increment = movementIn(actions);
+  if (!increment || !accept("CActionRobotMovement")) return;
+  countsActions_ = true;
+  if (!isFinite(*increment))
+    throw std::runtime_error("the movement has numbers that are not finite");
+  sumOfActions_ = sumOfActions_ + *increment;
+}
+
+void OdometryReader::forgetBefore(double time)
+{
+  track_.forgetBefore(time);
+  truth_.forgetBefore(time);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,371 @@
+#include "quadmap/sensors/RawlogSource.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "BoxBuffer.h"
+#include "InputError.h"
+#include "OdometryReader.h"
+#include "RecordReader.h"
+#include "ScanCheck.h"
+#include "quadmap/sensors/RawlogNames.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::size_t kMaxPending = 32;  // frames waiting for later poses and boxes: up to 50 MB
+
+/** A scan that waits until everything that belongs to it has been read. */
+struct PendingFrame
+{
+  RgbdFrame frame;
+  mrpt::poses::CPose3D sumOfActions;
+};
+
+std::string bareClassName(const mrpt::rtti::CObject& object)
+{
+  const std::string name = object.GetRuntimeClass()->className;
+  const auto colon = name.rfind(':');
+  return colon == std::string::npos ? name : name.substr(colon + 1);
+}
+
+std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
+{
+  if (!options.objectsFile.empty()) return options.objectsFile;
+  const std::string name = objectsFileOf(file);
+  return std::filesystem::exists(name) ? name : std::string();
+}
+
+void check(const RawlogSourceOptions& options)
+{
+  if (!(options.maxBoxDelay >= 0))
+    throw std::invalid_argument(
+        mrpt::format("maxBoxDelay=%g: must be >= 0 s", options.maxBoxDelay));
+  if (!(options.maxOdometryGap > 0))
+    throw std::invalid_argument(
+        mrpt::format("maxOdometryGap=%g: must be > 0 s", options.maxOdometryGap));
+}
+}  // namespace
+
+std::string InputProblem::text() const
+{
+  const std::string where = sensor.empty() ? "" : " (" + sensor + ")";
+  return file + ": record " + std::to_string(record) + where + ": " + what;
+}
+
+struct RawlogSource::Impl
+{
+  Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o);
+
+  std::optional<RgbdFrame> next();
+  std::string summary() const;
+
+  RecordReader reader;
+  std::string imagesFolder;
+  RawlogSourceOptions options;
+  std::vector<InputProblem> problems;
+  std::size_t framesRead = 0;
+  BoxBuffer boxes;
+  OdometryReader odometry;
+
+ private:
+  void report(const InputProblem& problem);
+  bool readRecord();
+  void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);
+  void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
+  void addScan(std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
+  bool isReady(const PendingFrame& pending) const;
+  std::optional<RgbdFrame> complete(PendingFrame pending);
+  void addPoses(PendingFrame& pending);
+  void addBoxes(RgbdFrame& frame);
+  void readSidecar(double time);
+  void finish();
+  void warnOnce(const std::string& text);
+
+  RawlogSource& log_;
+  std::deque<PendingFrame> pending_;
+  std::map<std::string, double> lastScanTime_;  // by sensor [s]
+  std::map<std::string, std::size_t> content_;  // records by class
+  std::set<std::string> warned_;
+  double latestTime_ = -1e300;  // of all records [s]
+  bool ended_ = false, finished_ = false;
+};
+
+RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
+    reader(file),
+    imagesFolder(mrpt::obs::CRawlog::detectImagesDirectory(file)),
+    options(std::move(o)),
+    boxes(options.maxBoxDelay),
+    log_(owner)
+{
+  check(options);
+  registerObsClasses();
+  const std::string sidecar = sidecarFor(file, options);
+  if (!sidecar.empty()) boxes.openSidecar(sidecar);
+}
+
+void RawlogSource::Impl::report(const InputProblem& problem)
+{
+  if (!options.keepGoing)
+  {
+    ended_ = finished_ = true;
+    pending_.clear();
+    throw std::runtime_error(problem.text());
+  }
+  problems.push_back(problem);
+}
+
+void RawlogSource::Impl::warnOnce(const std::string& text)
+{
+  if (warned_.insert(text).second) log_.logStr(mrpt::system::LVL_WARN, text);
+}
+
+std::optional<RgbdFrame> RawlogSource::Impl::next()
+{
+  while (true)
+  {
+    if (!pending_.empty() && (ended_ || isReady(pending_.front())))
+    {
+      PendingFrame first = std::move(pending_.front());
+      pending_.pop_front();
+      if (auto frame = complete(std::move(first))) return frame;
+    }
+    else if (ended_)
+    {
+      finish();
+      return std::nullopt;
+    }
+    else
+      ended_ = !readRecord();
+  }
+}
+
+/** One record of the file; false at its end, be it clean or not. */
+bool RawlogSource::Impl::readRecord()
+{
+  const std::size_t record = reader.recordsRead();
+  try
+  {
+    const auto object = reader.next();
+    if (object) readObject(record, object);
+    return object != nullptr;
+  }
+  catch (const InputError& e)
+  {
+    report(e.problem);
+    return false;
+  }
+}
+
+void RawlogSource::Impl::readObject(
+    std::size_t record, const mrpt::serialization::CSerializable::Ptr& object)
+{
+  using namespace mrpt::obs;
+  if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object))
+  {
+    for (const auto& observation : *frame) readObservation(record, observation);
+    return;
+  }
+  if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
+    return readObservation(record, observation);
+  ++content_[bareClassName(*object)];
+  const auto actions = std::dynamic_pointer_cast<CActionCollection>(object);
+  if (!actions) return;
+  try
+  {
+    odometry.read(*actions);
+  }
+  catch (const std::exception& e)
+  {
+    report({reader.file(), record, "", e.what()});
+  }
+}
+
+void RawlogSource::Impl::readObservation(
+    std::size_t record, const mrpt::obs::CObservation::Ptr& observation)
+{
+  const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+  const auto found = std::dynamic_pointer_cast<CObservationObjects>(observation);
+  const std::string& label = observation->sensorLabel;
+  ++content_[bareClassName(*observation) + (scan ? " \"" + label + "\"" : "")];
+  try
+  {
+    if (scan)
+      addScan(record, scan);
+    else if (found && !boxes.hasSidecar())
+      boxes.add({record, found});
+    else if (found)
+      warnOnce(reader.file() + ": boxes in the rawlog itself are ignored, the sidecar has some");
+    else
+      odometry.read(*observation);
+  }
+  catch (const std::exception& e)
+  {
+    return report({reader.file(), record, label, firstLine(e)});
+  }
+  if (observation->timestamp != INVALID_TIMESTAMP)
+    latestTime_ = std::max(latestTime_, mrpt::Clock::toDouble(observation->timestamp));
+  if (!odometry.ignoredKind().empty())
+    warnOnce(
+        reader.file() + ": poses are taken from " + odometry.kind() + ", not from " +
+        odometry.ignoredKind());
+}
+
+void RawlogSource::Impl::addScan(
+    std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
+{
+  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return;
+  if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
+  PendingFrame pending{{}, odometry.sumOfActions()};
+  pending.frame.record = record;
+  pending.frame.scan = scan;
+  const double time = pending.frame.time();
+  const auto last = lastScanTime_.find(scan->sensorLabel);
+  if (last != lastScanTime_.end() && time <= last->second)
+    throw std::runtime_error(
+        mrpt::format("time goes backwards: %.6f s before the scan before", last->second - time));
+  lastScanTime_[scan->sensorLabel] = time;
+  if (scan->hasRangeImage && scan->hasPoints3D) scan->resizePoints3DVectors(0);
+  pending_.push_back(std::move(pending));
+}
+
+/** Has everything been read that can belong to the frame? */
+bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
+{
+  const double time = pending.frame.time();
+  if (pending_.size() > kMaxPending || latestTime_ > time + options.maxOdometryGap) return true;
+  if (latestTime_ <= time + options.maxBoxDelay) return false;
+  const bool odometryKnown = odometry.countsActions() || odometry.track().reaches(time);
+  return odometryKnown && (odometry.truth().empty() || odometry.truth().reaches(time));
+}
+
+std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
+{
+  auto& frame = pending.frame;
+  try
+  {
+    prepareScan(*frame.scan, imagesFolder);
+  }
+  catch (const std::exception& e)
+  {
+    report({reader.file(), frame.record, frame.scan->sensorLabel, firstLine(e)});
+    return std::nullopt;
+  }
+  if (!frame.scan->doDepthAndIntensityCamerasCoincide() && frame.scan->hasIntensityImage)
+    warnOnce(
+        reader.file() + " (" + frame.scan->sensorLabel +
+        "): colour is not registered to depth, boxes may be off");
+  addPoses(pending);
+  addBoxes(frame);
+  ++framesRead;
+  return std::move(frame);
+}
+
+void RawlogSource::Impl::addPoses(PendingFrame& pending)
+{
+  const double time = pending.frame.time();
+  pending.frame.T_odom_robot = odometry.countsActions()
+                                   ? pending.sumOfActions
+                                   : odometry.track().at(time, options.maxOdometryGap);
+  pending.frame.T_world_robot = odometry.truth().at(time, options.maxOdometryGap);
+  if (!pending_.empty())
+  {
+    const auto earlier = [](const PendingFrame& a, const PendingFrame& b)
+    { return a.frame.time() < b.frame.time(); };
+    odometry.forgetBefore(
+        std::min_element(pending_.begin(), pending_.end(), earlier)->frame.time());
+  }
+}
+
+void RawlogSource::Impl::readSidecar(double time)
+{
+  while (true) try
+    {
+      return boxes.readUntil(time);
+    }
+    catch (const InputError& e)
+    {
+      report(e.problem);
+    }
+}
+
+void RawlogSource::Impl::addBoxes(RgbdFrame& frame)
+{
+  readSidecar(frame.time());
+  const std::string& label = frame.scan->sensorLabel;
+  auto found = boxes.take(label, frame.time());
+  if (!found) return;
+  const std::string file = boxes.hasSidecar() ? sidecarFor(reader.file(), options) : reader.file();
+  if (const auto why = mismatch(*found->boxes, *frame.scan))
+    return report({file, found->record, label, *why});
+  for (const auto& what : removeUnusableBoxes(*found->boxes))
+    report({file, found->record, label, what});
+  frame.objects = found->boxes;
+}
+
+/** Boxes that all miss their scans are a mistake of the input that would otherwise look like an
+ * empty room. */
+void RawlogSource::Impl::finish()
+{
+  if (finished_) return;
+  finished_ = true;
+  readSidecar(1e300);
+  const std::size_t lost = boxes.unpaired(options.sensorLabel);
+  if (framesRead == 0 || lost == 0) return;
+  const std::string text = mrpt::format(
+      "%zu records of boxes match no scan by sensor label and time (within %g s)", lost,
+      options.maxBoxDelay);
+  const std::string file = boxes.hasSidecar() ? sidecarFor(reader.file(), options) : reader.file();
+  if (boxes.paired() == 0)
+    report({file, 0, "", text});
+  else
+    warnOnce(file + ": " + text);
+}
+
+std::string RawlogSource::Impl::summary() const
+{
+  std::vector<std::pair<std::size_t, std::string>> sorted;
+  for (const auto& [name, count] : content_) sorted.emplace_back(count, name);
+  std::stable_sort(
+      sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [count, name] : sorted)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  return text.empty() ? "nothing" : text;
+}
+
+RawlogSource::RawlogSource(std::string file, RawlogSourceOptions options) :
+    COutputLogger("RawlogSource"),
+    impl_(std::make_unique<Impl>(*this, std::move(file), std::move(options)))
+{
+}
+
+RawlogSource::~RawlogSource() = default;
+
+std::optional<RgbdFrame> RawlogSource::next() { return impl_->next(); }
+
+const std::vector<InputProblem>& RawlogSource::problems() const { return impl_->problems; }
+
+double RawlogSource::progress() const { return impl_->reader.progress(); }
+
+std::size_t RawlogSource::recordsRead() const { return impl_->reader.recordsRead(); }
+
+std::size_t RawlogSource::framesRead() const { return impl_->framesRead; }
+
+bool RawlogSource::hasBoxes() const { return impl_->boxes.hasSidecar() || impl_->boxes.seenAny(); }
+
+std::string RawlogSource::odometryKind() const { return impl_->odometry.kind(); }
+
+std::string RawlogSource::contentSummary() const { return impl_->summary(); }
+
+}  // namespace quadmap

@@ -1,0 +1,162 @@
+#include "quadmap/sensors/RawlogWriter.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/serialization/CArchive.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "ExternalImages.h"
+#include "GzStream.h"
+#include "RecordReader.h"
+#include "quadmap/obs/OutputFile.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** How MRPT stores colour images is a global setting: ours while this object lives. */
+class JpegSetting
+{
+ public:
+  explicit JpegSetting(int quality) :
+      disabled_(mrpt::img::CImage::DISABLE_JPEG_COMPRESSION()),
+      quality_(mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY())
+  {
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
+    mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(quality);
+  }
+  ~JpegSetting()
+  {
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(disabled_);
+    mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(quality_);
+  }
+  JpegSetting(const JpegSetting&) = delete;
+  JpegSetting& operator=(const JpegSetting&) = delete;
+
+ private:
+  bool disabled_;
+  int quality_;
+};
+
+/** One compressed file of MRPT objects. */
+class ArchiveFile
+{
+ public:
+  ArchiveFile(const std::string& path, int gzLevel) :
+      output_(path), stream_(output_.temporaryPath(), gzLevel)
+  {
+  }
+
+  void write(const mrpt::serialization::CSerializable& object)
+  try
+  {
+    mrpt::serialization::archiveFrom(stream_) << object;
+  }
+  catch (const std::exception& e)
+  {
+    fail(e);
+  }
+
+  void close()
+  try
+  {
+    stream_.close();
+  }
+  catch (const std::exception& e)
+  {
+    fail(e);
+  }
+
+  void commit() { output_.commit(); }
+
+ private:
+  /** The user knows the final name, not the temporary one. */
+  [[noreturn]] void fail(const std::exception& e)
+  {
+    const std::string why = stream_.failure().empty() ? firstLine(e) : stream_.failure();
+    throw std::runtime_error(output_.finalPath() + ": " + why);
+  }
+
+  OutputFile output_;
+  GzOutput stream_;
+};
+
+RawlogWriterOptions checked(RawlogWriterOptions options)
+{
+  if (options.gzLevel < 0 || options.gzLevel > 9)
+    throw std::invalid_argument(mrpt::format("gzLevel=%d: must be 0..9", options.gzLevel));
+  if (options.jpegQuality < 1 || options.jpegQuality > 100)
+    throw std::invalid_argument(
+        mrpt::format("jpegQuality=%d: must be 1..100", options.jpegQuality));
+  return options;
+}
+}  // namespace
+
+struct RawlogWriter::Impl
+{
+  Impl(std::string f, RawlogWriterOptions o) :
+      file(std::move(f)), options(checked(o)), rawlog(file, options.gzLevel)
+  {
+    if (options.external) images = std::make_unique<ExternalImages>(imagesFolderOf(file));
+  }
+
+  std::string file;
+  RawlogWriterOptions options;
+  ArchiveFile rawlog;
+  std::unique_ptr<ArchiveFile> sidecar;    // made for the first boxes
+  std::unique_ptr<ExternalImages> images;  // null: embedded
+};
+
+RawlogWriter::RawlogWriter(std::string file, RawlogWriterOptions options) :
+    impl_(std::make_unique<Impl>(std::move(file), options))
+{
+}
+
+RawlogWriter::~RawlogWriter() = default;
+
+void RawlogWriter::write(mrpt::obs::CObservation3DRangeScan& scan)
+{
+  if (impl_->images) impl_->images->moveOut(scan, impl_->options.jpegQuality);
+  const JpegSetting jpeg(impl_->options.jpegQuality);
+  impl_->rawlog.write(scan);
+}
+
+void RawlogWriter::write(const CObservationObjects& boxes)
+{
+  if (!impl_->sidecar)
+    impl_->sidecar =
+        std::make_unique<ArchiveFile>(objectsFileOf(impl_->file), impl_->options.gzLevel);
+  impl_->sidecar->write(boxes);
+}
+
+void RawlogWriter::writePose(
+    mrpt::Clock::time_point time,
+    const std::string& label,
+    const mrpt::poses::CPose3D& T_parent_robot)
+{
+  mrpt::obs::CObservationRobotPose pose;
+  pose.timestamp = time;
+  pose.sensorLabel = label;
+  pose.pose.mean = T_parent_robot;
+  impl_->rawlog.write(pose);
+}
+
+void RawlogWriter::finish()
+{
+  impl_->rawlog.close();
+  if (impl_->sidecar) impl_->sidecar->close();
+  if (impl_->images) impl_->images->commit();
+  if (impl_->sidecar)
+    impl_->sidecar->commit();
+  else
+    fs::remove(objectsFileOf(impl_->file));
+  impl_->rawlog.commit();
+}
+
+}  // namespace quadmap

@@ -1,0 +1,135 @@
+#include "ScanCheck.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/io/lazy_load_path.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "RecordReader.h"
+#include "quadmap/sensors/BoxCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+using mrpt::obs::CObservation3DRangeScan;
+
+void requireFile(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path))
+    throw std::runtime_error("its external image " + path + " is missing");
+}
+
+void loadExternalImages(CObservation3DRangeScan& scan, const std::string& folder)
+{
+  const bool externalDepth = scan.hasRangeImage && scan.rangeImage_isExternallyStored();
+  const bool externalColor = scan.hasIntensityImage && scan.intensityImage.isExternallyStored();
+  if (!externalDepth && !externalColor) return;
+  mrpt::io::setLazyLoadPathBase(folder);
+  if (externalDepth) requireFile(scan.rangeImage_getExternalStorageFileAbsolutePath(""));
+  if (externalColor) requireFile(scan.intensityImage.getExternalStorageFileAbsolutePath());
+  try
+  {
+    scan.load();
+    if (externalColor) scan.intensityImage.forceLoad();
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error("its external images cannot be read: " + firstLine(e));
+  }
+}
+
+void requireCalibration(const CObservation3DRangeScan& scan)
+{
+  const auto& camera = scan.cameraParams;
+  const auto& K = camera.intrinsicParams;
+  if (!K.asEigen().allFinite() || K(0, 0) == 0 || K(1, 1) == 0)
+    throw std::runtime_error(
+        mrpt::format("has no camera calibration (fx=%g, fy=%g in cameraParams)", K(0, 0), K(1, 1)));
+  const auto rows = scan.rangeImage.rows(), columns = scan.rangeImage.cols();
+  if (static_cast<int>(camera.nrows) != rows || static_cast<int>(camera.ncols) != columns)
+    throw std::runtime_error(mrpt::format(
+        "its calibration is for %ux%u images, its depth image has %dx%d", camera.ncols,
+        camera.nrows, static_cast<int>(columns), static_cast<int>(rows)));
+}
+
+/** Distances along the rays become depths: z = d / |ray of depth 1|. */
+void rangesToDepths(CObservation3DRangeScan& scan)
+{
+  const auto& c = scan.cameraParams;
+  for (int v = 0; v < scan.rangeImage.rows(); ++v)
+    for (int u = 0; u < scan.rangeImage.cols(); ++u)
+    {
+      const double x = (u - c.cx()) / c.fx(), y = (v - c.cy()) / c.fy();
+      auto& value = scan.rangeImage(v, u);
+      value = static_cast<std::uint16_t>(std::lround(value / std::sqrt(1 + x * x + y * y)));
+    }
+  scan.range_is_depth = true;
+}
+
+bool sameCalibration(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b)
+{
+  constexpr double kSamePixel = 1e-3;  // [px]
+  return (a.intrinsicParams.asEigen() - b.intrinsicParams.asEigen()).cwiseAbs().maxCoeff() <
+         kSamePixel;
+}
+}  // namespace
+
+void prepareScan(CObservation3DRangeScan& scan, const std::string& imagesFolder)
+{
+  if (!scan.hasRangeImage)
+    throw std::runtime_error(
+        scan.hasPoints3D ? "has 3D points but no range image" : "has no range image");
+  loadExternalImages(scan, imagesFolder);
+  if (scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
+    throw std::runtime_error("its range image is empty");
+  if (!std::isfinite(scan.rangeUnits) || scan.rangeUnits <= 0)
+    throw std::runtime_error(
+        mrpt::format("rangeUnits=%g: must be > 0 m", static_cast<double>(scan.rangeUnits)));
+  requireCalibration(scan);
+  if (!scan.sensorPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite())
+    throw std::runtime_error("its sensorPose has numbers that are not finite");
+  if (!scan.range_is_depth) rangesToDepths(scan);
+}
+
+std::optional<std::string> mismatch(
+    const CObservationObjects& boxes, const CObservation3DRangeScan& scan)
+{
+  const auto &a = boxes.cameraParams, &b = scan.cameraParams;
+  if (a.ncols != b.ncols || a.nrows != b.nrows)
+    return mrpt::format(
+        "its boxes are of a %ux%u image, the scan has %ux%u", a.ncols, a.nrows, b.ncols, b.nrows);
+  if (!sameCalibration(a, b))
+    return mrpt::format(
+        "its boxes have another calibration (fx %g fy %g cx %g cy %g) than the scan (fx %g fy %g "
+        "cx %g cy %g)",
+        a.fx(), a.fy(), a.cx(), a.cy(), b.fx(), b.fy(), b.cx(), b.cy());
+  constexpr double kSamePose = 1e-6;  // [m] and [-]
+  const auto A = boxes.sensorPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
+  const auto B = scan.sensorPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
+  if (!((A.asEigen() - B.asEigen()).cwiseAbs().maxCoeff() < kSamePose))
+    return "its boxes have another sensorPose than the scan";
+  return std::nullopt;
+}
+
+std::vector<std::string> removeUnusableBoxes(CObservationObjects& boxes)
+{
+  std::vector<std::string> problems;
+  std::vector<DetectedObject> usable;
+  for (std::size_t i = 0; i < boxes.objects.size(); ++i)
+  {
+    auto& object = boxes.objects[i];
+    const auto what =
+        whyUnusable(object.box, object.score, boxes.cameraParams.ncols, boxes.cameraParams.nrows);
+    if (what)
+      problems.push_back(mrpt::format("box %zu (%s): ", i, object.label.c_str()) + *what);
+    else
+      usable.push_back(std::move(object));
+  }
+  boxes.objects = std::move(usable);
+  return problems;
+}
+
+}  // namespace quadmap
