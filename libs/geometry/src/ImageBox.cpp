@@ -13,8 +13,8 @@ bool ImageBox::isValid() const
 
 ImageBox ImageBox::clipped(unsigned imageWidth, unsigned imageHeight) const
 {
+  if (!isValid()) return *this;
   const double xMax = double(imageWidth) - 1, yMax = double(imageHeight) - 1;
-  // The box's value is the first argument: then a NaN stays one.
   return {std::max(x1, 0.0), std::max(y1, 0.0), std::min(x2, xMax), std::min(y2, yMax)};
 }
 

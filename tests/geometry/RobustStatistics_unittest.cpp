@@ -1,0 +1,75 @@
+#include "quadmap/geometry/RobustStatistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+using namespace quadmap;
+
+namespace
+{
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+}  // namespace
+
+TEST(Quantile, InterpolatesBetweenOrderStatistics)
+{
+  const std::vector<double> values{40, 10, 30, 20};
+  EXPECT_DOUBLE_EQ(quantile(values, 0), 10);
+  EXPECT_DOUBLE_EQ(quantile(values, 1), 40);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.5), 25);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.25), 17.5);
+  EXPECT_DOUBLE_EQ(quantile(values, 1.0 / 3), 20);
+  EXPECT_DOUBLE_EQ(quantile({7}, 0.3), 7);
+}
+
+TEST(Quantile, OfAUniformSampleIsItsProbability)
+{
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<double> values(20000);
+  for (double& v : values) v = uniform(engine);
+  for (double p : {0.02, 0.25, 0.5, 0.9, 0.98})
+    EXPECT_NEAR(quantile(values, p), p, 0.015) << "4 sigma = 4 sqrt(p (1-p) / 20000) < 0.0142";
+}
+
+TEST(Quantile, LeavesOutValuesThatAreNotFinite)
+{
+  EXPECT_DOUBLE_EQ(quantile({kNaN, 1, kInf, 3, -kInf, 2}, 0.5), 2);
+}
+
+TEST(Quantile, RejectsNoValuesAndBadProbabilities)
+{
+  EXPECT_THROW(quantile({}, 0.5), std::invalid_argument);
+  EXPECT_THROW(quantile({kNaN, kInf}, 0.5), std::invalid_argument);
+  for (double p : {-0.1, 1.1, kNaN}) EXPECT_THROW(quantile({1, 2}, p), std::invalid_argument) << p;
+}
+
+TEST(Median, IsTheMiddleOfOddAndTheMeanOfTheMiddleTwoOfEvenCounts)
+{
+  EXPECT_DOUBLE_EQ(median({3, 1, 100}), 3);
+  EXPECT_DOUBLE_EQ(median({3, 1, 100, 5}), 4);
+}
+
+TEST(MadSigma, EstimatesTheSpreadOfNormalDataInSpiteOfOutliers)
+{
+  std::mt19937 engine(4);
+  std::normal_distribution<double> normal(5, 0.2);
+  std::vector<double> values(20000);
+  for (double& v : values) v = normal(engine);
+  EXPECT_NEAR(madSigma(values), 0.2, 0.01)
+      << "standard error of the MAD: 1.17 sigma/sqrt(n) = 0.0017";
+  for (std::size_t i = 0; i < 1000; ++i) values[i] = 1e6;
+  EXPECT_NEAR(madSigma(values), 0.2, 0.02) << "5 % outliers shift it by about 6 %";
+}
+
+TEST(HuberWeight, IsOneInsideAndFallsAsTheInverseOutside)
+{
+  EXPECT_EQ(huberWeight(0, 1.5), 1);
+  EXPECT_EQ(huberWeight(-1.5, 1.5), 1);
+  EXPECT_DOUBLE_EQ(huberWeight(3, 1.5), 0.5);
+  EXPECT_DOUBLE_EQ(huberWeight(-6, 1.5), 0.25);
+}
