@@ -1,0 +1,99 @@
+#include <mrpt/system/progress.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "../common/CommandLine.h"
+#include "TumImport.h"
+
+namespace
+{
+using namespace quadmap;
+
+/** The arguments of the program. */
+struct Cli
+{
+  cli::CommandLine line{
+      "quadmap-import",
+      "Turns an RGB-D recording into a rawlog that every MRPT program reads, its poses included, "
+      "and the boxes of a detector into OUT.objects.rawlog beside it.",
+      QUADMAP_VERSION};
+  std::vector<std::string> formats{"tum"}, poseKinds{"odometry", "ground-truth", "none"};
+  TCLAP::ValuesConstraint<std::string> knownFormats{formats}, knownPoses{poseKinds};
+  TCLAP::UnlabeledValueArg<std::string> format{
+      "format",   "Layout of the recording: tum (TUM RGB-D benchmark).", true, "", &knownFormats,
+      line.args()};
+  TCLAP::UnlabeledValueArg<std::string> source{
+      "SOURCE", "Folder of the recording.", true, "", "SOURCE", line.args()};
+  TCLAP::ValueArg<std::string> output{"o",          "output",   "The rawlog to write.", false, "",
+                                      "OUT.rawlog", line.args()};
+  TCLAP::SwitchArg check{
+      "", "check", "Write nothing; list what is wrong with the recording.", line.args()};
+  TCLAP::SwitchArg external{
+      "", "external", "Images into OUT_Images/ instead of into the rawlog.", line.args()};
+  TCLAP::ValueArg<std::string> posesAs{
+      "", "poses-as", "What the poses become.", false, "odometry", &knownPoses, line.args()};
+  TCLAP::ValueArg<std::string> detections{
+      "",    "detections", "Folder of the boxes (default SOURCE/detections).", false, "",
+      "DIR", line.args()};
+  TCLAP::ValueArg<unsigned> every{"",  "every",    "Take every n-th frame only.", false, 1,
+                                  "N", line.args()};
+  TCLAP::SwitchArg keepGoing{
+      "", "keep-going", "Drop what cannot be used, say so, and go on.", line.args()};
+};
+
+/** A bar on a terminal, nothing elsewhere. */
+void showProgress(double share)
+{
+  if (!isatty(STDERR_FILENO)) return;
+  std::cerr << "\r" << mrpt::system::progress(share, 40) << (share >= 1 ? "\n" : "") << std::flush;
+}
+
+PosesAs posesAs(const std::string& name)
+{
+  if (name == "odometry") return PosesAs::Odometry;
+  return name == "none" ? PosesAs::None : PosesAs::GroundTruth;
+}
+
+void import(const TumDataset& dataset, Cli& cli)
+{
+  TumImportOptions options;
+  options.posesAs = posesAs(cli.posesAs.getValue());
+  options.every = cli.every.getValue();
+  options.keepGoing = cli.keepGoing.getValue();
+  RawlogWriterOptions writing;
+  writing.external = cli.external.getValue();
+  RawlogWriter writer(cli.output.getValue(), writing);
+  const auto report = importTum(dataset, options, writer, showProgress);
+  for (const auto& what : report.dropped) std::cerr << "quadmap-import: dropped: " << what << "\n";
+  if (report.frames == 0)
+    throw std::runtime_error(dataset.folder() + ": no frame could be imported");
+  writer.finish();
+  std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
+            << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";
+  if (!report.dropped.empty()) std::cout << " (" << report.dropped.size() << " things dropped)";
+  std::cout << "\n";
+}
+
+void run(Cli& cli)
+{
+  if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be >= 1");
+  TumDatasetOptions reading;
+  reading.detections = cli.detections.getValue();
+  if (cli.output.getValue().empty()) throw cli::UsageError("missing argument: -o OUT.rawlog");
+  const TumDataset dataset(cli.source.getValue(), reading);
+  for (const auto& note : dataset.notes()) std::cerr << "quadmap-import: note: " << note << "\n";
+  import(dataset, cli);
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return cli::runMain(
+      "quadmap-import",
+      [&]
+      {
+        Cli cli;
+        if (cli.line.parse(argc, argv)) run(cli);
+      });
+}
