@@ -63,6 +63,8 @@ function(quadmap_add_library name)
   set_property(GLOBAL PROPERTY QUADMAP_PRIVATE_${name} ${arg_PRIVATE})
 endfunction()
 
+add_custom_target(programs)  # all of them, without the tests
+
 # quadmap_add_program(<name> SOURCES ... LINK ...): program quadmap-<...> in bin.
 function(quadmap_add_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
@@ -70,10 +72,12 @@ function(quadmap_add_program name)
   target_compile_definitions(${name} PRIVATE QUADMAP_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${arg_LINK} mrpt::tclap)
   quadmap_target_options(${name})
+  add_dependencies(programs ${name})
   install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# quadmap_add_test(<name> SOURCES ... LINK ...): a GoogleTest program whose cases CTest lists one by one.
+# quadmap_add_test(<name> SOURCES ... LINK ...): a GoogleTest program whose cases CTest lists one by one,
+# with TIMEOUT seconds each (120) and the label <name>.
 # Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;PRECOMPILE" ${ARGN})
@@ -89,5 +93,6 @@ function(quadmap_add_test name)
     quadmap_precompile(${name} ${arg_PRECOMPILE})
   endif()
   quadmap_target_options(${name})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${arg_TIMEOUT})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS ${name})
 endfunction()
