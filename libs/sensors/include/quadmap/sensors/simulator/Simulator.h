@@ -1,0 +1,73 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/obs/ObjectList.h"
+#include "quadmap/sensors/simulator/RayCaster.h"
+#include "quadmap/sensors/simulator/SimulatedDetector.h"
+
+namespace quadmap::simulator
+{
+/** What the camera and the detector say at one time. */
+struct SimulatedFrame
+{
+  mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< sensorLabel "camera"
+  CObservationObjects::Ptr objects;              //!< The same label and time stamp
+  std::vector<VisibleObject> visible;            //!< Before the detector's errors
+};
+
+/** A hand-held RGB-D camera in a scene. Robot and sensor frame coincide. */
+class Simulator
+{
+ public:
+  /** Uses scene.options. \exception std::runtime_error See cameraPath(). */
+  Simulator(Scene scene, LabelTable labels, std::uint64_t seed);
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  std::size_t frameCount() const { return T_world_robot_.size(); }
+  const std::vector<mrpt::poses::CPose3D>& truePoses() const { return T_world_robot_; }
+  /** Starts at the first true pose and drifts. */
+  const std::vector<mrpt::poses::CPose3D>& odometry() const { return odometry_; }
+  double time(std::size_t frame) const;  //!< [s since 1970]
+  const Scene& scene() const { return scene_; }
+
+  /** The frame depends on nothing but scene, seed and index; may run concurrently. */
+  SimulatedFrame frame(std::size_t index) const;
+
+ private:
+  mrpt::obs::CObservation3DRangeScan::Ptr scanOf(
+      const RenderedFrame& rendered, std::size_t index) const;
+
+  Scene scene_;
+  LabelTable labels_;
+  std::uint64_t seed_;
+  RayCaster caster_;
+  SimulatedDetector detector_;
+  std::vector<mrpt::poses::CPose3D> T_world_robot_;
+  std::vector<mrpt::poses::CPose3D> odometry_;
+};
+
+struct SimulationSummary
+{
+  std::size_t frames = 0, boxes = 0;
+  std::vector<ObjectRecord> truth;  //!< With framesVisible
+};
+
+/** Called after each frame with the share that is done, in [0, 1]. */
+using Progress = std::function<void(double)>;
+
+/** Makes all frames and writes NAME.rawlog, NAME.objects.rawlog, NAME.objects.gt.json and
+ * NAME.groundtruth.tum; each appears complete or not at all, and all four only when the last frame
+ * is done. \param rawlog Path of NAME.rawlog; another extension stays part of NAME.
+ * \exception std::runtime_error If a file cannot be written. */
+SimulationSummary simulateToFiles(
+    const Simulator& simulator, const std::string& rawlog, const Progress& progress = {});
+
+}  // namespace quadmap::simulator

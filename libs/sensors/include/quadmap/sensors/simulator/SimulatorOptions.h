@@ -1,0 +1,107 @@
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+#include <mrpt/config/CLoadableOptions.h>
+
+#include "quadmap/geometry/PinholeCamera.h"
+
+namespace quadmap::simulator
+{
+/** INI section [camera]. Depth and colour share one camera, as after registration. */
+struct CameraOptions : public mrpt::config::CLoadableOptions
+{
+  int width = 640, height = 480;  //!< Image size [px], 64..4096: VGA as the Kinect's
+  double focal = 525;             //!< fx = fy [px], 10..10000: the Kinect's default calibration
+  double colorNoise = 1.5;        //!< Sigma of each colour value [0..255], 0..50: a decent exposure
+  int jpegQuality = 90;           //!< Of the stored colour images, 1..100: artefacts not visible
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& c, const std::string& section) override;
+  PinholeCamera pinhole() const;  //!< Principal point in the middle of the image
+
+  /** Another image size with the same field of view. */
+  void resize(int newWidth, int newHeight);
+};
+
+/** INI section [trajectory]. The way itself is in the waypoints of the same section. */
+struct TrajectoryOptions : public mrpt::config::CLoadableOptions
+{
+  int frames = 140;          //!< For the whole way, 2..100000
+  double rate = 10;          //!< Frames per second, 0.1..1000: a walk of 14 s
+  double startTime = 1.6e9;  //!< Of the first frame [s since 1970], 0..4e9: fixed, so reproducible
+  double bob = 0.02;         //!< Amplitude of the up and down of the steps [m], 0..0.3
+  double sway_deg = 1.0;     //!< Amplitude of pitch and roll of the hands [deg], 0..20
+  double stepRate = 1.6;     //!< Steps per second, 0.1..10: walking
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& c, const std::string& section) override;
+};
+
+/** INI section [depth_noise]. A structured-light camera: Nguyen, Izadi, Lovell, "Modeling Kinect
+ * Sensor Noise for Improved 3D Reconstruction and Tracking", 3DIMPVT 2012 (axial, lateral);
+ * Khoshelham and Elberink, Sensors 12(2), 2012 (disparity). */
+struct DepthNoiseOptions : public mrpt::config::CLoadableOptions
+{
+  double axialBase = 0.0012;     //!< Sigma of z at 0.4 m [m], 0..1: published
+  double axialGrowth = 0.0019;   //!< Its growth with (z - 0.4 m)^2 [1/m], 0..1: published
+  double disparityStep = 0.125;  //!< Quantum of the disparity [px], 0..4, 0 = none: published
+  double baseline = 0.075;       //!< Projector to camera [m], 0.001..1: the Kinect's
+  double sensorFocal = 580;      //!< Of the infrared camera [px], 10..10000: the Kinect's, VGA
+  double lateral = 0.6;          //!< Sigma of the sampled position [px at 640], 0..10: published
+  double edgeJump = 0.05;        //!< Relative jump of z that makes an edge, 0.001..10
+  double edgeHoles = 0.3;        //!< Share of edge pixels without depth, 0..1
+  double edgeFlying = 0.08;      //!< Share of edge pixels between the two surfaces, 0..1
+  double dropouts = 0.003;       //!< Share of all pixels without depth, 0..1
+  double maxIncidence_deg = 80;  //!< Nothing returns at a flatter angle [deg], 1..90
+  double minRange = 0.5;         //!< Nearer surfaces give no depth [m], 0..100
+  double maxRange = 8.0;         //!< Farther surfaces give no depth [m], 0.1..13: 16 bit in 0.2 mm
+  bool shadow = true;            //!< No depth where the projector's light does not reach
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& c, const std::string& section) override;
+};
+
+/** INI section [odometry]. A random walk on SE(3) and one scale error for the whole run. */
+struct OdometryOptions : public mrpt::config::CLoadableOptions
+{
+  double translationPerMetre =
+      0.012;  //!< Sigma of each axis after 1 m [m], 0..1: fair visual odometry
+  double rotationPerMetre_deg = 0.15;   //!< Sigma of each axis after 1 m [deg], 0..45
+  double translationPerRadian = 0.004;  //!< Sigma of each axis after turning 1 rad [m], 0..1
+  double rotationPerRadian_deg = 0.3;   //!< Sigma of each axis after turning 1 rad [deg], 0..45
+  double scale = 0.005;                 //!< Sigma of the relative scale error, 0..0.5
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& c, const std::string& section) override;
+};
+
+/** INI section [detector]. Sizes in pixels hold for images 640 px wide and scale with the width. */
+struct DetectorOptions : public mrpt::config::CLoadableOptions
+{
+  double jitter = 2;         //!< Sigma of each edge of a box [px at 640], 0..100
+  double minVisible = 0.25;  //!< Visible share of the outline below which nothing is found, 0..1
+  double minSize = 20;       //!< Smallest sqrt(width * height) found [px at 640], 1..1000
+  double missRate = 0.05;    //!< Share of fully visible objects missed, 0..1
+  double occludedMissRate = 0.4;  //!< Share missed when just minVisible is left, 0..1
+  double falseAlarms = 0.05;      //!< Boxes around nothing per frame, 0..10
+  double flipRate = 0.03;         //!< Share of boxes with a label the object is mistaken for, 0..1
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& c, const std::string& section) override;
+};
+
+struct SimulatorOptions
+{
+  CameraOptions camera;
+  TrajectoryOptions trajectory;
+  DepthNoiseOptions depthNoise;
+  OdometryOptions odometry;
+  DetectorOptions detector;
+
+  /** Multiplies every random error (not the range limits, nor what cannot be seen) with a factor in
+   * [0, 10]; shares stay below 1. With 0 depth is exact to its storage unit, odometry is the truth
+   * and the boxes are those of the visible parts. */
+  void scaleNoise(double factor);
+};
+
+}  // namespace quadmap::simulator

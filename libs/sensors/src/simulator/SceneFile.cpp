@@ -1,0 +1,311 @@
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "quadmap/obs/ConfigCheck.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/sensors/simulator/Scene.h"
+
+namespace quadmap::simulator
+{
+namespace
+{
+using mrpt::config::CConfigFile;
+using Parts = std::vector<Primitive>;
+
+std::vector<std::string> wordsOf(const std::string& text)
+{
+  std::vector<std::string> words;
+  mrpt::system::tokenize(text, " \t,", words);
+  return words;
+}
+
+/** One key of the file with its text, for messages. */
+struct Entry
+{
+  std::string section, key, text;
+
+  [[noreturn]] void reject(const std::string& why) const
+  {
+    throw std::invalid_argument("[" + section + "] " + key + "=" + text + ": " + why);
+  }
+
+  double number(const std::string& word, double min, double max) const
+  {
+    const auto value = parseNumber(word);
+    if (!value || !(*value >= min && *value <= max))
+      reject(mrpt::format("\"%s\" must be a number in [%g, %g]", word.c_str(), min, max));
+    return *value;
+  }
+
+  /** Words [first, first + 3). */
+  Eigen::Vector3d vector(
+      const std::vector<std::string>& words, std::size_t first, double min, double max) const
+  {
+    return {
+        number(words[first], min, max), number(words[first + 1], min, max),
+        number(words[first + 2], min, max)};
+  }
+};
+
+/** Reads the sections of one file into a scene. */
+class SceneReader
+{
+ public:
+  explicit SceneReader(const std::string& path) : file_(path) {}
+
+  Scene read()
+  {
+    file_.getAllSections(sections_);
+    readMaterials();
+    readRoom();
+    for (const auto& section : sectionsOf("model")) readModel(section);
+    for (const auto& section : sectionsOf("object")) readObject(section);
+    readWaypoints();
+    auto& options = scene_.options;
+    options.camera.loadFromConfigFile(file_, "camera");
+    options.trajectory.loadFromConfigFile(file_, "trajectory");
+    options.depthNoise.loadFromConfigFile(file_, "depth_noise");
+    options.odometry.loadFromConfigFile(file_, "odometry");
+    options.detector.loadFromConfigFile(file_, "detector");
+    rejectOtherSections();
+    return std::move(scene_);
+  }
+
+ private:
+  static constexpr double kFar = 100;  // no coordinate of a room is larger [m]
+
+  /** Sections "[kind NAME]". */
+  std::vector<std::string> sectionsOf(const std::string& kind) const
+  {
+    std::vector<std::string> result;
+    for (const auto& section : sections_)
+      if (section.compare(0, kind.size() + 1, kind + " ") == 0) result.push_back(section);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  static std::string nameOf(const std::string& section)
+  {
+    return mrpt::system::trim(section.substr(section.find(' ')));
+  }
+
+  void rejectOtherSections() const
+  {
+    const std::set<std::string> known{"room",        "camera",   "trajectory",
+                                      "depth_noise", "odometry", "detector"};
+    for (const auto& section : sections_)
+    {
+      const std::string kind = section.substr(0, section.find(' '));
+      const bool named =
+          section != kind && (kind == "material" || kind == "model" || kind == "object");
+      if (!named && known.count(section) == 0)
+        throw std::invalid_argument("[" + section + "] unknown section");
+    }
+  }
+
+  std::optional<Entry> entry(const std::string& section, const std::string& key) const
+  {
+    if (!file_.keyExists(section, key)) return std::nullopt;
+    return Entry{section, key, mrpt::system::trim(file_.read_string(section, key, ""))};
+  }
+
+  Entry required(const std::string& section, const std::string& key) const
+  {
+    const auto found = entry(section, key);
+    if (!found) throw std::invalid_argument("[" + section + "] " + key + ": is missing");
+    return *found;
+  }
+
+  Eigen::Vector3d requiredVector(
+      const std::string& section, const std::string& key, double min, double max) const
+  {
+    const Entry e = required(section, key);
+    const auto words = wordsOf(e.text);
+    if (words.size() != 3) e.reject("expected three numbers");
+    return e.vector(words, 0, min, max);
+  }
+
+  /** The keys of a section that start with `prefix`, the rest of them known. */
+  std::vector<std::string> keysStartingWith(
+      const std::string& prefix, const std::string& section, std::set<std::string> known) const
+  {
+    std::vector<std::string> keys, result;
+    file_.getAllKeys(section, keys);
+    for (const auto& key : keys)
+      if (key.compare(0, prefix.size(), prefix) == 0) result.push_back(key);
+    known.insert(result.begin(), result.end());
+    rejectUnknownKeys(file_, section, known);
+    return result;
+  }
+
+  void readMaterials()
+  {
+    for (const auto& section : sectionsOf("material"))
+    {
+      rejectUnknownKeys(file_, section, {"color", "pattern", "scale", "contrast", "depth"});
+      Material material;
+      material.name = nameOf(section);
+      material.color = requiredVector(section, "color", 0, 255);
+      if (const auto e = entry(section, "pattern")) material.pattern = patternOf(*e);
+      readNumber(file_, section, "scale", material.scale, 0.001, 10);
+      readNumber(file_, section, "contrast", material.contrast, 0, 1);
+      readFlag(file_, section, "depth", material.depth);
+      materialIndex_[material.name] = scene_.materials.size();
+      scene_.materials.push_back(material);
+    }
+  }
+
+  static Pattern patternOf(const Entry& e)
+  {
+    if (e.text == "mottled") return Pattern::Mottled;
+    if (e.text == "checker") return Pattern::Checker;
+    if (e.text == "stripes") return Pattern::Stripes;
+    e.reject("must be mottled, checker or stripes");
+  }
+
+  std::size_t materialOf(const Entry& e, const std::string& name) const
+  {
+    const auto found = materialIndex_.find(name);
+    if (found == materialIndex_.end()) e.reject("there is no [material " + name + "]");
+    return found->second;
+  }
+
+  void readRoom()
+  {
+    rejectUnknownKeys(file_, "room", {"size", "floor", "walls", "ceiling"});
+    Room& room = scene_.room;
+    room.size = requiredVector("room", "size", 1, kFar);
+    for (auto [key, index] : {
+             std::pair{  "floor",   &room.floor},
+             {  "walls",   &room.walls},
+             {"ceiling", &room.ceiling}
+    })
+    {
+      const Entry e = required("room", key);
+      *index = materialOf(e, e.text);
+    }
+  }
+
+  void readModel(const std::string& section)
+  {
+    Parts& parts = models_[nameOf(section)];
+    for (const auto& key : keysStartingWith("part", section, {}))
+      parts.push_back(partOf(required(section, key)));
+    if (parts.empty()) throw std::invalid_argument("[" + section + "] has no part");
+  }
+
+  /** SHAPE  center x y z  size x y z  MATERIAL  [yaw [pitch [roll]]] */
+  Primitive partOf(const Entry& e) const
+  {
+    const auto words = wordsOf(e.text);
+    if (words.size() < 8 || words.size() > 11)
+      e.reject("expected: shape, center x y z, size x y z, material, [yaw pitch roll in degrees]");
+    Primitive part;
+    part.shape = shapeOf(e, words[0]);
+    const Eigen::Vector3d center = e.vector(words, 1, -kFar, kFar);
+    part.halfSize = 0.5 * e.vector(words, 4, 0.001, kFar);
+    part.material = materialOf(e, words[7]);
+    double angles[3] = {0, 0, 0};
+    for (std::size_t i = 8; i < words.size(); ++i)
+      angles[i - 8] = mrpt::DEG2RAD(e.number(words[i], -360, 360));
+    part.T_obj_prim =
+        mrpt::poses::CPose3D(center.x(), center.y(), center.z(), angles[0], angles[1], angles[2]);
+    return part;
+  }
+
+  static Shape shapeOf(const Entry& e, const std::string& word)
+  {
+    if (word == "box") return Shape::Box;
+    if (word == "cylinder") return Shape::Cylinder;
+    if (word == "ellipsoid") return Shape::Ellipsoid;
+    e.reject("the shape must be box, cylinder or ellipsoid");
+  }
+
+  void readObject(const std::string& section)
+  {
+    SceneObject object;
+    object.name = nameOf(section);
+    object.label = required(section, "label").text;
+    if (object.label == "none") object.label.clear();
+    const Eigen::Vector3d position = requiredVector(section, "position", -kFar, kFar);
+    double yaw_deg = 0;
+    readNumber(file_, section, "yaw_deg", yaw_deg, -360, 360);
+    readFlag(file_, section, "orientation_defined", object.orientationDefined);
+    object.T_world_obj = mrpt::poses::CPose3D(
+        position.x(), position.y(), position.z(), mrpt::DEG2RAD(yaw_deg), 0, 0);
+
+    if (const auto e = entry(section, "model")) object.parts = modelOf(*e);
+    const std::set<std::string> known{
+        "label", "model", "position", "yaw_deg", "orientation_defined"};
+    for (const auto& key : keysStartingWith("part", section, known))
+      object.parts.push_back(partOf(required(section, key)));
+    if (object.parts.empty())
+      throw std::invalid_argument("[" + section + "] has neither a model nor a part");
+    scene_.objects.push_back(std::move(object));
+  }
+
+  const Parts& modelOf(const Entry& e) const
+  {
+    const auto found = models_.find(e.text);
+    if (found == models_.end()) e.reject("there is no [model " + e.text + "]");
+    return found->second;
+  }
+
+  void readWaypoints()
+  {
+    std::map<int, Waypoint> ordered;
+    std::vector<std::string> keys;
+    file_.getAllKeys("trajectory", keys);
+    for (const auto& key : keys)
+    {
+      if (key.compare(0, 8, "waypoint") != 0) continue;
+      const Entry e = required("trajectory", key);
+      const auto number = parseNumber(key.substr(8));
+      if (!number || !(*number >= 0 && *number < 1e6)) e.reject("the key must be waypointNUMBER");
+      const auto words = wordsOf(e.text);
+      if (words.size() != 6) e.reject("expected six numbers: eye x y z, target x y z");
+      ordered[static_cast<int>(*number)] = {
+          e.vector(words, 0, -kFar, kFar), e.vector(words, 3, -kFar, kFar)};
+    }
+    if (ordered.size() < 4)
+      throw std::invalid_argument("[trajectory] needs waypoint1 to waypoint4 at least");
+    for (const auto& item : ordered) scene_.waypoints.push_back(item.second);
+  }
+
+  CConfigFile file_;
+  std::vector<std::string> sections_;
+  std::map<std::string, std::size_t> materialIndex_;
+  std::map<std::string, Parts> models_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene readScene(const std::string& path)
+{
+  requireReadableIni(path);
+  try
+  {
+    return SceneReader(path).read();
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw std::runtime_error(path + ": " + e.what());
+  }
+}
+
+std::string findScene(const std::string& nameOrPath)
+{
+  const bool isPath = nameOrPath.find('/') != std::string::npos ||
+                      std::filesystem::path(nameOrPath).extension() == ".ini";
+  return isPath ? nameOrPath : findShareFile("scenes/" + nameOrPath + ".ini");
+}
+
+}  // namespace quadmap::simulator

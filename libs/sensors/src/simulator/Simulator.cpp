@@ -1,0 +1,112 @@
+#include "quadmap/sensors/simulator/Simulator.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "quadmap/sensors/simulator/CameraPath.h"
+#include "quadmap/sensors/simulator/DepthNoise.h"
+#include "quadmap/sensors/simulator/SimulatedOdometry.h"
+
+namespace quadmap::simulator
+{
+namespace
+{
+const std::string kCameraLabel = "camera";
+constexpr double kDepthUnit = 1.0 / 5000;  // of the stored 16-bit depth [m]: TUM's, up to 13.1 m
+
+mrpt::img::TCamera calibrationOf(const PinholeCamera& camera)
+{
+  mrpt::img::TCamera calibration;
+  calibration.ncols = camera.width;
+  calibration.nrows = camera.height;
+  calibration.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
+  return calibration;
+}
+
+/** Colour with the noise of its sensor. */
+mrpt::img::CImage colorImage(const RenderedFrame& frame, double sigma, RandomStream random)
+{
+  mrpt::img::CImage image(frame.camera.width, frame.camera.height, mrpt::img::CH_RGB);
+  const std::uint8_t* source = frame.rgb.data();
+  for (unsigned v = 0; v < frame.camera.height; ++v)
+  {
+    std::uint8_t* line = image.ptrLine<std::uint8_t>(v);
+    for (unsigned u = 0; u < frame.camera.width; ++u, source += 3, line += 3)
+      for (unsigned c = 0; c < 3; ++c)
+      {
+        const double value = source[c] + (sigma > 0 ? sigma * random.gaussian() : 0.0);
+        line[2 - c] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+      }
+  }
+  return image;
+}
+
+void storeDepth(const std::vector<float>& depth, mrpt::obs::CObservation3DRangeScan& scan)
+{
+  const auto rows = static_cast<int>(scan.cameraParams.nrows);
+  const auto columns = static_cast<int>(scan.cameraParams.ncols);
+  scan.hasRangeImage = true;
+  scan.range_is_depth = true;
+  scan.rangeUnits = static_cast<float>(kDepthUnit);
+  scan.rangeImage_setSize(rows, columns);
+  std::size_t i = 0;
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c, ++i)
+      scan.rangeImage(r, c) =
+          static_cast<std::uint16_t>(std::lround(static_cast<double>(depth[i]) / kDepthUnit));
+}
+
+}  // namespace
+
+Simulator::Simulator(Scene scene, LabelTable labels, std::uint64_t seed) :
+    scene_(std::move(scene)),
+    labels_(std::move(labels)),
+    seed_(seed),
+    caster_(scene_, scene_.options.camera.pinhole()),
+    detector_(scene_, scene_.options.detector, labels_),
+    T_world_robot_(cameraPath(scene_, scene_.options.trajectory))
+{
+  RandomStream random(seed_, Purpose::Odometry, 0);
+  odometry_ = driftingOdometry(T_world_robot_, scene_.options.odometry, random);
+}
+
+double Simulator::time(std::size_t frame) const
+{
+  const auto& trajectory = scene_.options.trajectory;
+  return trajectory.startTime + static_cast<double>(frame) / trajectory.rate;
+}
+
+SimulatedFrame Simulator::frame(std::size_t index) const
+{
+  const RenderedFrame rendered = caster_.render(T_world_robot_.at(index));
+  SimulatedFrame result;
+  result.scan = scanOf(rendered, index);
+  result.visible = visibleObjects(scene_, rendered, scene_.options.detector);
+
+  RandomStream random(seed_, Purpose::Detector, index);
+  result.objects = CObservationObjects::Create();
+  result.objects->sensorLabel = kCameraLabel;
+  result.objects->timestamp = result.scan->timestamp;
+  result.objects->cameraParams = result.scan->cameraParams;
+  result.objects->objects = detector_.detect(result.visible, rendered.camera, random);
+  return result;
+}
+
+mrpt::obs::CObservation3DRangeScan::Ptr Simulator::scanOf(
+    const RenderedFrame& rendered, std::size_t index) const
+{
+  const auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+  scan->sensorLabel = kCameraLabel;
+  scan->timestamp = mrpt::Clock::fromDouble(time(index));
+  scan->cameraParams = scan->cameraParamsIntensity = calibrationOf(rendered.camera);
+  scan->maxRange = static_cast<float>(scene_.options.depthNoise.maxRange);
+
+  RandomStream random(seed_, Purpose::Depth, index);
+  storeDepth(noisyDepth(rendered, scene_.options.depthNoise, random), *scan);
+  scan->hasIntensityImage = true;
+  scan->intensityImage = colorImage(
+      rendered, scene_.options.camera.colorNoise, RandomStream(seed_, Purpose::Color, index));
+  return scan;
+}
+
+}  // namespace quadmap::simulator

@@ -1,0 +1,128 @@
+#include "quadmap/sensors/simulator/SimulatorOptions.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "quadmap/obs/ConfigCheck.h"
+
+namespace quadmap::simulator
+{
+void CameraOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& c, const std::string& section)
+{
+  rejectUnknownKeys(c, section, {"width", "height", "focal", "colorNoise", "jpegQuality"});
+  readNumber(c, section, "width", width, 64, 4096);
+  readNumber(c, section, "height", height, 64, 4096);
+  readNumber(c, section, "focal", focal, 10, 10000);
+  readNumber(c, section, "colorNoise", colorNoise, 0, 50);
+  readNumber(c, section, "jpegQuality", jpegQuality, 1, 100);
+}
+
+PinholeCamera CameraOptions::pinhole() const
+{
+  PinholeCamera camera;
+  camera.fx = camera.fy = focal;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  camera.width = static_cast<unsigned>(width);
+  camera.height = static_cast<unsigned>(height);
+  return camera;
+}
+
+void CameraOptions::resize(int newWidth, int newHeight)
+{
+  focal *= static_cast<double>(newWidth) / width;
+  width = newWidth;
+  height = newHeight;
+}
+
+void TrajectoryOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& c, const std::string& section)
+{
+  std::set<std::string> known{"frames", "rate", "startTime", "bob", "sway_deg", "stepRate"};
+  std::vector<std::string> keys;
+  c.getAllKeys(section, keys);
+  for (const auto& key : keys)
+    if (key.compare(0, 8, "waypoint") == 0) known.insert(key);  // the scene reads these
+  rejectUnknownKeys(c, section, known);
+  readNumber(c, section, "frames", frames, 2, 100000);
+  readNumber(c, section, "rate", rate, 0.1, 1000);
+  readNumber(c, section, "startTime", startTime, 0, 4e9);
+  readNumber(c, section, "bob", bob, 0, 0.3);
+  readNumber(c, section, "sway_deg", sway_deg, 0, 20);
+  readNumber(c, section, "stepRate", stepRate, 0.1, 10);
+}
+
+void DepthNoiseOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& c, const std::string& section)
+{
+  rejectUnknownKeys(
+      c, section,
+      {"axialBase", "axialGrowth", "disparityStep", "baseline", "sensorFocal", "lateral",
+       "edgeJump", "edgeHoles", "edgeFlying", "dropouts", "maxIncidence_deg", "minRange",
+       "maxRange", "shadow"});
+  readNumber(c, section, "axialBase", axialBase, 0, 1);
+  readNumber(c, section, "axialGrowth", axialGrowth, 0, 1);
+  readNumber(c, section, "disparityStep", disparityStep, 0, 4);
+  readNumber(c, section, "baseline", baseline, 0.001, 1);
+  readNumber(c, section, "sensorFocal", sensorFocal, 10, 10000);
+  readNumber(c, section, "lateral", lateral, 0, 10);
+  readNumber(c, section, "edgeJump", edgeJump, 0.001, 10);
+  readNumber(c, section, "edgeHoles", edgeHoles, 0, 1);
+  readNumber(c, section, "edgeFlying", edgeFlying, 0, 1);
+  readNumber(c, section, "dropouts", dropouts, 0, 1);
+  readNumber(c, section, "maxIncidence_deg", maxIncidence_deg, 1, 90);
+  readNumber(c, section, "minRange", minRange, 0, 100);
+  readNumber(c, section, "maxRange", maxRange, 0.1, 13);
+  readFlag(c, section, "shadow", shadow);
+  if (minRange >= maxRange)
+    throw std::invalid_argument("[" + section + "] minRange: must be below maxRange");
+}
+
+void OdometryOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& c, const std::string& section)
+{
+  rejectUnknownKeys(
+      c, section,
+      {"translationPerMetre", "rotationPerMetre_deg", "translationPerRadian",
+       "rotationPerRadian_deg", "scale"});
+  readNumber(c, section, "translationPerMetre", translationPerMetre, 0, 1);
+  readNumber(c, section, "rotationPerMetre_deg", rotationPerMetre_deg, 0, 45);
+  readNumber(c, section, "translationPerRadian", translationPerRadian, 0, 1);
+  readNumber(c, section, "rotationPerRadian_deg", rotationPerRadian_deg, 0, 45);
+  readNumber(c, section, "scale", scale, 0, 0.5);
+}
+
+void DetectorOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& c, const std::string& section)
+{
+  rejectUnknownKeys(
+      c, section,
+      {"jitter", "minVisible", "minSize", "missRate", "occludedMissRate", "falseAlarms",
+       "flipRate"});
+  readNumber(c, section, "jitter", jitter, 0, 100);
+  readNumber(c, section, "minVisible", minVisible, 0, 1);
+  readNumber(c, section, "minSize", minSize, 1, 1000);
+  readNumber(c, section, "missRate", missRate, 0, 1);
+  readNumber(c, section, "occludedMissRate", occludedMissRate, 0, 1);
+  readNumber(c, section, "falseAlarms", falseAlarms, 0, 10);
+  readNumber(c, section, "flipRate", flipRate, 0, 1);
+}
+
+void SimulatorOptions::scaleNoise(double factor)
+{
+  for (double* sigma :
+       {&camera.colorNoise, &depthNoise.axialBase, &depthNoise.axialGrowth,
+        &depthNoise.disparityStep, &depthNoise.lateral, &odometry.translationPerMetre,
+        &odometry.rotationPerMetre_deg, &odometry.translationPerRadian,
+        &odometry.rotationPerRadian_deg, &odometry.scale, &detector.jitter, &detector.falseAlarms})
+    *sigma *= factor;
+  for (double* share :
+       {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts, &detector.missRate,
+        &detector.occludedMissRate, &detector.flipRate})
+    *share = std::min(1.0, *share * factor);
+}
+
+}  // namespace quadmap::simulator
