@@ -63,7 +63,8 @@ Eigen::Vector3d readSize(const CConfigFile& config, const std::string& section)
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < words.size() && i < 3; ++i)
     size[static_cast<int>(i)] = parseNumber(words[i]).value_or(0.0);
-  if (words.size() != 3 || !(size.minCoeff() > 0) || !(size.maxCoeff() <= kLargest))
+  if (words.size() != 3 || !size.allFinite() || !(size.minCoeff() > 0) ||
+      !(size.maxCoeff() <= kLargest))
     throw std::invalid_argument(
         "[" + section + "] typicalSize=" + text + ": must be three lengths in (0, 100] m");
   return size;
