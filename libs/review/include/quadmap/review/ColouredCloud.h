@@ -1,0 +1,62 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace quadmap
+{
+/** What a camera saw at one place. */
+struct CloudPoint
+{
+  Eigen::Vector3f position;  //!< In the map [m]
+  Eigen::Vector3f normal;    //!< Unit, towards the camera
+  std::array<std::uint8_t, 3> rgb{};
+};
+using Cloud = std::vector<CloudPoint>;
+
+/** Thins out the points of many RGB-D frames: one point, the mean, per cubic cell. Memory is
+ * bounded: cells grow when there are too many of them. */
+class CloudCollector
+{
+ public:
+  /** \param cellSize Edge of a cell [m], > 0. \param maxPoints Most points kept, > 0. */
+  CloudCollector(double cellSize, std::size_t maxPoints);
+
+  /** Adds a frame whose robot stood at `T_map_robot`. The scan's images must be loaded; its
+   *  points are computed and freed again. */
+  void add(
+      mrpt::obs::CObservation3DRangeScan& scan,
+      const mrpt::poses::CPose3D& T_map_robot,
+      double maxRange);
+
+  Cloud points() const;
+  double cellSize() const { return cellSize_; }  //!< Now [m]
+
+ private:
+  struct Cell
+  {
+    Eigen::Vector3f positionSum = Eigen::Vector3f::Zero(), normalSum = Eigen::Vector3f::Zero();
+    Eigen::Vector3f rgbSum = Eigen::Vector3f::Zero();
+    float count = 0;
+  };
+  struct KeyHash
+  {
+    std::size_t operator()(const Eigen::Vector3i& k) const;
+  };
+  using Cells = std::unordered_map<Eigen::Vector3i, Cell, KeyHash>;
+
+  Eigen::Vector3i keyOf(const Eigen::Vector3f& p_map) const;
+  void growCells();
+
+  double cellSize_;
+  std::size_t maxPoints_;
+  Cells cells_;
+};
+
+}  // namespace quadmap

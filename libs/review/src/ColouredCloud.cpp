@@ -1,0 +1,154 @@
+#include "quadmap/review/ColouredCloud.h"
+
+#include <mrpt/maps/CColouredPointsMap.h>
+#include <mrpt/obs/T3DPointsProjectionParams.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace quadmap
+{
+namespace
+{
+/** The points of a frame in the order of its pixels; (0, 0, 0) where there is no depth. */
+struct OrganizedPoints
+{
+  int width = 0, height = 0;
+  mrpt::maps::CColouredPointsMap points;  // robot frame
+
+  bool isValid(int row, int column) const { return !at(row, column).isZero(); }
+  std::size_t index(int row, int column) const
+  {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(column);
+  }
+  Eigen::Vector3f at(int row, int column) const
+  {
+    const std::size_t i = index(row, column);
+    return {
+        points.getPointsBufferRef_x()[i], points.getPointsBufferRef_y()[i],
+        points.getPointsBufferRef_z()[i]};
+  }
+};
+
+OrganizedPoints unproject(mrpt::obs::CObservation3DRangeScan& scan)
+{
+  OrganizedPoints out;
+  out.width = static_cast<int>(scan.rangeImage.cols());
+  out.height = static_cast<int>(scan.rangeImage.rows());
+  out.points.colorScheme.scheme = mrpt::maps::CColouredPointsMap::cmFromIntensityImage;
+  mrpt::obs::T3DPointsProjectionParams parameters;
+  parameters.takeIntoAccountSensorPoseOnRobot = true;
+  parameters.MAKE_ORGANIZED = true;
+  scan.unprojectInto(out.points, parameters);
+  return out;
+}
+
+/** Unit normal of the surface at a pixel, from its right and lower neighbours `step` away; zero
+ * where they are missing or lie on another surface. */
+Eigen::Vector3f normalAt(const OrganizedPoints& frame, int row, int column, int step)
+{
+  const Eigen::Vector3f zero = Eigen::Vector3f::Zero();
+  if (!frame.isValid(row, column + step) || !frame.isValid(row + step, column)) return zero;
+  const Eigen::Vector3f p = frame.at(row, column);
+  const Eigen::Vector3f right = frame.at(row, column + step) - p;
+  const Eigen::Vector3f down = frame.at(row + step, column) - p;
+  constexpr float kLargestStep = 0.10F;  // [m]
+  if (right.norm() > kLargestStep || down.norm() > kLargestStep) return zero;
+  return right.cross(down).normalized();
+}
+
+}  // namespace
+
+CloudCollector::CloudCollector(double cellSize, std::size_t maxPoints) :
+    cellSize_(cellSize), maxPoints_(maxPoints)
+{
+  if (!(cellSize > 0) || maxPoints == 0)
+    throw std::invalid_argument("point cloud: cell size and number of points must be positive");
+}
+
+std::size_t CloudCollector::KeyHash::operator()(const Eigen::Vector3i& k) const
+{
+  const auto mix = [](int v, std::uint64_t prime) { return static_cast<std::uint64_t>(v) * prime; };
+  const std::uint64_t h = mix(k.x(), 73856093) ^ mix(k.y(), 19349663) ^ mix(k.z(), 83492791);
+  return h ^ (h >> 21);
+}
+
+Eigen::Vector3i CloudCollector::keyOf(const Eigen::Vector3f& p_map) const
+{
+  return (p_map.cast<double>() / cellSize_).array().floor().cast<int>();
+}
+
+void CloudCollector::add(
+    mrpt::obs::CObservation3DRangeScan& scan,
+    const mrpt::poses::CPose3D& T_map_robot,
+    double maxRange)
+{
+  constexpr int kStride = 2;            // of the pixels that are used
+  constexpr float kLookWeight = 0.05F;  // the direction of view, where there is no normal
+  constexpr int kNormalStep = 4;        // [px], wide against the noise of the depth
+  const OrganizedPoints frame = unproject(scan);
+  const Eigen::Matrix4f T =
+      T_map_robot.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().cast<float>();
+  const auto& o = scan.sensorPose;
+  const Eigen::Vector3f eye = Eigen::Vector3d(o.x(), o.y(), o.z()).cast<float>();
+  for (int row = 0; row + kNormalStep < frame.height; row += kStride)
+  {
+    for (int column = 0; column + kNormalStep < frame.width; column += kStride)
+    {
+      if (!frame.isValid(row, column)) continue;
+      const Eigen::Vector3f p_robot = frame.at(row, column);
+      if ((p_robot - eye).norm() > static_cast<float>(maxRange)) continue;
+      Eigen::Vector3f n_robot = normalAt(frame, row, column, kNormalStep);
+      if (n_robot.dot(eye - p_robot) < 0) n_robot = -n_robot;
+      n_robot += kLookWeight * (eye - p_robot).normalized();
+
+      const Eigen::Vector3f p_map = T.topLeftCorner<3, 3>() * p_robot + T.topRightCorner<3, 1>();
+      Cell& cell = cells_[keyOf(p_map)];
+      cell.positionSum += p_map;
+      cell.normalSum += T.topLeftCorner<3, 3>() * n_robot;
+      Eigen::Vector3f rgb;
+      frame.points.getPointColor(frame.index(row, column), rgb.x(), rgb.y(), rgb.z());
+      cell.rgbSum += rgb;
+      cell.count += 1;
+    }
+  }
+  scan.resizePoints3DVectors(0);
+  while (cells_.size() > maxPoints_) growCells();
+}
+
+void CloudCollector::growCells()
+{
+  cellSize_ *= 1.25;
+  Cells coarse;
+  for (const auto& entry : cells_)
+  {
+    const Cell& from = entry.second;
+    Cell& to = coarse[keyOf(from.positionSum / from.count)];
+    to.positionSum += from.positionSum;
+    to.normalSum += from.normalSum;
+    to.rgbSum += from.rgbSum;
+    to.count += from.count;
+  }
+  cells_.swap(coarse);
+}
+
+Cloud CloudCollector::points() const
+{
+  Cloud out;
+  out.reserve(cells_.size());
+  for (const auto& entry : cells_)
+  {
+    const Cell& cell = entry.second;
+    CloudPoint p;
+    p.position = cell.positionSum / cell.count;
+    p.normal = cell.normalSum.isZero() ? cell.normalSum : cell.normalSum.normalized();
+    for (int i = 0; i < 3; ++i)
+      p.rgb[static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(255.0F * cell.rgbSum[i] / cell.count);
+    out.push_back(p);
+  }
+  return out;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,64 @@
+#include "quadmap/review/KeyframeContent.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "quadmap/review/SimpleMapReader.h"
+
+namespace quadmap
+{
+namespace
+{
+using mrpt::obs::CObservation3DRangeScan;
+
+CameraPose cameraOf(const CObservation3DRangeScan& scan, const mrpt::poses::CPose3D& T_map_robot)
+{
+  const mrpt::img::TCamera& c = scan.cameraParams;
+  CameraPose camera;
+  camera.T_map_sensor = T_map_robot + scan.sensorPose;
+  if (c.ncols > 0 && c.nrows > 0 && c.fx() > 0 && c.fy() != 0)
+  {
+    camera.horizontalFov = 2 * std::atan(0.5 * c.ncols / c.fx());
+    camera.verticalFov = 2 * std::atan(0.5 * c.nrows / std::abs(c.fy()));
+  }
+  return camera;
+}
+
+}  // namespace
+
+void addKeyframes(
+    const std::string& simpleMapPath, const CloudOptions& options, SceneContent& content)
+{
+  SimpleMapReader reader(simpleMapPath);
+  CloudCollector collector(options.cellSize, options.maxPoints);
+  const std::size_t step = (reader.size() + options.maxKeyframes - 1) / options.maxKeyframes;
+  for (std::size_t i = 0; const auto keyframe = reader.next(); ++i)
+  {
+    const mrpt::poses::CPose3D T_map_robot = keyframe->pose->getMeanVal();
+    for (const auto& observation : *keyframe->observations)
+    {
+      const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
+      if (!scan) continue;
+      content.cameras.push_back(cameraOf(*scan, T_map_robot));
+      if (i % step != 0) continue;
+      try
+      {
+        scan->load();  // images that are kept in files of their own
+        if (scan->hasRangeImage) collector.add(*scan, T_map_robot, options.maxRange);
+      }
+      catch (const std::exception&)  // its text speaks of the library's insides
+      {
+        throw std::runtime_error(mrpt::format(
+            "%s: keyframe %zu, sensor '%s': the depth image cannot be used", simpleMapPath.c_str(),
+            i + 1, scan->sensorLabel.c_str()));
+      }
+    }
+  }
+  content.cloud = collector.points();
+  content.cloudCellSize = collector.cellSize();
+}
+
+}  // namespace quadmap

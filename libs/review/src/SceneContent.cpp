@@ -1,0 +1,61 @@
+#include "quadmap/review/SceneContent.h"
+
+#include <algorithm>
+
+namespace quadmap
+{
+namespace
+{
+/** The value that a fraction of the others lies below. */
+double quantile(std::vector<double> values, double fraction)
+{
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(fraction * last);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+Eigen::Vector3d positionOf(const mrpt::poses::CPose3D& pose)
+{
+  return {pose.x(), pose.y(), pose.z()};
+}
+
+void addCorners(const std::vector<ObjectRecord>& objects, std::vector<Eigen::Vector3d>& out)
+{
+  for (const ObjectRecord& record : objects)
+  {
+    const Eigen::Matrix<double, 3, 8> corners = record.object.cuboidCorners();
+    for (int i = 0; i < 8; ++i) out.push_back(corners.col(i));
+  }
+}
+
+}  // namespace
+
+double SceneContent::floorHeight() const
+{
+  constexpr double kLow = 0.1;  // robust against a few objects that sank into the floor
+  std::vector<double> heights;
+  for (const auto& list : {objects, truth})
+    for (const ObjectRecord& record : list)
+      heights.push_back(record.object.cuboidCorners().row(2).minCoeff());
+  if (heights.empty())
+    for (const CloudPoint& p : cloud) heights.push_back(static_cast<double>(p.position.z()));
+  if (heights.empty())
+    for (const auto& pose : trajectory) heights.push_back(pose.z());
+  return heights.empty() ? 0.0 : quantile(std::move(heights), kLow);
+}
+
+std::vector<Eigen::Vector3d> SceneContent::extent() const
+{
+  std::vector<Eigen::Vector3d> points;
+  addCorners(objects, points);
+  addCorners(truth, points);
+  for (const auto& pose : trajectory) points.push_back(positionOf(pose));
+  for (const auto& pose : odometry) points.push_back(positionOf(pose));
+  for (const CameraPose& camera : cameras) points.push_back(positionOf(camera.T_map_sensor));
+  if (points.empty())
+    for (const CloudPoint& p : cloud) points.push_back(p.position.cast<double>());
+  return points;
+}
+
+}  // namespace quadmap

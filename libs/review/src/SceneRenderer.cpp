@@ -1,0 +1,75 @@
+#include "quadmap/review/SceneRenderer.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/opengl/CFBORender.h>
+
+#include <stdexcept>
+
+#include "quadmap/obs/OutputFile.h"
+
+namespace quadmap
+{
+namespace
+{
+thread_local bool rendererIsAlive = false;
+
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+SceneRenderer::SceneRenderer(const PictureSize& size) : size_(size)
+{
+  constexpr unsigned kSmallest = 16, kLargest = 4096;
+  for (const unsigned side : {size.width, size.height})
+    if (side < kSmallest || side > kLargest)
+      throw std::invalid_argument(mrpt::format(
+          "picture size %ux%u: sides must be %u...%u pixels", size.width, size.height, kSmallest,
+          kLargest));
+  if (rendererIsAlive)
+    throw std::runtime_error("only one SceneRenderer can live in a thread at a time");
+  try
+  {
+    constexpr unsigned k = PictureSize::kOversampling;
+    mrpt::opengl::CFBORender::Parameters parameters(k * size.width, k * size.height);
+    renderer_ = std::make_unique<mrpt::opengl::CFBORender>(parameters);
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(
+        "pictures cannot be rendered: OpenGL without a display (EGL) does not work here; on Debian "
+        "install libegl1 and libgl1-mesa-dri (" +
+        firstLine(e.what()) + ")");
+  }
+  rendererIsAlive = true;
+}
+
+SceneRenderer::~SceneRenderer()
+{
+  renderer_.reset();
+  rendererIsAlive = false;
+}
+
+mrpt::img::CImage SceneRenderer::render(mrpt::opengl::COpenGLScene& scene, const ViewPoint& view)
+{
+  const auto viewport = scene.getViewport();
+  view.applyTo(viewport->getCamera());
+  view.applyTo(renderer_->getCamera(scene));
+  constexpr float kNear = 0.02F, kFar = 4.0F;  // of the distance to the target
+  const auto distance = static_cast<float>(view.distance);
+  viewport->setViewportClipDistances(kNear * distance, kFar * distance);
+
+  mrpt::img::CImage large, picture;
+  renderer_->render_RGB(scene, large);
+  large.scaleImage(picture, size_.width, size_.height, mrpt::img::IMG_INTERP_AREA);
+  return picture;
+}
+
+void writePicture(const mrpt::img::CImage& picture, const std::string& path)
+{
+  OutputFile output(path);
+  if (!picture.saveToFile(output.temporaryPath()))
+    throw std::runtime_error(path + ": the picture cannot be written");
+  output.commit();
+}
+
+}  // namespace quadmap
