@@ -6,11 +6,15 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "quadmap/maps/Association.h"
 #include "quadmap/maps/MapObject.h"
+#include "quadmap/maps/MapOptions.h"
+#include "quadmap/maps/ObjectEstimator.h"
+#include "quadmap/maps/WaitingList.h"
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectList.h"
@@ -29,10 +33,23 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   DEFINE_SERIALIZABLE(CQuadricObjectMap, quadmap)
 
  public:
+  /** An empty map with the installed label table.
+   *  \exception std::runtime_error If the table cannot be read. */
   CQuadricObjectMap();
 
+  using TInsertionOptions = InsertionOptions;
+  using TLikelihoodOptions = LikelihoodOptions;
+  using TRenderOptions = RenderOptions;
+  TInsertionOptions insertionOptions;
+  TLikelihoodOptions likelihoodOptions;
+  TRenderOptions renderOptions;
+
+  const LabelTable& labels() const { return *labels_; }
+  /** For the observations inserted from now on. */
+  void setLabels(LabelTable labels);
+
   using Objects = std::map<ObjectId, MapObject>;
-  const Objects& objects() const;                     //!< All, confirmed or not
+  const Objects& objects() const;                          //!< All, confirmed or not
   std::vector<const MapObject*> confirmedObjects() const;  //!< Those worth reporting, by id
 
   // Queries over the confirmed objects -------------------------------------------------------
@@ -48,7 +65,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::vector<Eigen::Vector2d> footprint(ObjectId id) const;
 
   // Editing ----------------------------------------------------------------------------------
-  void merge(ObjectId kept, ObjectId absorbed);  //!< \exception std::out_of_range
+  void merge(ObjectId kept, ObjectId absorbed);         //!< \exception std::out_of_range
   void relabel(ObjectId id, const std::string& label);  //!< \exception std::out_of_range
   void remove(ObjectId id);                             //!< \exception std::out_of_range
 
@@ -75,9 +92,61 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
   /** Writes PREFIX.json (the objects), PREFIX.3Dscene and PREFIX.txt. */
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
+  /** Pairs each confirmed object of another CQuadricObjectMap with the nearest one here whose label
+   *  is compatible. \exception std::invalid_argument If the other map is of another class. */
+  void determineMatching3D(
+      const mrpt::maps::CMetricMap* otherMap,
+      const mrpt::poses::CPose3D& otherMapPose,
+      mrpt::tfest::TMatchingPairList& correspondences,
+      const mrpt::maps::TMatchingParams& params,
+      mrpt::maps::TMatchingExtraResults& extraResults) const override;
+  /** Share of the other map's confirmed objects that have a partner here; 0 for other classes. */
+  float compute3DMatchingRatio(
+      const mrpt::maps::CMetricMap* otherMap,
+      const mrpt::poses::CPose3D& otherMapPose,
+      const mrpt::maps::TMatchingRatioParams& params) const override;
+
+ private:
+  struct Frame;  // one observation while it is inserted
+
+  Objects objects_;
+  std::map<ObjectId, ObjectEstimator> estimators_;  // the measurements behind objects_
+  ObjectId nextId_ = 1;
+  WaitingList waiting_;
+  std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
+  std::vector<Decision> lastDecisions_;
+  std::shared_ptr<const LabelTable> labels_;
+
+  void internal_clear() override;
+  bool internal_insertObservation(
+      const mrpt::obs::CObservation& obs,
+      const std::optional<const mrpt::poses::CPose3D>& robotPose) override;
+  double internal_computeObservationLikelihood(
+      const mrpt::obs::CObservation& obs, const mrpt::poses::CPose3D& takenFrom) const override;
+  bool internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& obs) const override;
+
+  bool insertObjects(const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose);
+  Frame frameOf(const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
+  void associate(Frame& frame) const;
+  void joinOrStart(const Frame& frame, std::set<ObjectId>& touched);
+  void countMisses(const Frame& frame, const std::set<ObjectId>& touched);
+  ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
+  void addView(MapObject& object, const WaitingList::Entry& entry);
+  void mergeOverlapping(std::set<ObjectId> touched);
+  void estimate(MapObject& object, bool restart);
+  bool isConfirmed(const MapObject& object) const;
+  MapObject& require(ObjectId id);
+
+  MAP_DEFINITION_START(CQuadricObjectMap)
+  quadmap::CQuadricObjectMap::TInsertionOptions insertionOpts;
+  quadmap::CQuadricObjectMap::TLikelihoodOptions likelihoodOpts;
+  quadmap::CQuadricObjectMap::TRenderOptions renderOpts;
+  std::string labelTable;  //!< creationOpts: file of the label table; empty: the installed one
+  MAP_DEFINITION_END(CQuadricObjectMap)
 };
 
-/** Registers the classes of this library (and of obs) with MRPT's factory; see registerObsClasses. */
+/** Registers the classes of this library (and of obs) with MRPT's factory; see registerObsClasses.
+ */
 void registerMapClasses();
 
 }  // namespace quadmap

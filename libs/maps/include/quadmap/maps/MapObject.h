@@ -24,14 +24,14 @@ Ellipsoid ellipsoidOf(const UprightState& state);
 struct MapObject
 {
   ObjectId id = 0;
-  Ellipsoid object;                      //!< In the map frame, z up
+  Ellipsoid object;  //!< In the map frame, z up
   UprightCovariance covariance = UprightCovariance::Identity();
-  std::map<std::string, unsigned> labelCounts;  //!< Canonical label -> measurements that said so
+  std::map<std::string, unsigned> labelCounts;   //!< Canonical label -> measurements that said so
   unsigned completeCount = 0, partialCount = 0;  //!< Measurements that were used
-  unsigned missCount = 0;                //!< Frames that should have shown it and did not
+  unsigned missCount = 0;                        //!< Frames that should have shown it and did not
   bool orientationDefined = true;
-  double existenceLogOdds = 0;           //!< From measurements and misses
-  bool confirmed = false;                //!< Enough evidence to be reported
+  double existenceLogOdds = 0;  //!< From measurements and misses
+  bool confirmed = false;       //!< Enough evidence to be reported
   mrpt::Clock::time_point firstSeen, lastSeen;
 
   unsigned observations() const { return completeCount + partialCount; }

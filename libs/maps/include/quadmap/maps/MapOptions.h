@@ -1,0 +1,68 @@
+#pragma once
+
+#include <mrpt/config/CLoadableOptions.h>
+
+#include "quadmap/maps/Association.h"
+#include "quadmap/maps/ObjectEstimator.h"
+#include "quadmap/maps/ObjectRules.h"
+#include "quadmap/maps/ObjectView.h"
+#include "quadmap/maps/Visibility.h"
+#include "quadmap/maps/WaitingList.h"
+
+namespace quadmap
+{
+/** How observations become objects. INI section `<prefix>_insertOpts`; keys in MapOptions.cpp. */
+struct InsertionOptions : public mrpt::config::CLoadableOptions
+{
+  AssociationParameters association;
+  AgreementOptions agreement;
+  EstimatorOptions estimator;
+  PoseNoise poseNoise;
+  ExistenceOptions existence;
+  MergeOptions merging;
+  WaitingOptions waiting;
+  bool useInstanceIds = false;  //!< Believe DetectedObject::instanceId instead of associating
+  double minScore = 0;          //!< Boxes the detector is less sure of are ignored, in [0, 1]
+
+  /** \exception std::invalid_argument On unknown keys and values out of bounds. */
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& source, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& target, const std::string& section) const override;
+  void dumpToTextStream(std::ostream& out) const override;
+};
+
+/** Log-likelihood of an observation from a pose. INI section `<prefix>_likelihoodOpts`. */
+struct LikelihoodOptions : public mrpt::config::CLoadableOptions
+{
+  double positionSigma = 0.15;  //!< Of a measured centre, beyond the measurement's own [m], > 0
+  double yawSigma = 0.15;       //!< Of a measured yaw, beyond the measurement's own [rad], > 0
+  double angleSigma = 0.03;     //!< Of a box edge as an angle, beyond the detector's [rad], > 0
+  double outlierShare = 0.1;    //!< Boxes that show nothing of the map, in (0, 1)
+  bool onlyConfirmed = true;    //!< Compare with confirmed objects only
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& source, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& target, const std::string& section) const override;
+  void dumpToTextStream(std::ostream& out) const override;
+};
+
+/** What getVisualizationInto() draws. INI section `<prefix>_renderOpts`. */
+struct RenderOptions : public mrpt::config::CLoadableOptions
+{
+  bool cuboids = true;       //!< Wire frame of the circumscribed cuboid
+  bool ellipsoids = true;    //!< Transparent solid ellipsoid
+  bool labels = true;        //!< Name and id above the object
+  bool unconfirmed = false;  //!< Draw objects that are not confirmed too, in grey
+  double textHeight = 0.08;  //!< Of the labels [m], > 0
+  double opacity = 0.35;     //!< Of the ellipsoids, in [0, 1]
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& source, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& target, const std::string& section) const override;
+  void dumpToTextStream(std::ostream& out) const override;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "quadmap/geometry/ImageBox.h"
+#include "quadmap/maps/MapObject.h"
+#include "quadmap/maps/ObjectView.h"
+#include "quadmap/maps/Visibility.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** What, besides its position, tells whether a box shows an object. */
+struct AgreementOptions
+{
+  double extentShare = 0.3;   //!< Uncertainty of a seen centre, as a share of the half size, >= 0
+  double sizeLogSigma = 0.4;  //!< Of ln(measured size / object's size) [-], > 0
+  double maxSizePenalty = 8;  //!< Bound of the size term's log-likelihood [-], >= 0
+  double imageWeight = 1.5;   //!< Times ln(IoU / 0.5) of the boxes in the image [-], >= 0
+  double minImageIoU = 0.05;  //!< Bound of that term, (0, 1)
+  double labelPenalty = 3;    //!< Log-likelihood lost by labels never taken for each other, >= 0
+  double duplicateIoU = 0.8;  //!< Two boxes of one frame this alike show the same thing, (0, 1]
+};
+
+struct MergeOptions
+{
+  double overlap = 0.4;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
+  double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
+  double labelShare = 0.2;   //!< A label counts with this share of an object's measurements
+};
+
+/** Labels with at least `share` of the object's measurements. */
+std::vector<std::string> frequentLabels(const MapObject& object, double share);
+
+/** Can the label be another name for the object? */
+bool labelFits(
+    const MapObject& object, const std::string& label, const LabelTable& labels, double share);
+
+/** Do two map objects overlap so that they must be one? Two things cannot share their space, but a
+ * cup stands within the cuboid of a table with its chairs: only labels a detector takes for each
+ * other count, unless the cuboids are nearly the same. */
+bool areOneObject(
+    const MapObject& a, const MapObject& b, const LabelTable& labels, const MergeOptions& options);
+
+/** Log-likelihood, beyond the position's, that a measurement shows the object: sizes, box in the
+ * image, label. Bounded on both sides. */
+double agreementLogLikelihood(
+    const ObjectView& view,
+    const ImageBox& box,
+    const MapObject& object,
+    const FrameGeometry& frame,
+    const LabelTable& labels,
+    const AgreementOptions& options);
+
+/** Covariance of where a measurement of the object would put its centre: the object's own plus a
+ * share of its extent [m^2]. */
+Eigen::Matrix3d associationCovariance(const MapObject& object, double extentShare);
+
+}  // namespace quadmap

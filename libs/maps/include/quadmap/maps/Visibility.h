@@ -1,0 +1,54 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+
+#include <optional>
+
+#include "quadmap/geometry/ImageBox.h"
+#include "quadmap/geometry/PinholeCamera.h"
+#include "quadmap/maps/MapObject.h"
+#include "quadmap/obs/CObservationObjects.h"
+
+namespace quadmap
+{
+/** Evidence for and against an object's existence, as log-odds. A detection adds ln(pD/pFA), a
+ * frame that should have shown the object and did not adds ln((1-pD)/(1-pFA)). */
+struct ExistenceOptions
+{
+  double detectionProbability = 0.4;    //!< pD: of a visible object, per frame, in (0, 1)
+  double falseAlarmProbability = 0.08;  //!< pFA: a box where nothing is, in (0, pD)
+  double maxLogOdds = 10;               //!< Bound, so that evidence can turn, > 0
+  double confirmLogOdds = 2;            //!< Reported above this
+  int minComplete = 3;                  //!< Reported with this many complete measurements, >= 1
+  int minPartial = 8;                   //!< ... or with this many measurements of any kind, >= 1
+  double maxCenterSigma = 0.2;          //!< Reported below this uncertainty per axis [m], > 0
+
+  double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
+  double minBoxSize = 30;                 //!< Both sides of the projected box [px]
+  double visibleShare = 0.6;              //!< Share of the projected box inside the image, (0, 1]
+  double occluderMargin = 0.1;            //!< Depth this much nearer than the object hides it [m]
+  double maxHiddenShare = 0.3;            //!< Of the box's cells hidden or without depth, [0, 1]
+};
+
+/** One frame's camera in the map. */
+struct FrameGeometry
+{
+  PinholeCamera camera;
+  mrpt::poses::CPose3D T_map_sensor;
+  const CoarseDepth* depth = nullptr;  //!< May be null or empty: unknown
+
+  /** The object in the camera's optical frame. */
+  Ellipsoid toOptical(const Ellipsoid& object_map) const;
+};
+
+/** Should a detector have been able to see the object in this frame? False when in doubt: nothing
+ * is known of what hides it without depth. */
+bool shouldBeVisible(
+    const Ellipsoid& object, const FrameGeometry& frame, const ExistenceOptions& options);
+
+/** Box of the object's outline in the image: of the cuboid or the ellipsoid, whichever the shape
+ * exponent is nearer to; not clipped. */
+std::optional<ImageBox> projectedBox(
+    const Ellipsoid& object, const FrameGeometry& frame, double shapeExponent);
+
+}  // namespace quadmap

@@ -1,0 +1,138 @@
+#include "quadmap/maps/Association.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "quadmap/maps/Assignment.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+
+/** log N(a - b; 0, S), normalised. */
+double logGaussian(const Eigen::VectorXd& difference, const Eigen::MatrixXd& S)
+{
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  if (llt.info() != Eigen::Success)
+    throw std::invalid_argument("associateFrame: a covariance is not positive definite");
+  const Eigen::VectorXd whitened = llt.matrixL().solve(difference);
+  double halfLogDet = 0;
+  for (Eigen::Index i = 0; i < S.rows(); ++i) halfLogDet += std::log(llt.matrixLLT()(i, i));
+  const double dimension = static_cast<double>(difference.size());
+  return -0.5 * whitened.squaredNorm() - halfLogDet - 0.5 * dimension * std::log(2.0 * M_PI);
+}
+
+double labelCount(const AssociationTarget& target, const std::string& label)
+{
+  for (const auto& [name, count] : target.labelCounts)
+    if (name == label) return count;
+  return 0;
+}
+
+/** log m_i + log (n_iu + beta)/(m_i + U beta) + log N(z; h, S)   (DESIGN section 4) */
+double logJoin(
+    const AssociationCandidate& z, const AssociationTarget& object, const AssociationParameters& p)
+{
+  if (z.position.size() != object.position.size())
+    throw std::invalid_argument("associateFrame: measurement and object differ in dimension");
+  if (object.observations == 0) return kImpossible;
+  const double m = object.observations;
+  const double label = std::log((labelCount(object, z.label) + p.beta) / (m + p.labels * p.beta));
+  return std::log(m) + label +
+         logGaussian(z.position - object.position, z.covariance + object.covariance);
+}
+
+double logSumExp(const Eigen::VectorXd& v)
+{
+  const double top = v.maxCoeff();
+  return std::isfinite(top) ? top + std::log((v.array() - top).exp().sum()) : top;
+}
+
+void requireValid(const AssociationParameters& p)
+{
+  if (!(p.alpha > 0) || !(p.beta > 0) || p.labels == 0 || !(p.newObjectVolume > 0))
+    throw std::invalid_argument("associateFrame: alpha, beta, labels and volume must be > 0");
+}
+
+/** Rows: measurements. Columns: the objects, then "none of them" (a new object, or waiting). */
+Eigen::MatrixXd unnormalisedLogPosterior(
+    const std::vector<AssociationCandidate>& measurements,
+    const std::vector<AssociationTarget>& targets,
+    const AssociationParameters& p,
+    const Eigen::MatrixXd& extra)
+{
+  const auto rows = static_cast<Eigen::Index>(measurements.size());
+  const auto objects = static_cast<Eigen::Index>(targets.size());
+  const bool hasExtra = extra.size() != 0;
+  if (hasExtra && (extra.rows() != rows || extra.cols() != objects))
+    throw std::invalid_argument("associateFrame: extraLogLikelihood has the wrong size");
+
+  Eigen::MatrixXd log(rows, objects + 1);
+  for (Eigen::Index k = 0; k < rows; ++k)
+  {
+    for (Eigen::Index i = 0; i < objects; ++i)
+      log(k, i) = hasExtra && extra(k, i) == kImpossible
+                      ? kImpossible
+                      : logJoin(
+                            measurements[static_cast<std::size_t>(k)],
+                            targets[static_cast<std::size_t>(i)], p) +
+                            (hasExtra ? extra(k, i) : 0.0);
+    log(k, objects) = std::log(p.alpha) - std::log(double(p.labels)) - std::log(p.newObjectVolume);
+  }
+  return log;
+}
+
+/** One private "none" column per row, so that any number of boxes can be new. */
+Eigen::MatrixXd assignmentCost(const Eigen::MatrixXd& logPosterior)
+{
+  const Eigen::Index rows = logPosterior.rows(), objects = logPosterior.cols() - 1;
+  Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(rows, objects + rows, kForbiddenCost);
+  for (Eigen::Index k = 0; k < rows; ++k)
+  {
+    for (Eigen::Index i = 0; i < objects; ++i)
+      cost(k, i) = std::min(-logPosterior(k, i), kForbiddenCost);
+    cost(k, objects + k) = -logPosterior(k, objects);
+  }
+  return cost;
+}
+
+}  // namespace
+
+std::vector<AssociationDecision> associateFrame(
+    const std::vector<AssociationCandidate>& measurements,
+    const std::vector<AssociationTarget>& targets,
+    const AssociationParameters& parameters,
+    const Eigen::MatrixXd& extraLogLikelihood)
+{
+  requireValid(parameters);
+  if (measurements.empty()) return {};
+
+  Eigen::MatrixXd log =
+      unnormalisedLogPosterior(measurements, targets, parameters, extraLogLikelihood);
+  for (Eigen::Index k = 0; k < log.rows(); ++k) log.row(k).array() -= logSumExp(log.row(k));
+
+  const auto columns = optimalAssignment(assignmentCost(log));
+  std::vector<AssociationDecision> decisions;
+  for (std::size_t k = 0; k < measurements.size(); ++k)
+  {
+    AssociationDecision d;
+    d.measurement = k;
+    const bool joins = columns[k] < targets.size();
+    if (joins) d.target = columns[k];
+    d.startsObject = !joins && measurements[k].mayStartObject;
+
+    Eigen::VectorXd row = log.row(static_cast<Eigen::Index>(k));
+    const auto chosen = static_cast<Eigen::Index>(joins ? columns[k] : targets.size());
+    d.logPosterior = row[chosen];
+    row[chosen] = kImpossible;
+    d.logPosteriorSecond = row.maxCoeff();
+    decisions.push_back(d);
+  }
+  return decisions;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,148 @@
+#include "quadmap/maps/CQuadricObjectMap.h"
+
+#include <mrpt/config/CConfigFileBase.h>
+#include <mrpt/core/format.h>
+#include <mrpt/core/initializer.h>
+
+#include <ostream>
+#include <stdexcept>
+
+#include "quadmap/obs/ConfigCheck.h"
+
+// The base class's name must be visible to the macros.
+using mrpt::maps::CMetricMap;
+IMPLEMENTS_SERIALIZABLE(CQuadricObjectMap, CMetricMap, quadmap)
+MAP_DEFINITION_REGISTER("CQuadricObjectMap,quadricObjectMap", quadmap::CQuadricObjectMap)
+
+MRPT_INITIALIZER(registerQuadmapMaps) { quadmap::registerMapClasses(); }
+
+namespace quadmap
+{
+void registerMapClasses()
+{
+  registerObsClasses();
+  mrpt::rtti::registerClass(CLASS_ID(CQuadricObjectMap));
+}
+
+CQuadricObjectMap::CQuadricObjectMap() :
+    labels_(std::make_shared<const LabelTable>(LabelTable::installed()))
+{
+}
+
+// Map definition -----------------------------------------------------------------------------
+
+CQuadricObjectMap::TMapDefinition::TMapDefinition() = default;
+
+void CQuadricObjectMap::TMapDefinition::loadFromConfigFile_map_specific(
+    const mrpt::config::CConfigFileBase& source, const std::string& sectionNamePrefix)
+{
+  const std::string creation = sectionNamePrefix + "_creationOpts";
+  rejectUnknownKeys(
+      source, creation,
+      {"labelTable", "enableSaveAs3DObject", "enableObservationLikelihood",
+       "enableObservationInsertion"});
+  labelTable = source.read_string(creation, "labelTable", labelTable);
+  insertionOpts.loadFromConfigFile(source, sectionNamePrefix + "_insertOpts");
+  likelihoodOpts.loadFromConfigFile(source, sectionNamePrefix + "_likelihoodOpts");
+  renderOpts.loadFromConfigFile(source, sectionNamePrefix + "_renderOpts");
+}
+
+void CQuadricObjectMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
+{
+  out << "labelTable                   = " << (labelTable.empty() ? "(installed)" : labelTable)
+      << "\n";
+  insertionOpts.dumpToTextStream(out);
+  likelihoodOpts.dumpToTextStream(out);
+  renderOpts.dumpToTextStream(out);
+}
+
+mrpt::maps::CMetricMap* CQuadricObjectMap::internal_CreateFromMapDefinition(
+    const mrpt::maps::TMetricMapInitializer& initializer)
+{
+  const auto& definition = dynamic_cast<const TMapDefinition&>(initializer);
+  auto map = std::make_unique<CQuadricObjectMap>();
+  if (!definition.labelTable.empty()) map->setLabels(LabelTable::fromFile(definition.labelTable));
+  map->insertionOptions = definition.insertionOpts;
+  map->likelihoodOptions = definition.likelihoodOpts;
+  map->renderOptions = definition.renderOpts;
+  return map.release();
+}
+
+// State --------------------------------------------------------------------------------------
+
+void CQuadricObjectMap::setLabels(LabelTable labels)
+{
+  labels_ = std::make_shared<const LabelTable>(std::move(labels));
+}
+
+const CQuadricObjectMap::Objects& CQuadricObjectMap::objects() const { return objects_; }
+
+const std::vector<CQuadricObjectMap::Decision>& CQuadricObjectMap::lastDecisions() const
+{
+  return lastDecisions_;
+}
+
+bool CQuadricObjectMap::isEmpty() const { return objects_.empty(); }
+
+void CQuadricObjectMap::internal_clear()
+{
+  objects_.clear();
+  estimators_.clear();
+  nextId_ = 1;
+  waiting_.clear();
+  objectOfInstance_.clear();
+  lastDecisions_.clear();
+}
+
+MapObject& CQuadricObjectMap::require(ObjectId id)
+{
+  const auto it = objects_.find(id);
+  if (it == objects_.end()) throw std::out_of_range(mrpt::format("the map has no object %u", id));
+  return it->second;
+}
+
+// Editing ------------------------------------------------------------------------------------
+
+void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
+{
+  MapObject& a = require(kept);
+  const MapObject b = require(absorbed);
+  if (kept == absorbed)
+    throw std::out_of_range(mrpt::format("object %u cannot be merged with itself", kept));
+
+  estimators_.at(kept).absorb(
+      estimators_.at(absorbed), uprightStateOf(a.object), uprightStateOf(b.object));
+  for (const auto& [label, count] : b.labelCounts) a.labelCounts[label] += count;
+  a.completeCount += b.completeCount;
+  a.partialCount += b.partialCount;
+  a.missCount = std::min(a.missCount, b.missCount);
+  a.existenceLogOdds = std::max(a.existenceLogOdds, b.existenceLogOdds);
+  a.firstSeen = std::min(a.firstSeen, b.firstSeen);
+  a.lastSeen = std::max(a.lastSeen, b.lastSeen);
+  for (auto& [instance, object] : objectOfInstance_)
+    if (object == absorbed) object = kept;
+  for (auto& decision : lastDecisions_)
+    if (decision.object == absorbed) decision.object = kept;
+  objects_.erase(absorbed);
+  estimators_.erase(absorbed);
+  estimate(a, true);
+}
+
+void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
+{
+  MapObject& object = require(id);
+  object.labelCounts = {
+      {labels_->canonical(label), std::max(1u, object.observations())}
+  };
+}
+
+void CQuadricObjectMap::remove(ObjectId id)
+{
+  require(id);
+  objects_.erase(id);
+  estimators_.erase(id);
+  for (auto it = objectOfInstance_.begin(); it != objectOfInstance_.end();)
+    it = it->second == id ? objectOfInstance_.erase(it) : std::next(it);
+}
+
+}  // namespace quadmap

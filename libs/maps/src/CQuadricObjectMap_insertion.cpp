@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "InsertionFrame.h"
+#include "quadmap/geometry/Projection.h"
+
+namespace quadmap
+{
+namespace
+{
+/** Another box of the same frame around nearly the same pixels, which the detector is surer of. */
+bool hasBetterTwin(
+    const std::vector<DetectedObject>& objects, std::size_t k, const AgreementOptions& options)
+{
+  for (std::size_t j = 0; j < objects.size(); ++j)
+  {
+    if (j == k || imageBoxIoU(objects[j].box, objects[k].box) <= options.duplicateIoU) continue;
+    const bool better =
+        objects[j].score > objects[k].score || (objects[j].score == objects[k].score && j < k);
+    if (better) return true;
+  }
+  return false;
+}
+
+AssociationTarget targetOf(const MapObject& object, double extentShare)
+{
+  AssociationTarget t;
+  t.position = object.object.center();
+  t.covariance = associationCovariance(object, extentShare);
+  t.observations = object.observations();
+  t.labelCounts.assign(object.labelCounts.begin(), object.labelCounts.end());
+  return t;
+}
+
+}  // namespace
+
+bool CQuadricObjectMap::internal_insertObservation(
+    const mrpt::obs::CObservation& obs, const std::optional<const mrpt::poses::CPose3D>& robotPose)
+{
+  const auto* objects = dynamic_cast<const CObservationObjects*>(&obs);
+  if (!objects) return false;
+  return insertObjects(*objects, robotPose.value_or(mrpt::poses::CPose3D()));
+}
+
+bool CQuadricObjectMap::insertObjects(
+    const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose)
+{
+  Frame frame = frameOf(obs, robotPose);
+  associate(frame);
+  std::set<ObjectId> touched;
+  joinOrStart(frame, touched);
+  countMisses(frame, touched);
+  for (const ObjectId id : touched) estimate(require(id), false);
+  mergeOverlapping(touched);
+  return !touched.empty();
+}
+
+CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
+    const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const
+{
+  Frame frame;
+  frame.geometry = {pinholeFrom(obs.cameraParams), robotPose + obs.sensorPose, &obs.coarseDepth};
+  frame.time = obs.timestamp;
+  for (std::size_t k = 0; k < obs.objects.size(); ++k)
+  {
+    const DetectedObject& detected = obs.objects[k];
+    frame.allBoxes.push_back(detected.box);
+    if (detected.score < insertionOptions.minScore) continue;
+    if (hasBetterTwin(obs.objects, k, insertionOptions.agreement)) continue;
+    auto view = viewOf(
+        detected, frame.geometry.T_map_sensor,
+        labels_->properties(labels_->canonical(detected.label)), insertionOptions.poseNoise);
+    if (!view) continue;
+    frame.boxes.push_back(k);
+    frame.instances.push_back(detected.instanceId);
+    frame.views.push_back(std::move(*view));
+  }
+  return frame;
+}
+
+void CQuadricObjectMap::associate(Frame& frame) const
+{
+  const auto& options = insertionOptions;
+  std::vector<ObjectId> ids;
+  std::vector<AssociationTarget> targets;
+  for (const auto& [id, object] : objects_)
+  {
+    ids.push_back(id);
+    targets.push_back(targetOf(object, options.agreement.extentShare));
+  }
+  std::vector<AssociationCandidate> candidates;
+  Eigen::MatrixXd extra(frame.views.size(), ids.size());
+  for (std::size_t k = 0; k < frame.views.size(); ++k)
+  {
+    const ObjectView& view = frame.views[k];
+    candidates.push_back({view.center, view.centerCovariance, view.label, view.complete});
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      double& value = extra(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i));
+      value = agreementLogLikelihood(
+          view, frame.allBoxes[frame.boxes[k]], objects_.at(ids[i]), frame.geometry, *labels_,
+          options.agreement);
+      if (!options.useInstanceIds || !frame.instances[k]) continue;
+      const auto known = objectOfInstance_.find(*frame.instances[k]);
+      const bool isIt = known != objectOfInstance_.end() && known->second == ids[i];
+      value = isIt ? 1e6 : -std::numeric_limits<double>::infinity();
+    }
+  }
+  for (const auto& d : associateFrame(candidates, targets, options.association, extra))
+  {
+    Decision decision;
+    decision.box = frame.boxes[d.measurement];
+    if (d.target) decision.object = ids[*d.target];
+    decision.startedObject = d.startsObject;
+    decision.logPosterior = d.logPosterior;
+    decision.logPosteriorSecond = d.logPosteriorSecond;
+    frame.decisions.push_back(decision);
+  }
+}
+
+void CQuadricObjectMap::joinOrStart(const Frame& frame, std::set<ObjectId>& touched)
+{
+  lastDecisions_ = frame.decisions;
+  for (std::size_t k = 0; k < frame.views.size(); ++k)
+  {
+    Decision& decision = lastDecisions_[k];
+    const WaitingList::Entry entry{frame.views[k], frame.time};
+    if (decision.object)
+      addView(require(*decision.object), entry);
+    else if (decision.startedObject)
+      decision.object = startObject({entry});
+    else if (const auto agreeing = waiting_.add(entry, *labels_, insertionOptions.waiting);
+             !agreeing.empty())
+    {
+      decision.object = startObject(agreeing);
+      decision.startedObject = true;
+    }
+    if (!decision.object) continue;
+    touched.insert(*decision.object);
+    if (frame.instances[k]) objectOfInstance_[*frame.instances[k]] = *decision.object;
+  }
+}
+
+ObjectId CQuadricObjectMap::startObject(const std::vector<WaitingList::Entry>& entries)
+{
+  const ObjectId id = nextId_++;
+  MapObject& object = objects_[id];
+  object.id = id;
+  object.firstSeen = entries.front().time;
+  estimators_[id];
+  std::deque<ObjectView> views;
+  for (const auto& entry : entries) views.push_back(entry.view);
+  object.object = ellipsoidOf(*medianState(views, labels_->properties(views.back().label)));
+  for (const auto& entry : entries) addView(object, entry);
+  return id;
+}
+
+void CQuadricObjectMap::addView(MapObject& object, const WaitingList::Entry& entry)
+{
+  const auto& existence = insertionOptions.existence;
+  ++object.labelCounts[entry.view.label];
+  ++(entry.view.complete ? object.completeCount : object.partialCount);
+  object.lastSeen = entry.time;
+  object.existenceLogOdds = std::min(
+      existence.maxLogOdds,
+      object.existenceLogOdds +
+          std::log(existence.detectionProbability / existence.falseAlarmProbability));
+  estimators_.at(object.id).add(
+      entry.view, uprightStateOf(object.object), labels_->properties(object.label()),
+      insertionOptions.estimator);
+}
+
+void CQuadricObjectMap::countMisses(const Frame& frame, const std::set<ObjectId>& touched)
+{
+  const auto& existence = insertionOptions.existence;
+  const double miss =
+      std::log((1 - existence.detectionProbability) / (1 - existence.falseAlarmProbability));
+  for (auto& [id, object] : objects_)
+  {
+    if (touched.count(id) != 0) continue;
+    if (!shouldBeVisible(object.object, frame.geometry, existence)) continue;
+    ++object.missCount;
+    object.existenceLogOdds = std::max(-existence.maxLogOdds, object.existenceLogOdds + miss);
+    object.confirmed = isConfirmed(object);
+  }
+}
+
+void CQuadricObjectMap::estimate(MapObject& object, bool restart)
+{
+  // Few measurements: where the optimiser starts still matters.
+  constexpr unsigned kFewMeasurements = 10;
+  const auto result = estimators_.at(object.id).estimate(
+      uprightStateOf(object.object), labels_->properties(object.label()),
+      insertionOptions.estimator, restart || object.observations() < kFewMeasurements);
+  object.object = ellipsoidOf(result.state);
+  object.covariance = result.covariance;
+  object.orientationDefined = result.orientationDefined;
+  object.confirmed = isConfirmed(object);
+}
+
+bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
+{
+  const auto& existence = insertionOptions.existence;
+  const bool seenEnough = object.completeCount >= static_cast<unsigned>(existence.minComplete) ||
+                          object.observations() >= static_cast<unsigned>(existence.minPartial);
+  const double sigma = std::sqrt(object.covariance.diagonal().head<3>().maxCoeff());
+  return object.existenceLogOdds > existence.confirmLogOdds && seenEnough &&
+         sigma < existence.maxCenterSigma;
+}
+
+void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)
+{
+  while (!touched.empty())
+  {
+    const ObjectId id = *touched.begin();
+    touched.erase(touched.begin());
+    const MapObject& object = objects_.at(id);
+    const auto twin = std::find_if(
+        objects_.begin(), objects_.end(),
+        [&](const auto& other)
+        {
+          return other.first != id &&
+                 areOneObject(object, other.second, *labels_, insertionOptions.merging);
+        });
+    if (twin == objects_.end()) continue;
+    const bool keepsThis =
+        object.observations() > twin->second.observations() ||
+        (object.observations() == twin->second.observations() && id < twin->first);
+    const ObjectId kept = keepsThis ? id : twin->first;
+    const ObjectId absorbed = keepsThis ? twin->first : id;
+    merge(kept, absorbed);
+    touched.erase(absorbed);
+    touched.insert(kept);  // it may have grown into another one
+  }
+}
+
+void CQuadricObjectMap::consolidate()
+{
+  std::set<ObjectId> all;
+  for (auto& [id, object] : objects_)
+  {
+    estimate(object, true);
+    all.insert(id);
+  }
+  mergeOverlapping(all);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/geometry/RotationDistance.h"
+#include "quadmap/maps/ObjectEstimator.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kMinHalfSize = 0.005;  // [m]
+
+/** Mean direction of angles that mean the same every 90 degrees. */
+double commonYaw(const std::deque<ObjectView>& views)
+{
+  double c = 0, s = 0;
+  bool anyDefined = false;
+  for (const auto& v : views) anyDefined = anyDefined || (v.complete && v.yawDefined);
+  for (const auto& v : views)
+  {
+    if (!v.complete || (anyDefined && !v.yawDefined)) continue;
+    const double weight = v.yawDefined ? 1.0 / (v.yawSigma * v.yawSigma + 1e-4) : 1.0;
+    c += weight * std::cos(4 * v.yaw);
+    s += weight * std::sin(4 * v.yaw);
+  }
+  return std::atan2(s, c) / 4;
+}
+
+/** Positions of one side along its outward normal: all measured ones, and the lower bounds. */
+struct Side
+{
+  std::vector<double> measured, atLeast;
+
+  double position() const { return measured.empty() ? quantile(atLeast, 0.8) : median(measured); }
+};
+
+std::array<Side, kFaces> collectSides(const std::deque<ObjectView>& views, double yaw)
+{
+  std::array<Side, kFaces> sides;
+  for (const auto& v : views)
+  {
+    if (!v.complete) continue;
+    // The measured face f is side `turned` of a cuboid at `yaw`.
+    const int quarter =
+        static_cast<int>(std::lround((v.yaw - nearestEquivalentYaw(v.yaw, yaw)) / (M_PI / 2)));
+    static constexpr std::array<std::size_t, 4> kAround{0, 2, 1, 3};  // +x, +y, -x, -y
+    for (std::size_t f = 0; f < kFaces; ++f)
+    {
+      std::size_t turned = f;
+      if (f < 4)
+      {
+        const auto at = std::find(kAround.begin(), kAround.end(), f) - kAround.begin();
+        turned = kAround[static_cast<std::size_t>(((at + quarter) % 4 + 4) % 4)];
+      }
+      if (isEquality(v.faces[f].kind))
+        sides[turned].measured.push_back(v.faceOffset(f));
+      else
+        sides[turned].atLeast.push_back(v.faceOffset(f));
+    }
+  }
+  return sides;
+}
+
+UprightState medianOfPartial(const std::deque<ObjectView>& views, const LabelProperties& label)
+{
+  UprightState x = UprightState::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i)
+  {
+    std::vector<double> values;
+    for (const auto& v : views) values.push_back(v.center[i]);
+    x[i] = median(values);
+  }
+  x.tail<3>() = (0.5 * label.typicalSize).array().log();
+  return x;
+}
+
+}  // namespace
+
+std::optional<UprightState> medianState(
+    const std::deque<ObjectView>& views, const LabelProperties& label)
+{
+  if (views.empty()) return {};
+  if (std::none_of(views.begin(), views.end(), [](const auto& v) { return v.complete; }))
+    return medianOfPartial(views, label);
+
+  UprightState x = UprightState::Zero();
+  x[3] = commonYaw(views);
+  const auto sides = collectSides(views, x[3]);
+  ObjectView frame;  // for its face normals at the common yaw
+  frame.yaw = x[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double plus = sides[2 * axis].position(), minus = sides[2 * axis + 1].position();
+    x.head<3>() += 0.5 * (plus - minus) * frame.faceNormal(2 * axis);
+    x[4 + static_cast<Eigen::Index>(axis)] = std::log(std::max(0.5 * (plus + minus), kMinHalfSize));
+  }
+  return x;
+}
+
+}  // namespace quadmap

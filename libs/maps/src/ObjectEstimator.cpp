@@ -1,0 +1,239 @@
+#include "quadmap/maps/ObjectEstimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "quadmap/geometry/RotationDistance.h"
+
+namespace quadmap
+{
+namespace
+{
+/** What is known of an undefined yaw: it is somewhere within 45 degrees [rad]. */
+constexpr double kFreeYawSigma = M_PI / 4;
+/** Share of the complete measurements that must show a direction. */
+constexpr double kYawShare = 0.25;
+
+/** Weak knowledge that does not depend on measurements: the label's sizes, roundness. */
+void addLabelPrior(
+    const UprightState& x,
+    const LabelProperties& label,
+    const EstimatorOptions& options,
+    NormalEquations& eq)
+{
+  const Eigen::Vector3d typical = (0.5 * label.typicalSize).array().log();
+  const bool swap = (x[4] - x[5]) * (typical[0] - typical[1]) < 0;  // x and y are unordered
+  const Eigen::Vector3d expected =
+      swap ? Eigen::Vector3d(typical[1], typical[0], typical[2]) : typical;
+  const double spread = label.sizeSpread * options.sizePriorSpread;
+  for (Eigen::Index i = 0; i < 3; ++i)
+  {
+    UprightState J = UprightState::Zero();
+    J[4 + i] = 1.0 / spread;
+    eq.add((x[4 + i] - expected[i]) / spread, J, options.huber);
+  }
+  if (label.dominantDirection) return;
+  UprightState J = UprightState::Zero();
+  J[4] = 1.0 / options.roundnessSigma;
+  J[5] = -1.0 / options.roundnessSigma;
+  eq.add((x[4] - x[5]) / options.roundnessSigma, J, options.huber);
+}
+
+void addPrior(const InformationPrior& prior, const UprightState& x, NormalEquations& eq)
+{
+  eq.H += prior.L;
+  eq.g += prior.L * x - prior.xi;
+  eq.cost += 0.5 * x.dot(prior.L * x) - prior.xi.dot(x);
+}
+
+/** The measured part only: views with their weights, and the folded ones. */
+NormalEquations evidence(
+    const std::deque<ObjectView>& views,
+    const std::vector<double>& weights,
+    const InformationPrior& prior,
+    const UprightState& x,
+    double shapeExponent,
+    const EstimatorOptions& options)
+{
+  NormalEquations eq;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    addViewResiduals(views[i], x, shapeExponent, options, weights[i], eq);
+  if (!prior.empty()) addPrior(prior, x, eq);
+  return eq;
+}
+
+std::vector<double> weightsAt(const std::deque<ObjectView>& views, const UprightState& reference)
+{
+  std::vector<double> weights;
+  // A consensus needs a majority.
+  for (const auto& v : views) weights.push_back(views.size() < 3 ? 1.0 : viewWeight(v, reference));
+  return weights;
+}
+
+/** Steps stay where the linearisation means something. */
+UprightState limited(UprightState step)
+{
+  constexpr double kMaxMove = 0.5, kMaxTurn = 0.35, kMaxScale = 0.5;  // [m], [rad], [-]
+  const double factor = std::max(
+      {1.0, step.head<3>().norm() / kMaxMove, std::abs(step[3]) / kMaxTurn,
+       step.tail<3>().cwiseAbs().maxCoeff() / kMaxScale});
+  return step / factor;
+}
+
+/** Levenberg-Marquardt. \return The minimum's normal equations; `x` becomes the minimum. */
+template <typename Linearise>
+NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIterations)
+{
+  constexpr double kSmallStep = 1e-5;
+  NormalEquations eq = linearise(x);
+  double lambda = 1e-4;
+  for (int iteration = 0; iteration < maxIterations; ++iteration)
+  {
+    UprightCovariance damped = eq.H;
+    damped.diagonal() += lambda * eq.H.diagonal() + UprightState::Constant(1e-9);
+    const UprightState step = limited(-damped.ldlt().solve(eq.g));
+    if (!step.allFinite()) break;
+    const UprightState candidate = x + step;
+    const NormalEquations there = linearise(candidate);
+    if (there.cost <= eq.cost)
+    {
+      x = candidate;
+      eq = there;
+      lambda = std::max(lambda * 0.2, 1e-9);
+    }
+    else
+      lambda *= 10;
+    if (step.cwiseAbs().maxCoeff() < kSmallStep || lambda > 1e6) break;
+  }
+  return eq;
+}
+
+/** x -> P x + c: the same object with its axes renamed by a quarter turn, k times. */
+struct AxisRenaming
+{
+  UprightCovariance P = UprightCovariance::Identity();
+  UprightState c = UprightState::Zero();
+};
+
+AxisRenaming renaming(const UprightState& from, const UprightState& to)
+{
+  AxisRenaming r;
+  const double yaw = nearestEquivalentYaw(from[3], to[3]);
+  r.c[3] = yaw - from[3];
+  if (std::lround(r.c[3] / (M_PI / 2)) % 2 != 0)
+  {
+    r.P(4, 4) = r.P(5, 5) = 0;
+    r.P(4, 5) = r.P(5, 4) = 1;
+  }
+  return r;
+}
+
+}  // namespace
+
+void ObjectEstimator::add(
+    ObjectView view,
+    const UprightState& current,
+    const LabelProperties& label,
+    const EstimatorOptions& options)
+{
+  views_.push_back(std::move(view));
+  while (views_.size() > static_cast<std::size_t>(options.maxMeasurements))
+  {
+    const ObjectView& oldest = views_.front();
+    NormalEquations eq;
+    addViewResiduals(
+        oldest, current, label.shapeExponent, options, viewWeight(oldest, current), eq);
+    prior_.L += eq.H;
+    prior_.xi += eq.H * current - eq.g;
+    prior_.complete += oldest.complete ? 1 : 0;
+    prior_.yawDefined += oldest.complete && oldest.yawDefined ? 1 : 0;
+    views_.pop_front();
+  }
+}
+
+ObjectEstimator::Estimate ObjectEstimator::estimate(
+    const std::optional<UprightState>& start,
+    const LabelProperties& label,
+    const EstimatorOptions& options,
+    bool restart) const
+{
+  const auto medians = medianState(views_, label);
+  if (!start && !medians) throw std::logic_error("ObjectEstimator: nothing to estimate from");
+  // With folded measurements the medians of the rest are not a consensus of all.
+  const UprightState reference = medians && prior_.empty() ? *medians : start.value_or(*medians);
+  const auto weights = weightsAt(views_, reference);
+  const auto linearise = [&](const UprightState& x)
+  {
+    NormalEquations eq = evidence(views_, weights, prior_, x, label.shapeExponent, options);
+    addLabelPrior(x, label, options, eq);
+    return eq;
+  };
+
+  UprightState x = start.value_or(reference);
+  NormalEquations best = minimise(linearise, x, options.maxIterations);
+  if (restart && start && medians)
+  {
+    UprightState other = *medians;
+    other[3] = nearestEquivalentYaw(other[3], x[3], 2 * M_PI);
+    const NormalEquations there = minimise(linearise, other, options.maxIterations);
+    if (there.cost < best.cost)
+    {
+      best = there;
+      x = other;
+    }
+  }
+
+  Estimate e;
+  e.state = x;
+  e.cost = best.cost;
+  UprightCovariance information = best.H;
+  information(3, 3) += 1.0 / (kFreeYawSigma * kFreeYawSigma);
+  e.covariance = information.ldlt().solve(UprightCovariance::Identity());
+  double complete = prior_.complete, defined = prior_.yawDefined;
+  for (const auto& v : views_)
+  {
+    complete += v.complete ? 1 : 0;
+    defined += v.complete && v.yawDefined ? 1 : 0;
+  }
+  e.orientationDefined = label.dominantDirection && defined > 0 && defined >= kYawShare * complete;
+  return e;
+}
+
+void ObjectEstimator::absorb(
+    const ObjectEstimator& other, const UprightState& here, const UprightState& there)
+{
+  views_.insert(views_.begin(), other.views_.begin(), other.views_.end());
+  const AxisRenaming r = renaming(there, here);
+  const UprightCovariance L = r.P * other.prior_.L * r.P.transpose();
+  prior_.L += L;
+  prior_.xi += r.P * other.prior_.xi + L * r.c;
+  prior_.complete += other.prior_.complete;
+  prior_.yawDefined += other.prior_.yawDefined;
+}
+
+InformationPrior ObjectEstimator::summary(
+    const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
+{
+  const NormalEquations eq =
+      evidence(views_, weightsAt(views_, at), prior_, at, label.shapeExponent, options);
+  InformationPrior all = prior_;
+  all.L = eq.H;
+  all.xi = eq.H * at - eq.g;
+  for (const auto& v : views_)
+  {
+    all.complete += v.complete ? 1 : 0;
+    all.yawDefined += v.complete && v.yawDefined ? 1 : 0;
+  }
+  return all;
+}
+
+ObjectEstimator ObjectEstimator::fromSummary(const InformationPrior& prior)
+{
+  ObjectEstimator e;
+  e.prior_ = prior;
+  return e;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,157 @@
+#include "quadmap/maps/ObjectView.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadmap
+{
+namespace
+{
+/** A cuboid leaning more than this is not an upright object: only its box edges are used. */
+constexpr double kMaxTilt = 20.0 * M_PI / 180.0;
+/** How far the unseen end of an axis may lie beyond what was seen, as a share of that size. */
+constexpr double kUnseenShare = 0.35;
+/** Smallest believable standard deviation of a face [m]. */
+constexpr double kMinFaceSigma = 0.003;
+/** Where an object without any depth is looked for: range and its standard deviation [m]. */
+constexpr double kBlindRange = 2.5, kBlindRangeSigma = 1.2;
+
+Eigen::Vector3d composed(const mrpt::poses::CPose3D& T, const Eigen::Vector3d& p)
+{
+  Eigen::Vector3d out;
+  T.composePoint(p.x(), p.y(), p.z(), out.x(), out.y(), out.z());
+  return out;
+}
+
+/** Turns the measured cuboid upright about its centre. */
+bool setCuboid(
+    const CompleteMeasurement& m,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    const PoseNoise& noise,
+    ObjectView& view)
+{
+  const Ellipsoid object = m.object_sensor.transformed(T_map_sensor);
+  const Eigen::Matrix3d R = object.rotation();
+  if (R(2, 2) < std::cos(kMaxTilt)) return false;
+
+  view.complete = true;
+  view.center = object.center();
+  view.halfSizes = object.semiAxes();
+  view.yaw = std::atan2(R(1, 0), R(0, 0));
+  view.yawDefined = m.yawDefined;
+  view.yawSigma = std::hypot(m.yawSigma, noise.angle);
+  const double range = (view.center - view.camera).norm();
+  const double poseSigma = std::hypot(noise.position, range * noise.angle);
+  view.faces = m.faces;
+  for (auto& face : view.faces)
+    face.sigma = std::hypot(std::max(face.sigma, kMinFaceSigma), poseSigma);
+  return true;
+}
+
+/** Of the cuboid's centre: half the sum of two opposite faces; unseen faces may lie further out. */
+Eigen::Matrix3d cuboidCenterCovariance(const ObjectView& view)
+{
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double variance = 0;
+    for (std::size_t f = 2 * axis; f < 2 * axis + 2; ++f)
+    {
+      const double unseen =
+          isEquality(view.faces[f].kind)
+              ? 0.0
+              : kUnseenShare * 2 * view.halfSizes[static_cast<Eigen::Index>(axis)];
+      variance += 0.25 * (view.faces[f].sigma * view.faces[f].sigma + unseen * unseen);
+    }
+    const Eigen::Vector3d n = view.faceNormal(2 * axis);
+    S += variance * n * n.transpose();
+  }
+  return S;
+}
+
+/** Position of a partial measurement: the seed, pushed inwards by half the typical depth; without
+ * a seed somewhere along the ray through the box. */
+void setPartialPosition(
+    const DetectedObject& detected,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    const LabelProperties& properties,
+    ObjectView& view)
+{
+  const Eigen::Vector3d size = properties.typicalSize;
+  const double depth = 0.5 * (size.x() + size.y());
+  view.halfSizes = 0.5 * size;
+
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  double alongRay = 0;
+  if (const auto& seed = detected.measurement.seed_sensor; seed)
+  {
+    const Eigen::Vector3d onSurface = composed(T_map_sensor, *seed);
+    direction = (onSurface - view.camera).normalized();
+    view.center = onSurface + 0.5 * depth * direction;
+    alongRay = 0.05 + 0.35 * depth;
+  }
+  else
+  {
+    for (const auto& edge : view.edges) direction += edge.plane.n;  // all four: forwards
+    direction.normalize();
+    view.center = view.camera + kBlindRange * direction;
+    alongRay = kBlindRangeSigma;
+  }
+  const double acrossRay = 0.05 + 0.25 * size.mean();
+  view.centerCovariance =
+      acrossRay * acrossRay * Eigen::Matrix3d::Identity() +
+      (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();
+}
+
+}  // namespace
+
+Eigen::Vector3d ObjectView::faceNormal(std::size_t face) const
+{
+  const double sign = face % 2 == 0 ? 1.0 : -1.0;
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  if (face < 2) return {sign * c, sign * s, 0};
+  if (face < 4) return {-sign * s, sign * c, 0};
+  return {0, 0, sign};
+}
+
+double ObjectView::faceOffset(std::size_t face) const
+{
+  return faceNormal(face).dot(center) + halfSizes[static_cast<Eigen::Index>(face / 2)];
+}
+
+bool ObjectView::axisKnown(std::size_t axis) const
+{
+  return isEquality(faces[2 * axis].kind) && isEquality(faces[2 * axis + 1].kind);
+}
+
+std::optional<ObjectView> viewOf(
+    const DetectedObject& detected,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    const LabelProperties& properties,
+    const PoseNoise& noise)
+{
+  const ObjectMeasurement& m = detected.measurement;
+  if (m.kind != MeasurementKind::Complete && m.kind != MeasurementKind::Partial) return {};
+
+  ObjectView view;
+  view.label = properties.name;
+  view.camera = composed(T_map_sensor, Eigen::Vector3d::Zero());
+  view.positionSigma = noise.position;
+  if (m.edges)
+    for (const auto& edge : *m.edges)
+      if (edge.state == EdgeState::Usable)
+        view.edges.push_back(
+            {edge.plane_sensor.transformed(T_map_sensor),
+             std::hypot(edge.sigmaAngle, noise.angle)});
+
+  if (m.kind == MeasurementKind::Complete && m.complete &&
+      setCuboid(*m.complete, T_map_sensor, noise, view))
+    view.centerCovariance = cuboidCenterCovariance(view);
+  else if (m.seed_sensor || view.edges.size() == 4)
+    setPartialPosition(detected, T_map_sensor, properties, view);
+  else
+    return {};
+  return view;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,52 @@
+#include "quadmap/maps/WaitingList.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadmap
+{
+namespace
+{
+/** Largest angle between the rays from the cameras to their common centre [rad]. */
+double parallax(const std::vector<WaitingList::Entry>& entries)
+{
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const auto& e : entries) center += e.view.center / static_cast<double>(entries.size());
+  double smallestCosine = 1;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      const Eigen::Vector3d a = (center - entries[i].view.camera).normalized();
+      const Eigen::Vector3d b = (center - entries[j].view.camera).normalized();
+      smallestCosine = std::min(smallestCosine, a.dot(b));
+    }
+  return std::acos(std::clamp(smallestCosine, -1.0, 1.0));
+}
+
+}  // namespace
+
+std::vector<WaitingList::Entry> WaitingList::add(
+    Entry entry, const LabelTable& labels, const WaitingOptions& options)
+{
+  const double gate = 0.1 + options.gateShare * 2.0 * entry.view.halfSizes.mean();
+  const auto agrees = [&](const Entry& other)
+  {
+    return labels.compatible(other.view.label, entry.view.label) &&
+           (other.view.center - entry.view.center).norm() <= gate;
+  };
+  std::vector<Entry> group;
+  std::copy_if(entries_.begin(), entries_.end(), std::back_inserter(group), agrees);
+  group.push_back(entry);
+
+  if (group.size() >= static_cast<std::size_t>(options.minViews) &&
+      parallax(group) >= options.minParallax)
+  {
+    entries_.erase(std::remove_if(entries_.begin(), entries_.end(), agrees), entries_.end());
+    return group;
+  }
+  entries_.push_back(std::move(entry));
+  while (entries_.size() > static_cast<std::size_t>(options.capacity)) entries_.pop_front();
+  return {};
+}
+
+}  // namespace quadmap
