@@ -1,0 +1,150 @@
+#include <mrpt/system/progress.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include "../common/CommandLine.h"
+#include "quadmap/slam/RawlogRun.h"
+
+namespace
+{
+using namespace quadmap;
+
+constexpr int kInterruptedStatus = 128 + SIGINT;  //!< What a shell reports for Ctrl-C
+
+volatile std::sig_atomic_t stopRequested = 0;
+
+/** Ctrl-C ends the run after the current frame; a second one ends the program at once. */
+void requestStop(int signal)
+{
+  stopRequested = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+/** The arguments of the program. */
+struct Cli
+{
+  cli::CommandLine line{
+      "quadmap-slam",
+      "Makes the trajectory and the object map of an RGB-D rawlog. Boxes come from the rawlog or "
+      "from NAME.objects.rawlog beside it. Ctrl-C stops early: the files then hold what was done, "
+      "and the exit status is 130.",
+      QUADMAP_VERSION};
+  std::vector<std::string> methodNames{"rgbd", "odometry"};
+  std::vector<std::string> sourceNames{"auto", "rawlog", "ground-truth"};
+  TCLAP::ValuesConstraint<std::string> methods{methodNames}, sources{sourceNames};
+  TCLAP::UnlabeledValueArg<std::string> rawlog{
+      "rawlog", "The recording, in either format of MRPT.", true, "", "IN.rawlog", line.args()};
+  TCLAP::ValueArg<std::string> output{
+      "o", "output", "Folder for the results; made when missing.", true, "", "OUTDIR", line.args()};
+  TCLAP::ValueArg<std::string> config{
+      "c",        "config",   "Options; share/quadmap/quadmap.ini lists them all.", false, "",
+      "FILE.ini", line.args()};
+  TCLAP::ValueArg<std::string> method{
+      "",         "method", "rgbd: objects from boxes and depth; odometry: the trajectory alone.",
+      false,      "rgbd",   &methods,
+      line.args()};
+  TCLAP::ValueArg<std::string> odometry{
+      "",
+      "odometry",
+      "Where poses come from; auto: from the rawlog's odometry, none needed for a single image.",
+      false,
+      "auto",
+      &sources,
+      line.args()};
+  TCLAP::ValueArg<std::string> objects{
+      "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
+  TCLAP::ValueArg<std::string> sensor{"",      "sensor",   "Use only this RGB-D sensor.", false, "",
+                                      "LABEL", line.args()};
+  TCLAP::SwitchArg keepGoing{
+      "", "keep-going", "Leave out broken records and say so, instead of failing.", line.args()};
+  TCLAP::ValueArg<int> every{
+      "",  "every",    "Every n-th frame of a sensor is a keyframe (default: by motion).", false, 0,
+      "N", line.args()};
+};
+
+SlamConfiguration configurationOf(Cli& cli)
+{
+  SlamConfiguration configuration;
+  if (cli.config.isSet()) configuration = SlamConfiguration::fromFile(cli.config.getValue());
+  if (cli.method.isSet()) configuration.slam.method = slamMethodFrom(cli.method.getValue());
+  if (cli.odometry.isSet()) configuration.slam.odometry = poseSourceFrom(cli.odometry.getValue());
+  if (cli.every.isSet())
+  {
+    if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be 1 or more");
+    configuration.keyframes.every = cli.every.getValue();
+  }
+  return configuration;
+}
+
+/** A bar on a terminal, nothing elsewhere. */
+void showProgress(double share)
+{
+  static int shownPercent = -1;
+  const int percent = static_cast<int>(100 * share);
+  if (percent == shownPercent || !isatty(STDERR_FILENO)) return;
+  shownPercent = percent;
+  std::cerr << "\r" << mrpt::system::progress(share, 40) << (percent >= 100 ? "\n" : "")
+            << std::flush;
+}
+
+void printObjects(const std::vector<ObjectRecord>& objects)
+{
+  std::printf("%5s  %-16s %24s %21s %6s\n", "id", "label", "centre [m]", "size [m]", "seen");
+  for (const auto& o : objects)
+  {
+    const Eigen::Vector3d p = o.object.center(), size = 2 * o.object.semiAxes();
+    std::printf(
+        "%5s  %-16s %8.3f%8.3f%8.3f %7.3f%7.3f%7.3f %6u\n", o.id.c_str(), o.label.c_str(), p.x(),
+        p.y(), p.z(), size.x(), size.y(), size.z(), o.observations.value_or(0));
+  }
+}
+
+void printSummary(const RawlogRunSummary& summary)
+{
+  const auto& counts = summary.result.counts;
+  printObjects(summary.result.map.toRecords());
+  std::printf(
+      "%zu frames, %zu keyframes, %zu boxes, %zu objects\n", counts.frames,
+      summary.result.keyframes.size(), counts.boxes, summary.result.map.confirmedObjects().size());
+  for (const auto& file : summary.files) std::printf("wrote %s\n", file.c_str());
+}
+
+int run(Cli& cli)
+{
+  RawlogRunRequest request;
+  request.rawlog = cli.rawlog.getValue();
+  request.outputDirectory = cli.output.getValue();
+  request.objectsFile = cli.objects.getValue();
+  request.sensorLabel = cli.sensor.getValue();
+  request.keepGoing = cli.keepGoing.getValue();
+  request.configuration = configurationOf(cli);
+  request.version = QUADMAP_VERSION;
+  request.verbosity = cli.line.verbosity();
+  request.onProgress = showProgress;
+  request.shouldStop = [] { return stopRequested != 0; };
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+
+  const RawlogRunSummary summary = runOnRawlog(request);
+  printSummary(summary);
+  for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
+  if (!summary.interrupted) return 0;
+  std::cerr << "quadmap-slam: interrupted, the files hold what was done\n";
+  return kInterruptedStatus;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return cli::runMain(
+      "quadmap-slam",
+      [&]
+      {
+        Cli cli;
+        return cli.line.parse(argc, argv) ? run(cli) : 0;
+      });
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace quadmap
+{
+/** CPU time of the parts of a program, all threads together. */
+class ModuleTimes
+{
+ public:
+  /** Measures from its construction to its end. */
+  class Scope
+  {
+   public:
+    Scope(ModuleTimes& times, const std::string& module);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    std::vector<float>& samples_ms_;
+    double start_ms_;
+  };
+  Scope measure(const std::string& module) { return Scope(*this, module); }
+
+  struct Summary
+  {
+    std::size_t calls = 0;
+    double mean_ms = 0, p95_ms = 0, total_s = 0;
+  };
+  std::map<std::string, Summary> summaries() const;
+
+ private:
+  std::map<std::string, std::vector<float>> samplesByModule_ms_;
+};
+
+double processCpuTime();  //!< Of this process so far [s]
+double peakMemory_mb();   //!< Largest resident memory of this process so far [MB]; 0 if unknown
+
+}  // namespace quadmap

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <mrpt/system/COutputLogger.h>
+
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/FramePerception.h"
+#include "quadmap/sensors/RgbdFrame.h"
+#include "quadmap/slam/KeyframeSelector.h"
+#include "quadmap/slam/KeyframeSpool.h"
+#include "quadmap/slam/ModuleTimes.h"
+#include "quadmap/slam/OdometryInput.h"
+#include "quadmap/slam/SlamConfiguration.h"
+#include "quadmap/slam/SlamResult.h"
+
+namespace quadmap
+{
+/** Something is wrong with this one frame; the next ones may be fine. */
+struct BadFrame : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/** RGB-D frames with boxes in, trajectory and object map out: the pose of each frame is taken as
+ * given, keyframes are measured, and their measurements go into the map. */
+class ObjectSlam : public mrpt::system::COutputLogger
+{
+ public:
+  /** \param spool Takes the images; must outlive this object. */
+  ObjectSlam(
+      const SlamConfiguration& configuration, const LabelTable& labels, KeyframeSpool& spool);
+
+  /** \return True when the frame became a keyframe.
+   *  \exception BadFrame The frame is unusable and was left out. */
+  bool addFrame(const RgbdFrame& frame);
+
+  /** After the last frame: settles the map.
+   *  \exception std::runtime_error If there were frames, but none had a pose. */
+  void finish();
+
+  const SlamResult& result() const { return result_; }
+  ModuleTimes& times() { return times_; }
+
+  /** Logs a warning and keeps it for the report. */
+  void warn(const std::string& text);
+
+ private:
+  bool addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_map_robot);
+  void measureBoxes(
+      const RgbdFrame& frame, CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_sensor);
+  void insertIntoMap(const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot);
+  void count(const CObservationObjects& boxes);
+  void warnOfUnknownLabels(const CObservationObjects& boxes);
+
+  SlamConfiguration configuration_;
+  LabelTable labels_;
+  KeyframeSpool& spool_;
+  FramePerception perception_;
+  KeyframeSelector selector_;
+  OdometryInput odometry_;
+  SlamResult result_;
+  ModuleTimes times_;
+  std::optional<RgbdFrame> firstWithoutPose_;  //!< While no frame had a pose
+  std::set<std::string> unknownLabels_;
+};
+
+}  // namespace quadmap

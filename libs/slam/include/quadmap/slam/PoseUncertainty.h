@@ -1,0 +1,53 @@
+#pragma once
+
+#include <mrpt/config/CLoadableOptions.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <optional>
+#include <string>
+
+#include "quadmap/slam/SlamOptions.h"
+
+namespace quadmap
+{
+/** How much given poses are trusted. Section [poses] of the configuration. A step of odometry over
+ * d metres and a radians has the standard deviations
+ *   position  sigmaPosition + sigmaPositionPerMetre * d
+ *   angles    sigmaAngle + sigmaAnglePerRadian * a + sigmaAnglePerMetre * d */
+struct PoseUncertaintyOptions : public mrpt::config::CLoadableOptions
+{
+  double sigmaPosition = 0.005;         //!< [m], > 0
+  double sigmaAngle = 0.00524;          //!< [rad], > 0; INI `sigmaAngle_deg`
+  double sigmaPositionPerMetre = 0.02;  //!< [m/m], >= 0
+  double sigmaAnglePerRadian = 0.02;    //!< [rad/rad], >= 0
+  double sigmaAnglePerMetre = 0.01;     //!< [rad/m], >= 0
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+};
+
+/** The relative pose T_from_to between two given poses, with the covariance of the step. */
+mrpt::poses::CPose3DPDFGaussian odometryStep(
+    const PoseUncertaintyOptions& options,
+    const mrpt::poses::CPose3D& T_map_from,
+    const mrpt::poses::CPose3D& T_map_to);
+
+/** Gives the poses of a trajectory, one after the other, their covariance. */
+class PoseCovarianceChain
+{
+ public:
+  /** With odometry errors add up from the first pose, which is exact because it defines the map;
+   *  ground truth poses are all equally good. */
+  PoseCovarianceChain(const PoseUncertaintyOptions& options, PoseSource source);
+
+  mrpt::poses::CPose3DPDFGaussian next(const mrpt::poses::CPose3D& T_map_robot);
+
+ private:
+  PoseUncertaintyOptions options_;
+  PoseSource source_;
+  std::optional<mrpt::poses::CPose3DPDFGaussian> last_;
+};
+
+}  // namespace quadmap

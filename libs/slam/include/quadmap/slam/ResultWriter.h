@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/slam/KeyframeSpool.h"
+#include "quadmap/slam/ModuleTimes.h"
+#include "quadmap/slam/SlamConfiguration.h"
+#include "quadmap/slam/SlamResult.h"
+
+namespace quadmap
+{
+/** What the report says about the input. */
+struct InputDescription
+{
+  std::string file, objectsFile, sensorLabel;
+  std::size_t records = 0;  //!< Read
+  std::string odometryKind;
+  bool interrupted = false;
+  std::vector<InputProblem> problems;
+};
+
+/** All that the files of the output directory are made from. */
+struct RunRecord
+{
+  std::string version;
+  const InputDescription& input;
+  const SlamConfiguration& configuration;
+  const SlamResult& result;
+  const KeyframeSpool& spool;
+  ModuleTimes& times;
+};
+
+/** Writes the output directory's files (doc/formats.md), each complete or not at all.
+ * \return Their paths. \exception std::runtime_error If one cannot be written. */
+std::vector<std::string> writeResult(const std::string& directory, const RunRecord& run);
+
+/** report.json. Everything that differs between two runs on the same input is under "timing". */
+void writeReport(const std::string& path, const RunRecord& run);
+
+}  // namespace quadmap

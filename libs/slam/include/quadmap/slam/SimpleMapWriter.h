@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "quadmap/slam/KeyframeSpool.h"
+#include "quadmap/slam/PoseUncertainty.h"
+#include "quadmap/slam/SlamResult.h"
+
+namespace quadmap
+{
+/** What a keyframe of a .simplemap contains. */
+enum class SimpleMapContent
+{
+  Scans,   //!< The range scans, stock classes only: every MRPT program reads it
+  Objects  //!< CObservationObjects
+};
+
+/** Writes an mrpt::maps::CSimpleMap with the poses of the result and the observations of the spool,
+ * keyframe by keyframe: it is never in memory as a whole.
+ * \exception std::runtime_error If the file cannot be written. */
+void writeSimpleMap(
+    const std::string& path,
+    const std::vector<Keyframe>& keyframes,
+    const KeyframeSpool& spool,
+    SimpleMapContent content,
+    PoseCovarianceChain covariances);
+
+}  // namespace quadmap

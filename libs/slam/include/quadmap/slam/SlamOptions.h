@@ -1,0 +1,57 @@
+#pragma once
+
+#include <mrpt/config/CLoadableOptions.h>
+
+#include <string>
+
+namespace quadmap
+{
+/** What the program makes of the input. */
+enum class SlamMethod
+{
+  Rgbd,     //!< Complete and partial measurements from colour boxes and depth
+  Odometry  //!< No objects: the trajectory alone
+};
+
+/** Where the poses of the frames come from. */
+enum class PoseSource
+{
+  Auto,        //!< The rawlog's odometry; a rawlog of a single frame needs none
+  Rawlog,      //!< The rawlog's odometry
+  GroundTruth  //!< The rawlog's "ground_truth" poses
+};
+
+/** The names of the command line and the INI file: rgbd, odometry.
+ * \exception std::invalid_argument For another name; lists the known ones. */
+SlamMethod slamMethodFrom(const std::string& name);
+std::string nameOf(SlamMethod method);
+
+/** auto, rawlog, ground-truth. \exception std::invalid_argument */
+PoseSource poseSourceFrom(const std::string& name);
+std::string nameOf(PoseSource source);
+
+/** Section [slam] of the configuration. */
+struct SlamOptions : public mrpt::config::CLoadableOptions
+{
+  SlamMethod method = SlamMethod::Rgbd;
+  PoseSource odometry = PoseSource::Auto;
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+};
+
+/** How boxes and poses are paired with images. Section [input] of the configuration. */
+struct InputOptions : public mrpt::config::CLoadableOptions
+{
+  double maxBoxDelay = 0.005;   //!< Boxes belong to an image within this time [s], >= 0
+  double maxOdometryGap = 1.0;  //!< Poses are interpolated over at most this time [s], > 0
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+};
+
+}  // namespace quadmap

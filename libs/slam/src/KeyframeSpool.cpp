@@ -1,0 +1,156 @@
+#include "quadmap/slam/KeyframeSpool.h"
+
+#include <fcntl.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "quadmap/slam/GzipStream.h"
+
+namespace quadmap
+{
+using mrpt::img::CImage;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CSensoryFrame;
+
+namespace
+{
+constexpr int kFastCompression = 1;  //!< Of images: higher levels take long and gain little
+constexpr int kBestCompression = 9;
+
+/** Colour images as JPEG: MRPT's default is raw pixels, three times the size. */
+class JpegSerialization
+{
+ public:
+  JpegSerialization() : before_(CImage::DISABLE_JPEG_COMPRESSION())
+  {
+    CImage::DISABLE_JPEG_COMPRESSION(false);
+  }
+  ~JpegSerialization() { CImage::DISABLE_JPEG_COMPRESSION(before_); }
+  JpegSerialization(const JpegSerialization&) = delete;
+  JpegSerialization& operator=(const JpegSerialization&) = delete;
+
+ private:
+  bool before_;
+};
+
+/** The same pixels, no longer tied to an external file. */
+CImage embedded(const CImage& image)
+{
+  image.forceLoad();
+  CImage copy;
+  copy.resize(image.getWidth(), image.getHeight(), image.getChannelCount(), image.getPixelDepth());
+  const std::size_t rowBytes = image.getWidth() *
+                               static_cast<std::size_t>(image.getChannelCount()) *
+                               (image.getPixelDepth() == mrpt::img::PixelDepth::D8U ? 1 : 2);
+  for (unsigned row = 0; row < image.getHeight(); ++row)
+    std::memcpy(copy.ptrLine<std::uint8_t>(row), image.ptrLine<std::uint8_t>(row), rowBytes);
+  return copy;
+}
+
+/** What a reader needs: calibration, depth and colour, all of it inside. */
+CObservation3DRangeScan::Ptr storedForm(const CObservation3DRangeScan& scan)
+{
+  auto stored = CObservation3DRangeScan::Create(scan);
+  stored->rangeImage_forceResetExternalStorage();
+  stored->points3D_overrideExternalStoredFlag(false);
+  stored->hasPoints3D = false;
+  stored->resizePoints3DVectors(0);
+  if (stored->hasIntensityImage && scan.intensityImage.isExternallyStored())
+    stored->intensityImage = embedded(scan.intensityImage);
+  return stored;
+}
+
+}  // namespace
+
+KeyframeSpool::KeyframeSpool(const std::string& directory) :
+    file_(directory + "/keyframes.spool"),
+    descriptor_(::open(file_.temporaryPath().c_str(), O_RDWR | O_CLOEXEC))
+{
+  if (descriptor_ < 0)
+    throw std::runtime_error(
+        file_.temporaryPath() + ": cannot be written: " + std::strerror(errno));
+}
+
+KeyframeSpool::~KeyframeSpool()
+{
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void KeyframeSpool::append(const CObservation3DRangeScan& scan, const CObservationObjects* objects)
+{
+  const JpegSerialization jpeg;
+  KeyframeBlocks blocks;
+  {
+    CSensoryFrame frame;
+    frame.insert(storedForm(scan));
+    blocks.scan = write(gzipMember(archiveBytes(frame), kFastCompression));
+  }
+  CSensoryFrame frame;
+  if (objects) frame.insert(CObservationObjects::Create(*objects));
+  blocks.objects = write(gzipMember(archiveBytes(frame), kBestCompression));
+  keyframes_.push_back(blocks);
+}
+
+KeyframeSpool::Bytes KeyframeSpool::scanMember(std::size_t keyframe) const
+{
+  return read(keyframes_.at(keyframe).scan);
+}
+
+KeyframeSpool::Bytes KeyframeSpool::objectsMember(std::size_t keyframe) const
+{
+  return read(keyframes_.at(keyframe).objects);
+}
+
+CObservationObjects::Ptr KeyframeSpool::objects(std::size_t keyframe) const
+{
+  const Bytes bytes = gunzipMember(objectsMember(keyframe));
+  mrpt::io::CMemoryStream memory;
+  memory.assignMemoryNotOwn(bytes.data(), bytes.size());
+  CSensoryFrame frame;
+  mrpt::serialization::archiveFrom(memory) >> frame;
+  return frame.getObservationByClass<CObservationObjects>();
+}
+
+KeyframeSpool::Block KeyframeSpool::write(const Bytes& bytes)
+{
+  std::size_t done = 0;
+  while (done < bytes.size())
+  {
+    const auto n = ::pwrite(
+        descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(end_ + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0)
+      throw std::runtime_error(
+          file_.temporaryPath() + ": cannot be written: " + std::strerror(n < 0 ? errno : ENOSPC));
+    done += static_cast<std::size_t>(n);
+  }
+  const Block block{end_, bytes.size()};
+  end_ += bytes.size();
+  return block;
+}
+
+KeyframeSpool::Bytes KeyframeSpool::read(const Block& block) const
+{
+  Bytes bytes(block.size);
+  std::size_t done = 0;
+  while (done < bytes.size())
+  {
+    const auto n = ::pread(
+        descriptor_, bytes.data() + done, bytes.size() - done,
+        static_cast<off_t>(block.offset + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0)
+      throw std::runtime_error(
+          file_.temporaryPath() + ": cannot be read: " + std::strerror(n < 0 ? errno : EIO));
+    done += static_cast<std::size_t>(n);
+  }
+  return bytes;
+}
+
+}  // namespace quadmap

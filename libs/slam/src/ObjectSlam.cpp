@@ -1,0 +1,162 @@
+#include "quadmap/slam/ObjectSlam.h"
+
+#include <algorithm>
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+
+namespace
+{
+bool hasDepth(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  const auto& depth = scan.rangeImage;
+  return scan.hasRangeImage &&
+         std::any_of(depth.data(), depth.data() + depth.size(), [](auto d) { return d != 0; });
+}
+
+/** The map's z axis in the sensor frame. */
+Eigen::Vector3d upInSensor(const CPose3D& T_map_sensor)
+{
+  return T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
+}
+
+}  // namespace
+
+ObjectSlam::ObjectSlam(
+    const SlamConfiguration& configuration, const LabelTable& labels, KeyframeSpool& spool) :
+    COutputLogger("ObjectSlam"),
+    configuration_(configuration),
+    labels_(labels),
+    spool_(spool),
+    perception_(configuration.perception, labels),
+    selector_(configuration.keyframes),
+    odometry_(configuration.slam.odometry)
+{
+  result_.map.insertionOptions = configuration.mapInsertion;
+  result_.map.likelihoodOptions = configuration.mapLikelihood;
+  result_.map.renderOptions = configuration.mapRender;
+  result_.map.setLabels(labels);
+}
+
+bool ObjectSlam::addFrame(const RgbdFrame& frame)
+{
+  ++result_.counts.frames;
+  const auto T_map_robot = odometry_.poseOf(frame);
+  result_.counts.framesWithoutPose = odometry_.framesWithoutPose();
+  if (T_map_robot)
+  {
+    firstWithoutPose_.reset();
+    return addPosedFrame(frame, *T_map_robot);
+  }
+  if (result_.counts.frames == 1) firstWithoutPose_ = frame;
+  return false;
+}
+
+void ObjectSlam::finish()
+{
+  const std::size_t missing = result_.counts.framesWithoutPose;
+  if (missing > 0 && missing == result_.counts.frames)
+  {
+    if (missing > 1 || configuration_.slam.odometry != PoseSource::Auto)
+      throw std::runtime_error(odometry_.whyNoPoses());
+    warn("no odometry, but a single image: its robot pose is the origin of the map");
+    result_.counts.framesWithoutPose = 0;
+    addPosedFrame(*firstWithoutPose_, CPose3D());
+  }
+  else if (missing > 0)
+    warn(mrpt::format(
+        "%zu of %zu images have no pose and were left out", missing, result_.counts.frames));
+  if (result_.counts.keyframesWithoutDepth > 0)
+    warn(mrpt::format(
+        "%zu of %zu keyframes have no valid depth at all", result_.counts.keyframesWithoutDepth,
+        result_.keyframes.size()));
+  const auto scope = times_.measure("consolidation");
+  result_.map.consolidate();
+}
+
+bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robot)
+{
+  const CPose3D T_map_sensor = T_map_robot + frame.scan->sensorPose;
+  if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_map_sensor)) return false;
+
+  CObservationObjects::Ptr boxes;
+  if (frame.objects && configuration_.slam.method == SlamMethod::Rgbd)
+  {
+    boxes = CObservationObjects::Create(*frame.objects);
+    measureBoxes(frame, *boxes, T_map_sensor);
+  }
+  {
+    const auto scope = times_.measure("spool");
+    spool_.append(*frame.scan, boxes.get());
+  }
+  if (boxes) insertIntoMap(*boxes, T_map_robot);
+  if (!frame.objects) ++result_.counts.keyframesWithoutBoxes;
+  if (!hasDepth(*frame.scan)) ++result_.counts.keyframesWithoutDepth;
+  result_.keyframes.push_back({frame.record, frame.time(), T_map_robot, T_map_robot});
+  return true;
+}
+
+void ObjectSlam::measureBoxes(
+    const RgbdFrame& frame, CObservationObjects& boxes, const CPose3D& T_map_sensor)
+{
+  warnOfUnknownLabels(boxes);
+  const auto scope = times_.measure("perception");
+  try
+  {
+    perception_.measure(*frame.scan, boxes, upInSensor(T_map_sensor));
+  }
+  catch (const std::runtime_error& e)
+  {
+    throw BadFrame(e.what());
+  }
+}
+
+void ObjectSlam::insertIntoMap(const CObservationObjects& boxes, const CPose3D& T_map_robot)
+{
+  const auto scope = times_.measure("map");
+  count(boxes);
+  result_.map.insertObservation(boxes, T_map_robot);
+  const auto keyframe = static_cast<std::uint32_t>(result_.keyframes.size());
+  for (const auto& decision : result_.map.lastDecisions())
+    result_.decisions.push_back({keyframe, decision});
+}
+
+void ObjectSlam::count(const CObservationObjects& boxes)
+{
+  result_.counts.boxes += boxes.objects.size();
+  for (const auto& object : boxes.objects)
+  {
+    LabelCounts& counts = result_.labels[labels_.canonical(object.label)];
+    std::string kind = "rejected";
+    switch (object.measurement.kind)
+    {
+      case MeasurementKind::Complete:
+        ++counts.complete;
+        kind = "complete";
+        break;
+      case MeasurementKind::Partial:
+        ++counts.partial;
+        kind = "partial";
+        break;
+      default:
+        ++counts.rejected;
+    }
+    ++counts.reasons[kind + ": " + object.measurement.reason];
+  }
+}
+
+void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)
+{
+  for (const auto& object : boxes.objects)
+    if (!labels_.properties(object.label).known && unknownLabels_.insert(object.label).second)
+      warn("label \"" + object.label + "\" is not in the label table: neutral properties are used");
+}
+
+void ObjectSlam::warn(const std::string& text)
+{
+  MRPT_LOG_WARN_STREAM(text);
+  result_.warnings.push_back(text);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,183 @@
+#include "quadmap/slam/PoseGraphWriter.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/poses/Lie/SO.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "quadmap/obs/OutputFile.h"
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+namespace
+{
+constexpr double kUprightSigma = 0.035;  //!< Roll and pitch of a supported object, 2 deg [rad]
+
+/** Where a graph's line has yaw, pitch and roll (MRPT's order of a pose: x y z yaw pitch roll). */
+constexpr int kTextOrder[] = {0, 1, 2, 5, 4, 3};
+
+void writePose(std::ostream& out, const CPose3D& pose)
+{
+  for (const int i : kTextOrder) out << " " << pose[static_cast<unsigned>(i)];
+}
+
+void writeNode(std::ostream& out, std::size_t id, const CPose3D& pose)
+{
+  out << "VERTEX3 " << id;
+  writePose(out, pose);
+  out << "\n";
+}
+
+/** \param information In MRPT's order. */
+void writeEdge(
+    std::ostream& out,
+    std::size_t from,
+    std::size_t to,
+    const CPose3D& T_from_to,
+    const Matrix6& information)
+{
+  out << "EDGE3 " << from << " " << to;
+  writePose(out, T_from_to);
+  for (int row = 0; row < 6; ++row)
+    for (int col = row; col < 6; ++col) out << " " << information(kTextOrder[row], kTextOrder[col]);
+  out << "\n";
+}
+
+/** A complete measurement numbers the axes of a cuboid as it likes; the map may have chosen another
+ * of the four upright ways. \return The measured pose, turned to fit the map's. */
+CPose3D turnedLike(const CPose3D& T_map_measured, const CPose3D& T_map_obj, int& quarterTurns)
+{
+  CPose3D best = T_map_measured;
+  double bestAngle = 2 * M_PI;
+  for (int turns = 0; turns < 4; ++turns)
+  {
+    const CPose3D turned = T_map_measured + CPose3D(0, 0, 0, turns * M_PI / 2, 0, 0);
+    const double angle =
+        mrpt::poses::Lie::SO<3>::log((turned - T_map_obj).getRotationMatrix()).norm();
+    if (angle >= bestAngle) continue;
+    bestAngle = angle;
+    best = turned;
+    quarterTurns = turns;
+  }
+  return best;
+}
+
+/** Standard deviation of the measured centre along axis 0..2 of the measurement [m]. */
+double centreSigma(const CompleteMeasurement& m, int axis)
+{
+  const auto& plus = m.faces[2 * static_cast<std::size_t>(axis)];
+  const auto& minus = m.faces[2 * static_cast<std::size_t>(axis) + 1];
+  const auto isKnown = [](const FaceMeasurement& f)
+  { return f.kind == FaceKind::Measured || f.kind == FaceKind::Support; };
+  const double half = m.object_sensor.semiAxes()[axis];
+  const double sigmaPlus = isKnown(plus) ? plus.sigma : half;
+  const double sigmaMinus = isKnown(minus) ? minus.sigma : half;
+  return 0.5 * std::hypot(sigmaPlus, sigmaMinus);
+}
+
+/** Information of T_robot_obj, in MRPT's order, positions along the robot's axes. */
+Matrix6 measurementInformation(
+    const CompleteMeasurement& m, const Eigen::Matrix3d& R_robot_measured)
+{
+  Eigen::Vector3d weights;
+  for (int axis = 0; axis < 3; ++axis) weights[axis] = std::pow(centreSigma(m, axis), -2);
+  Matrix6 information = Matrix6::Zero();
+  information.topLeftCorner<3, 3>() =
+      R_robot_measured * weights.asDiagonal() * R_robot_measured.transpose();
+  information(3, 3) = m.yawDefined ? std::pow(m.yawSigma, -2) : 0.0;
+  information(4, 4) = information(5, 5) = std::pow(kUprightSigma, -2);
+  return information;
+}
+
+class GraphText
+{
+ public:
+  GraphText(
+      std::ostream& out,
+      const SlamResult& result,
+      const KeyframeSpool& spool,
+      const PoseUncertaintyOptions& uncertainty) :
+      out_(out), result_(result), spool_(spool), uncertainty_(uncertainty)
+  {
+    out_.precision(10);
+  }
+
+  void write()
+  {
+    const auto& keyframes = result_.keyframes;
+    for (std::size_t k = 0; k < keyframes.size(); ++k)
+    {
+      writeNode(out_, k, keyframes[k].T_map_robot);
+      if (k == 0) out_ << "FIX 0\n";
+    }
+    for (const MapObject* object : result_.map.confirmedObjects())
+      writeNode(out_, keyframes.size() + object->id, object->object.pose());
+    for (std::size_t k = 1; k < keyframes.size(); ++k) writeOdometry(k);
+    for (const auto& decision : result_.decisions) writeMeasurement(decision);
+  }
+
+ private:
+  void writeOdometry(std::size_t k)
+  {
+    const auto step = odometryStep(
+        uncertainty_, result_.keyframes[k - 1].T_odom_robot, result_.keyframes[k].T_odom_robot);
+    writeEdge(out_, k - 1, k, step.mean, step.cov.asEigen().inverse());
+  }
+
+  void writeMeasurement(const BoxDecision& box)
+  {
+    const MapObject* object =
+        box.decision.object ? result_.map.find(*box.decision.object) : nullptr;
+    if (!object || !object->confirmed) return;
+    loadBoxes(box.keyframe);
+    const auto& measurement = boxes_->objects.at(box.decision.box).measurement;
+    if (!measurement.complete) return;
+
+    const CPose3D& T_map_robot = result_.keyframes[box.keyframe].T_map_robot;
+    const CPose3D T_robot_measured =
+        boxes_->sensorPose + measurement.complete->object_sensor.pose();
+    int quarterTurns = 0;
+    const CPose3D T_map_turned =
+        turnedLike(T_map_robot + T_robot_measured, object->object.pose(), quarterTurns);
+    writeEdge(
+        out_, box.keyframe, result_.keyframes.size() + object->id, T_map_turned - T_map_robot,
+        measurementInformation(
+            *measurement.complete, T_robot_measured.getRotationMatrix().asEigen()));
+  }
+
+  void loadBoxes(std::size_t keyframe)
+  {
+    if (boxes_ && keyframe == boxesOf_) return;
+    boxes_ = spool_.objects(keyframe);
+    boxesOf_ = keyframe;
+  }
+
+  std::ostream& out_;
+  const SlamResult& result_;
+  const KeyframeSpool& spool_;
+  const PoseUncertaintyOptions& uncertainty_;
+  CObservationObjects::Ptr boxes_;
+  std::size_t boxesOf_ = 0;
+};
+
+}  // namespace
+
+void writePoseGraph(
+    const std::string& path,
+    const SlamResult& result,
+    const KeyframeSpool& spool,
+    const PoseUncertaintyOptions& uncertainty)
+{
+  OutputFile file(path);
+  std::ofstream out(file.temporaryPath());
+  GraphText(out, result, spool, uncertainty).write();
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written");
+  file.commit();
+}
+
+}  // namespace quadmap

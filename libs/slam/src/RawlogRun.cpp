@@ -1,0 +1,176 @@
+#include "quadmap/slam/RawlogRun.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/slam/KeyframeSpool.h"
+#include "quadmap/slam/ObjectSlam.h"
+#include "quadmap/slam/ResultWriter.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** The output directory; when it was made here and the run fails, it goes again. */
+class OutputDirectory
+{
+ public:
+  explicit OutputDirectory(const std::string& path) : path_(path)
+  {
+    std::error_code error;
+    isNew_ = fs::create_directories(path_, error);
+    if (error || !fs::is_directory(path_))
+      throw std::runtime_error(
+          path + ": cannot be made: " + (error ? error.message() : "a file of that name exists"));
+  }
+  ~OutputDirectory()
+  {
+    std::error_code ignored;
+    if (isNew_ && fs::is_empty(path_, ignored)) fs::remove(path_, ignored);
+  }
+  OutputDirectory(const OutputDirectory&) = delete;
+  OutputDirectory& operator=(const OutputDirectory&) = delete;
+
+ private:
+  fs::path path_;
+  bool isNew_ = false;
+};
+
+class RawlogRun
+{
+ public:
+  explicit RawlogRun(const RawlogRunRequest& request) :
+      request_(request),
+      source_(request.rawlog, sourceOptions(request)),
+      directory_(request.outputDirectory),
+      spool_(request.outputDirectory),
+      slam_(request.configuration, LabelTable::installed(), spool_)
+  {
+    slam_.setMinLoggingLevel(request.verbosity);
+    source_.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    source_.logRegisterCallback(
+        [this](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
+        {
+          if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
+        });
+  }
+
+  RawlogRunSummary run()
+  {
+    const bool interrupted = addAllFrames();
+    requireContent(interrupted);
+    finish();
+    return write(interrupted);
+  }
+
+ private:
+  static RawlogSourceOptions sourceOptions(const RawlogRunRequest& request)
+  {
+    RawlogSourceOptions options;
+    options.objectsFile = request.objectsFile;
+    options.sensorLabel = request.sensorLabel;
+    options.keepGoing = request.keepGoing;
+    options.maxBoxDelay = request.configuration.input.maxBoxDelay;
+    options.maxOdometryGap = request.configuration.input.maxOdometryGap;
+    return options;
+  }
+
+  /** \return True when asked to stop before the end. */
+  bool addAllFrames()
+  {
+    while (!request_.shouldStop())
+    {
+      const auto frame = nextFrame();
+      request_.onProgress(source_.progress());
+      if (!frame) return false;
+      addFrame(*frame);
+    }
+    return true;
+  }
+
+  std::optional<RgbdFrame> nextFrame()
+  {
+    const auto scope = slam_.times().measure("input");
+    return source_.next();
+  }
+
+  void addFrame(const RgbdFrame& frame)
+  {
+    try
+    {
+      slam_.addFrame(frame);
+    }
+    catch (const BadFrame& e)
+    {
+      const InputProblem problem{request_.rawlog, frame.record, frame.scan->sensorLabel, e.what()};
+      if (!request_.keepGoing) throw std::runtime_error(problem.text());
+      badFrames_.push_back(problem);
+    }
+  }
+
+  void requireContent(bool interrupted)
+  {
+    const std::string& file = request_.rawlog;
+    if (slam_.result().counts.frames == 0)
+    {
+      if (interrupted) throw std::runtime_error(file + ": interrupted before the first image");
+      const std::string sensor =
+          request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
+      throw std::runtime_error(
+          file + ": no usable RGB-D images" + sensor + "; it has " + source_.contentSummary());
+    }
+    const bool wantsBoxes = request_.configuration.slam.method != SlamMethod::Odometry;
+    if (!wantsBoxes || source_.hasBoxes() || interrupted) return;
+    const std::string text =
+        file +
+        ": no object boxes, neither in it nor beside it; import them with the images "
+        "(quadmap-import --detections), name their file with --objects, or use --method odometry";
+    if (!request_.keepGoing) throw std::runtime_error(text);
+    slam_.warn(text);
+  }
+
+  void finish()
+  {
+    try
+    {
+      slam_.finish();
+    }
+    catch (const std::runtime_error& e)
+    {
+      throw std::runtime_error(request_.rawlog + ": " + e.what());
+    }
+  }
+
+  RawlogRunSummary write(bool interrupted)
+  {
+    InputDescription input{request_.rawlog,       request_.objectsFile,   request_.sensorLabel,
+                           source_.recordsRead(), source_.odometryKind(), interrupted,
+                           source_.problems()};
+    input.problems.insert(input.problems.end(), badFrames_.begin(), badFrames_.end());
+    RawlogRunSummary summary;
+    summary.files = writeResult(
+        request_.outputDirectory,
+        {request_.version, input, request_.configuration, slam_.result(), spool_, slam_.times()});
+    for (const auto& problem : input.problems) summary.dropped.push_back(problem.text());
+    summary.result = slam_.result();
+    summary.interrupted = interrupted;
+    return summary;
+  }
+
+  const RawlogRunRequest& request_;
+  RawlogSource source_;
+  OutputDirectory directory_;
+  KeyframeSpool spool_;
+  ObjectSlam slam_;
+  std::vector<InputProblem> badFrames_;
+};
+
+}  // namespace
+
+RawlogRunSummary runOnRawlog(const RawlogRunRequest& request) { return RawlogRun(request).run(); }
+
+}  // namespace quadmap

@@ -1,0 +1,203 @@
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "quadmap/obs/OutputFile.h"
+#include "quadmap/slam/ResultWriter.h"
+
+namespace quadmap
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/** Labels and file names may hold any bytes: what is not UTF-8 is replaced. */
+std::string text(const Json& json, int indent = -1)
+{
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json rounded(double value, int decimals)
+{
+  const double scale = std::pow(10.0, decimals);
+  return std::isfinite(value) ? Json(std::round(value * scale) / scale) : Json();
+}
+
+Json inputJson(const RunRecord& run)
+{
+  const SlamCounts& counts = run.result.counts;
+  return {
+      {                   "file",               run.input.file},
+      {           "objects_file",        run.input.objectsFile},
+      {                 "sensor",        run.input.sensorLabel},
+      {                "records",            run.input.records},
+      {               "odometry",       run.input.odometryKind},
+      {            "interrupted",        run.input.interrupted},
+      {                 "frames",                counts.frames},
+      {    "frames_without_pose",     counts.framesWithoutPose},
+      {              "keyframes",  run.result.keyframes.size()},
+      {"keyframes_without_boxes", counts.keyframesWithoutBoxes},
+      {"keyframes_without_depth", counts.keyframesWithoutDepth}
+  };
+}
+
+Json configurationJson(const SlamConfiguration& configuration)
+{
+  const auto config = configuration.toConfig();
+  Json json = Json::object();
+  std::vector<std::string> sections, keys;
+  config.getAllSections(sections);
+  for (const auto& section : sections)
+  {
+    config.getAllKeys(section, keys);
+    for (const auto& key : keys) json[section][key] = config.read_string(section, key, "");
+  }
+  return json;
+}
+
+Json boxesJson(const SlamResult& result)
+{
+  Json labels = Json::object();
+  for (const auto& [label, counts] : result.labels)
+    labels[label] = {
+        {"complete", counts.complete},
+        { "partial",  counts.partial},
+        {"rejected", counts.rejected},
+        { "reasons",  counts.reasons}
+    };
+  return {
+      {   "total", result.counts.boxes},
+      {"by_label",              labels}
+  };
+}
+
+Json problemsJson(const std::vector<InputProblem>& problems)
+{
+  Json json = Json::array();
+  for (const auto& p : problems)
+    json.push_back({
+        {  "file",   p.file},
+        {"record", p.record},
+        {"sensor", p.sensor},
+        {  "what",   p.what}
+    });
+  return json;
+}
+
+Json timingJson(const ModuleTimes& times)
+{
+  Json modules = Json::object();
+  for (const auto& [name, t] : times.summaries())
+    modules[name] = {
+        {      "calls",           t.calls},
+        { "cpu_mean_ms", rounded(t.mean_ms,           3)},
+        { "cpu_p95_ms",  rounded(t.p95_ms,           3)},
+        { "cpu_total_s", rounded(t.total_s,           3)}
+    };
+  return {
+      {       "modules",                  modules},
+      { "cpu_total_s", rounded(processCpuTime(),              3)},
+      { "peak_memory_mb",  rounded(peakMemory_mb(),              1)}
+  };
+}
+
+const char* nameOf(MeasurementKind kind)
+{
+  switch (kind)
+  {
+    case MeasurementKind::Complete:
+      return "complete";
+    case MeasurementKind::Partial:
+      return "partial";
+    case MeasurementKind::Rejected:
+      return "rejected";
+    default:
+      return "none";
+  }
+}
+
+/** One line per keyframe with boxes: they are many, so none is kept. */
+class AssociationLines
+{
+ public:
+  AssociationLines(std::ostream& out, const RunRecord& run) : out_(out), run_(run) {}
+
+  void write()
+  {
+    for (std::size_t k = 0; k < run_.result.keyframes.size(); ++k)
+    {
+      const auto boxes = run_.spool.objects(k);
+      if (!boxes) continue;
+      out_ << (anyLine_ ? ",\n    " : "\n    ") << text(keyframeJson(k, *boxes));
+      anyLine_ = true;
+    }
+  }
+
+ private:
+  Json keyframeJson(std::size_t k, const CObservationObjects& boxes)
+  {
+    const Keyframe& keyframe = run_.result.keyframes[k];
+    Json list = Json::array();
+    for (const auto& box : boxes.objects)
+      list.push_back({
+          { "label",                    box.label},
+          {  "kind", nameOf(box.measurement.kind)},
+          {"reason",       box.measurement.reason},
+          {"object",                       Json()}
+      });
+    const auto& decisions = run_.result.decisions;
+    for (; next_ < decisions.size() && decisions[next_].keyframe == k; ++next_)
+      addDecision(list.at(decisions[next_].decision.box), decisions[next_].decision);
+    return {
+        {"keyframe",                     k},
+        {  "record",       keyframe.record},
+        {  "sensor",     boxes.sensorLabel},
+        {    "time", rounded(keyframe.time,6)},
+        {   "boxes",                  list                     }
+    };
+  }
+
+  static void addDecision(Json& box, const CQuadricObjectMap::Decision& decision)
+  {
+    if (decision.object) box["object"] = *decision.object;
+    box["started_object"] = decision.startedObject;
+    box["log_posterior"] = rounded(decision.logPosterior, 4);
+    box["log_posterior_second"] = rounded(decision.logPosteriorSecond, 4);
+  }
+
+  std::ostream& out_;
+  const RunRecord& run_;
+  std::size_t next_ = 0;  //!< Decision
+  bool anyLine_ = false;
+};
+
+}  // namespace
+
+void writeReport(const std::string& path, const RunRecord& run)
+{
+  const Json head = {
+      {      "program",                           "quadmap-slam"},
+      {      "version",                              run.version},
+      {        "input",                           inputJson(run)},
+      {"configuration",     configurationJson(run.configuration)},
+      {        "boxes",                    boxesJson(run.result)},
+      {      "objects", run.result.map.confirmedObjects().size()},
+      {     "warnings",                      run.result.warnings},
+      {      "dropped",         problemsJson(run.input.problems)},
+      {       "timing",                    timingJson(run.times)}
+  };
+  std::string start = text(head, 2);
+  start.erase(start.rfind('\n'));  // the closing brace comes after the associations
+
+  OutputFile file(path);
+  std::ofstream out(file.temporaryPath());
+  out << start << ",\n  \"associations\": [";
+  AssociationLines(out, run).write();
+  out << "\n  ]\n}\n";
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written");
+  file.commit();
+}
+
+}  // namespace quadmap

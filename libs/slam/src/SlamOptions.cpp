@@ -1,0 +1,82 @@
+#include "quadmap/slam/SlamOptions.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "OptionText.h"
+#include "quadmap/obs/ConfigCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::pair<SlamMethod, const char*> kMethods[] = {
+    {    SlamMethod::Rgbd,     "rgbd"},
+    {SlamMethod::Odometry, "odometry"}
+};
+
+constexpr std::pair<PoseSource, const char*> kSources[] = {
+    {       PoseSource::Auto,         "auto"},
+    {     PoseSource::Rawlog,       "rawlog"},
+    {PoseSource::GroundTruth, "ground-truth"}
+};
+
+template <typename Table>
+auto valueOf(const Table& table, const std::string& what, const std::string& name)
+{
+  std::string known;
+  for (const auto& [value, text] : table)
+  {
+    if (name == text) return value;
+    known += (known.empty() ? "" : ", ") + std::string(text);
+  }
+  throw std::invalid_argument(what + "=" + name + ": must be one of " + known);
+}
+
+template <typename Table, typename Value>
+std::string textOf(const Table& table, Value value)
+{
+  for (const auto& [v, text] : table)
+    if (v == value) return text;
+  throw std::logic_error("option value without a name");
+}
+
+}  // namespace
+
+SlamMethod slamMethodFrom(const std::string& name) { return valueOf(kMethods, "method", name); }
+std::string nameOf(SlamMethod method) { return textOf(kMethods, method); }
+
+PoseSource poseSourceFrom(const std::string& name) { return valueOf(kSources, "odometry", name); }
+std::string nameOf(PoseSource source) { return textOf(kSources, source); }
+
+void SlamOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& config, const std::string& section)
+{
+  rejectUnknownKeys(config, section, {"method", "odometry"});
+  method = slamMethodFrom(config.read_string(section, "method", nameOf(method)));
+  odometry = poseSourceFrom(config.read_string(section, "odometry", nameOf(odometry)));
+}
+
+void SlamOptions::saveToConfigFile(
+    mrpt::config::CConfigFileBase& config, const std::string& section) const
+{
+  config.write(section, "method", nameOf(method));
+  config.write(section, "odometry", nameOf(odometry));
+}
+
+void InputOptions::loadFromConfigFile(
+    const mrpt::config::CConfigFileBase& config, const std::string& section)
+{
+  rejectUnknownKeys(config, section, {"maxBoxDelay", "maxOdometryGap"});
+  readNumber(config, section, "maxBoxDelay", maxBoxDelay, 0.0, 10.0);
+  readNumber(config, section, "maxOdometryGap", maxOdometryGap, 1e-3, 3600.0);
+}
+
+void InputOptions::saveToConfigFile(
+    mrpt::config::CConfigFileBase& config, const std::string& section) const
+{
+  config.write(section, "maxBoxDelay", optionText(maxBoxDelay));
+  config.write(section, "maxOdometryGap", optionText(maxOdometryGap));
+}
+
+}  // namespace quadmap
