@@ -1,0 +1,49 @@
+#pragma once
+
+#include <mrpt/config/CLoadableOptions.h>
+
+namespace quadmap
+{
+/** How one frame becomes measurements. Section [perception] of the configuration. */
+struct PerceptionOptions : public mrpt::config::CLoadableOptions
+{
+  double minRange = 0.3;  //!< Nearer depth is not trusted [m], > 0
+  double maxRange = 6.0;  //!< Farther depth is too noisy for shapes [m], > minRange
+
+  /** Depth noise of a structured-light camera, sigma(z) = floor + growth (z - 0.4 m)^2, after
+   * Nguyen, Izadi, Lovell, 3DIMPVT 2012. */
+  double depthSigmaFloor = 0.0012;   //!< [m], > 0
+  double depthSigmaGrowth = 0.0019;  //!< [1/m], >= 0
+
+  double planeMinArea = 0.008;  //!< Smallest plane worth a support, share of the image, in (0, 1)
+  double planeMaxTilt = 0.17;   //!< A horizontal plane's normal to up [rad]; INI `planeMaxTilt_deg`
+  double planeTolerance = 0.015;  //!< A point this near to its support belongs to it [m], > 0
+
+  double boxMargin = 0.05;         //!< Detector boxes are enlarged by this share of their size
+  double clusterTolerance = 0.03;  //!< Gap that separates objects at close range [m], > 0
+  double clusterToleranceGrowth = 0.012;  //!< ... but at least this times the range [-]
+  int minPoints = 60;  //!< Fewest points (of every second pixel) worth a fit, >= 10
+
+  double yawMinDominance = 0.40;   //!< Peak mass that makes a direction; even spread gives 0.22
+  double minCompleteIoU = 0.70;    //!< p of DESIGN section 4 that makes a measurement complete
+  double minDepthCoverage = 0.30;  //!< Least share of valid depth in the box for a complete one
+
+  double borderMargin = 30.0;   //!< Box edges nearer to the image border are unusable [px]
+  double occlusionStrip = 8.0;  //!< Width of the strip outside an edge that is looked at [px]
+  double occlusionShare = 0.5;  //!< An edge with more nearer depth along it is occluded
+  double edgeSigma = 6.0;       //!< Standard deviation of a detector's box edge [px], > 0
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+
+  /** Standard deviation of a depth [m]. */
+  double depthSigma(double z) const
+  {
+    const double far = z > 0.4 ? z - 0.4 : 0.0;
+    return depthSigmaFloor + depthSigmaGrowth * far * far;
+  }
+};
+
+}  // namespace quadmap

@@ -1,0 +1,157 @@
+#include "DepthCloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace quadmap
+{
+namespace
+{
+constexpr int kWorkingColumns = 320;  // planes and objects need no more; see doc/benchmarks.md
+
+/** Two neighbouring depths on one surface: differences grow with range and slope [m]. */
+float jumpTolerance(float z) { return 0.015f + 0.015f * z; }
+
+void requireDepth(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  if (!scan.hasRangeImage || scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
+    throw std::runtime_error("the scan has no depth image");
+  const auto& camera = scan.cameraParams;
+  const bool usable = std::isfinite(camera.fx()) && std::isfinite(camera.fy()) &&
+                      std::abs(camera.fx()) > 1 && std::abs(camera.fy()) > 1;
+  if (!usable) throw std::runtime_error("the scan has no usable calibration");
+}
+
+}  // namespace
+
+DepthCloud::DepthCloud(
+    const mrpt::obs::CObservation3DRangeScan& scan, const PerceptionOptions& options)
+{
+  requireDepth(scan);
+  const auto& range = scan.rangeImage;
+  const int width = static_cast<int>(range.cols()), height = static_cast<int>(range.rows());
+  camera_ = pinholeFrom(scan.cameraParams);
+  camera_.width = static_cast<unsigned>(width);
+  camera_.height = static_cast<unsigned>(height);
+
+  stride_ = std::max(1, width / kWorkingColumns);
+  columns_ = width / stride_;
+  rows_ = height / stride_;
+  for (int c = 0; c < columns_; ++c)
+    rayX_.push_back(static_cast<float>((c * stride_ - camera_.cx) / camera_.fx));
+  for (int r = 0; r < rows_; ++r)
+    rayY_.push_back(static_cast<float>((r * stride_ - camera_.cy) / camera_.fy));
+
+  depth_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.f);
+  const float minRange = static_cast<float>(options.minRange);
+  const float maxRange = static_cast<float>(options.maxRange);
+  for (int r = 0; r < rows_; ++r)
+    for (int c = 0; c < columns_; ++c)
+    {
+      float z = static_cast<float>(range(r * stride_, c * stride_)) * scan.rangeUnits;
+      if (!scan.range_is_depth)
+        z /= std::sqrt(
+            1.f + rayX_[std::size_t(c)] * rayX_[std::size_t(c)] +
+            rayY_[std::size_t(r)] * rayY_[std::size_t(r)]);
+      if (z >= minRange && z <= maxRange) depth_[index(c, r)] = z;
+    }
+}
+
+std::optional<Eigen::Vector3f> DepthCloud::normal(int c, int r) const
+{
+  const float z = depth(c, r);
+  if (!(z > 0)) return {};
+  // A base line of some 3 cm to either side: shorter ones drown in the quantisation of depth.
+  const float cellsPerMetre =
+      static_cast<float>(std::abs(camera_.fx)) / (z * static_cast<float>(stride_));
+  const int k = std::clamp(static_cast<int>(std::lround(0.03f * cellsPerMetre)), 2, 8);
+  if (!inside(c - k, r - k) || !inside(c + k, r + k)) return {};
+
+  const float tolerance = jumpTolerance(z) + 0.04f;
+  Eigen::Vector3f horizontal = Eigen::Vector3f::Zero(), vertical = Eigen::Vector3f::Zero();
+  int used = 0;
+  for (int s = -1; s <= 1; ++s)
+  {
+    const int o = s * (k / 2);
+    const int cells[4][2] = {
+        {c - k, r + o},
+        {c + k, r + o},
+        {c + o, r - k},
+        {c + o, r + k}
+    };
+    bool ok = true;
+    for (const auto& cell : cells)
+    {
+      const float zn = depth(cell[0], cell[1]);
+      ok = ok && zn > 0 && std::abs(zn - z) < tolerance;
+    }
+    if (!ok) continue;
+    horizontal += point(c + k, r + o) - point(c - k, r + o);
+    vertical += point(c + o, r + k) - point(c + o, r - k);
+    ++used;
+  }
+  if (used == 0) return {};
+  Eigen::Vector3f n = horizontal.cross(vertical);
+  const float length = n.norm();
+  if (!(length > 1e-9f)) return {};
+  n /= length;
+  return n.dot(point(c, r)) > 0 ? Eigen::Vector3f(-n) : n;
+}
+
+bool DepthCloud::isFlyingPixel(int c, int r) const
+{
+  const float z = depth(c, r), tolerance = jumpTolerance(z);
+  int near = 0, jumps = 0;
+  for (int dr = -1; dr <= 1; ++dr)
+    for (int dc = -1; dc <= 1; ++dc)
+    {
+      if ((dc == 0 && dr == 0) || !inside(c + dc, r + dr)) continue;
+      const float zn = depth(c + dc, r + dr);
+      if (zn > 0 && std::abs(zn - z) < tolerance)
+        ++near;
+      else if (zn > 0)
+        ++jumps;
+    }
+  return jumps > 0 && near < 4;
+}
+
+DepthCloud::CellRange DepthCloud::cellsOf(const ImageBox& box) const
+{
+  const auto cell = [this](double pixel) { return static_cast<int>(std::ceil(pixel / stride_)); };
+  const ImageBox b = box.clipped(camera_.width, camera_.height);
+  if (!b.isValid()) return {};
+  return {
+      cell(b.x1), cell(b.y1), std::min(columns_, cell(b.x2 + 1e-9)),
+      std::min(rows_, cell(b.y2 + 1e-9))};
+}
+
+CoarseDepth DepthCloud::coarse(unsigned columns, unsigned rows) const
+{
+  CoarseDepth out;
+  out.columns = columns;
+  out.rows = rows;
+  std::vector<float> values;
+  for (unsigned i = 0; i < rows; ++i)
+    for (unsigned j = 0; j < columns; ++j)
+    {
+      values.clear();
+      const int r1 = static_cast<int>((i + 1) * static_cast<unsigned>(rows_) / rows);
+      const int c1 = static_cast<int>((j + 1) * static_cast<unsigned>(columns_) / columns);
+      for (int r = static_cast<int>(i * static_cast<unsigned>(rows_) / rows); r < r1; r += 2)
+        for (int c = static_cast<int>(j * static_cast<unsigned>(columns_) / columns); c < c1;
+             c += 2)
+          if (valid(c, r)) values.push_back(depth(c, r));
+      if (values.size() < 3)
+      {
+        out.depth.push_back(0.f);
+        continue;
+      }
+      const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      out.depth.push_back(*middle);
+    }
+  return out;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "ObjectCloud.h"
+
+namespace quadmap
+{
+/** An object's cloud in the frame `level`: origin at the camera, z up, x the horizontal direction
+ * from the camera to the object. */
+struct LevelCloud
+{
+  Eigen::Matrix3d R_level_optical = Eigen::Matrix3d::Identity();
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::optional<Eigen::Vector3d>> normals;  //!< Unit, towards the camera
+  double medianRange = 0;                               //!< Median depth of the points [m]
+};
+
+/** \param up_optical Unit vector that points up. */
+LevelCloud levelCloud(
+    const DepthCloud& cloud, const ObjectCloud& object, const Eigen::Vector3d& up_optical);
+
+/** The object's heading in `level`. */
+struct YawEstimate
+{
+  double yaw = 0;        //!< [rad]
+  double sigma = 0;      //!< [rad], when defined
+  double dominance = 0;  //!< Share of the normals that agree, in [0, 1]
+  bool defined = false;
+};
+
+/** From the normals of vertical surfaces, refined by lines fitted to the faces; from the smallest
+ * rectangle around the cloud (not `defined`) when no direction dominates. */
+YawEstimate estimateYaw(const LevelCloud& cloud, const PerceptionOptions& options);
+
+}  // namespace quadmap

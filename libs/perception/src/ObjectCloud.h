@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "DepthCloud.h"
+#include "ScenePlanes.h"
+#include "quadmap/obs/DetectedObject.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** The part of a depth image that one detected object is made of. */
+struct ObjectCloud
+{
+  struct Cell
+  {
+    int c, r;
+  };
+  std::vector<Cell> cells;              //!< In the depth cloud
+  std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
+  std::optional<int> support;           //!< Plane it stands on, index in ScenePlanes
+  double coverage = 0;                  //!< Share of the box's cells with valid depth
+
+  bool empty() const { return points.empty(); }
+};
+
+/** Cuts the object out of its box: planes that reach far beyond the box and the supporting plane
+ * are removed, the rest falls into clusters, and the one that fills the box best is the object
+ * (DESIGN section 4). Empty when there is no such cluster. */
+ObjectCloud segmentObject(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const DetectedObject& detection,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+}  // namespace quadmap

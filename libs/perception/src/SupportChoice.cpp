@@ -1,0 +1,86 @@
+#include "SupportChoice.h"
+
+#include <algorithm>
+
+namespace quadmap
+{
+namespace
+{
+/** How the cells in and around a box lie with respect to one plane, as shares. */
+struct Relation
+{
+  double ringOn = 0;       // of the ring around the lower half: on the plane
+  double insideAbove = 0;  // of the inside: clearly above
+  double insideBelow = 0;  // of the inside: clearly below
+};
+
+Relation relate(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const ImageBox& box,
+    const PerceptionOptions& options)
+{
+  const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
+  const auto inner = cloud.cellsOf(box);
+  const auto outer = cloud.cellsOf({box.x1 - reach, box.centerY(), box.x2 + reach, box.y2 + reach});
+  // The lowest tenth of the box shows the support as often as the object.
+  const auto core = cloud.cellsOf({box.x1, box.y1, box.x2, box.y2 - 0.1 * box.height()});
+
+  int ring = 0, ringOn = 0, inside = 0, above = 0, below = 0;
+  const auto count = [&](int c, int r)
+  {
+    if (!cloud.valid(c, r)) return;
+    const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+    const double distance = plane.signedDistance(p);
+    const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(p.z());
+    if (core.contains(c, r))
+    {
+      ++inside;
+      if (distance > tolerance) ++above;
+      if (distance < -2.0 * tolerance) ++below;
+    }
+    else
+    {
+      ++ring;
+      if (std::abs(distance) < tolerance) ++ringOn;
+    }
+  };
+  for (int r = std::min(inner.r0, outer.r0); r < std::max(inner.r1, outer.r1); r += 2)
+    for (int c = std::min(inner.c0, outer.c0); c < std::max(inner.c1, outer.c1); c += 2)
+      if (cloud.inside(c, r) && (core.contains(c, r) || outer.contains(c, r))) count(c, r);
+
+  const auto share = [](int part, int all) { return all > 0 ? double(part) / all : 0.0; };
+  return {share(ringOn, ring), share(above, inside), share(below, inside)};
+}
+
+}  // namespace
+
+std::optional<int> chooseSupport(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ImageBox& box,
+    UsualSupport usual,
+    const PerceptionOptions& options)
+{
+  constexpr double kMinRing = 0.15, kMinAbove = 0.15, kMaxBelow = 0.35;
+  if (usual == UsualSupport::Wall) return {};
+  if (usual == UsualSupport::Floor) return planes.floor;
+
+  std::optional<int> best;
+  double bestScore = 0;
+  for (const int i : planes.horizontal)
+  {
+    const Relation relation = relate(cloud, planes.plane(i).plane, box, options);
+    if (relation.ringOn < kMinRing || relation.insideAbove < kMinAbove) continue;
+    if (relation.insideBelow > kMaxBelow) continue;
+    const double score = relation.ringOn * (1.0 - relation.insideBelow);
+    if (score > bestScore)
+    {
+      bestScore = score;
+      best = i;
+    }
+  }
+  return best;
+}
+
+}  // namespace quadmap

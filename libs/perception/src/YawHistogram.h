@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+namespace quadmap
+{
+/** The dominant horizontal direction of a set of surface normals, folded modulo 90 degrees
+ * (DESIGN section 4: weighted by how horizontal the normal is, smoothed, sub-bin peak). */
+class YawHistogram
+{
+ public:
+  YawHistogram();
+
+  /** \param heading Direction of the normal's horizontal part [rad]. \param weight >= 0. */
+  void add(double heading, double weight);
+
+  struct Peak
+  {
+    double yaw = 0;        //!< In [0, pi/2) [rad]
+    double dominance = 0;  //!< Mass within 10 degrees of the peak / total; even spread gives 0.22
+    double mass = 0;       //!< Total weight
+  };
+  Peak peak() const;
+
+ private:
+  struct Entry
+  {
+    double yaw, weight;
+  };
+  std::vector<double> bins_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace quadmap
