@@ -59,11 +59,10 @@ double checker(const Eigen::Vector3d& q)
   return 0.55 * parity + 0.3 * shade + 0.15 * smoothNoise(6 * q);
 }
 
-/** Planks along x with grain, in [-1, 1]. */
+/** Planks along x, side by side in y, with grain; in [-1, 1]. */
 double stripes(const Eigen::Vector3d& q)
 {
-  const double plank =
-      2 * cellValue(cell(0.13 * q.x()), cell(q.y() + 1e-4), cell(q.z() + 1e-4)) - 1;
+  const double plank = 2 * cellValue(cell(0.13 * q.x()), cell(q.y() + 1e-4), 0) - 1;
   const Eigen::Vector3d along(0.4 * q.x(), 5 * q.y(), 5 * q.z());
   return 0.5 * plank + 0.5 * smoothNoise(along);
 }
