@@ -6,6 +6,8 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "quadmap/review/KeyframeContent.h"
+#include "quadmap/review/SceneBuilder.h"
 #include "quadmap/slam/RawlogRun.h"
 
 namespace
@@ -90,6 +92,22 @@ void showProgress(double share)
             << std::flush;
 }
 
+/** scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time. */
+std::string writeSceneOf(const SlamResult& result, const std::string& directory)
+{
+  CloudOptions cloud;
+  cloud.cellSize = 0.02;
+  cloud.maxPoints = 300000;
+  cloud.maxKeyframes = 60;
+  SceneContent content;
+  content.objects = result.map.toRecords();
+  for (const auto& keyframe : result.keyframes) content.trajectory.push_back(keyframe.T_map_robot);
+  addKeyframes(directory + "/map.simplemap", cloud, content);
+  const std::string path = directory + "/scene.3Dscene";
+  writeScene(*SceneBuilder().scene(content), path);
+  return path;
+}
+
 void printObjects(const std::vector<ObjectRecord>& objects)
 {
   std::printf("%5s  %-16s %24s %21s %6s\n", "id", "label", "centre [m]", "size [m]", "seen");
@@ -128,7 +146,8 @@ int run(Cli& cli)
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
 
-  const RawlogRunSummary summary = runOnRawlog(request);
+  RawlogRunSummary summary = runOnRawlog(request);
+  summary.files.push_back(writeSceneOf(summary.result, request.outputDirectory));
   printSummary(summary);
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;

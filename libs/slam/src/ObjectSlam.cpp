@@ -1,6 +1,7 @@
 #include "quadmap/slam/ObjectSlam.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace quadmap
 {
@@ -19,6 +20,20 @@ bool hasDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 Eigen::Vector3d upInSensor(const CPose3D& T_map_sensor)
 {
   return T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
+}
+
+/** The reason without its numbers, so that like ones are counted together. */
+std::string kindOfReason(const std::string& reason)
+{
+  std::string kind;
+  for (const char c : reason)
+    if (const bool inNumber = std::isdigit(static_cast<unsigned char>(c)) ||
+                              (c == '.' && !kind.empty() && kind.back() == '#');
+        !inNumber)
+      kind += c;
+    else if (kind.empty() || kind.back() != '#')
+      kind += '#';
+  return kind;
 }
 
 }  // namespace
@@ -142,7 +157,7 @@ void ObjectSlam::count(const CObservationObjects& boxes)
       default:
         ++counts.rejected;
     }
-    ++counts.reasons[kind + ": " + object.measurement.reason];
+    ++counts.reasons[kind + ": " + kindOfReason(object.measurement.reason)];
   }
 }
 

@@ -21,7 +21,8 @@ std::string text(const Json& json, int indent = -1)
 Json rounded(double value, int decimals)
 {
   const double scale = std::pow(10.0, decimals);
-  return std::isfinite(value) ? Json(std::round(value * scale) / scale) : Json();
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value * scale) / scale + 0.0;  // no negative zero
 }
 
 Json inputJson(const RunRecord& run)
