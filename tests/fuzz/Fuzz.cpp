@@ -1,0 +1,63 @@
+#include "Fuzz.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <exception>
+
+#include "AllocationWatch.h"
+
+namespace quadmap
+{
+namespace
+{
+/** Whole seconds are far more than any of these small inputs needs, sanitizers included. */
+constexpr double kLong = 5.0;
+
+double seconds()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string readable(const std::string& bytes)
+{
+  constexpr std::size_t kShown = 2000;
+  return ::testing::PrintToString(bytes.substr(0, kShown));
+}
+}  // namespace
+
+void fuzz(
+    const std::string& valid,
+    const FuzzRun& run,
+    const std::function<void(const std::string&)>& parse)
+{
+  ASSERT_NO_THROW(parse(valid)) << "the undamaged input";
+  Mutator mutator(run.seed);
+  mutator.dictionary.insert(mutator.dictionary.end(), run.words.begin(), run.words.end());
+  int refused = 0;
+  for (int i = 0; i < run.count; ++i)
+  {
+    const std::string input = mutator.mutate(valid);
+    AllocationWatch::reset();
+    const double start = seconds();
+    try
+    {
+      parse(input);
+    }
+    catch (const std::exception& e)
+    {
+      ++refused;
+      EXPECT_STRNE(e.what(), "") << "an error without words, input " << readable(input);
+    }
+    catch (...)
+    {
+      FAIL() << "threw something else than std::exception for " << readable(input);
+    }
+    ASSERT_LT(seconds() - start, kLong) << readable(input);
+    ASSERT_LE(AllocationWatch::largest(), run.largestAllocation)
+        << "mutation " << i << ": " << readable(input);
+  }
+  EXPECT_GT(refused, run.count / 20) << "the damage hardly ever hits: this tests nothing";
+}
+
+}  // namespace quadmap
