@@ -1,0 +1,82 @@
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "common/CommandLine.h"
+#include "quadmap/evaluation/EvaluationReport.h"
+#include "quadmap/obs/OutputFile.h"
+
+namespace
+{
+using namespace quadmap;
+
+/** The arguments of the program. */
+struct Cli
+{
+  using Text = TCLAP::ValueArg<std::string>;
+
+  cli::CommandLine line{
+      "quadmap-evaluate",
+      "Compares what quadmap-slam wrote with the truth: ATE of the trajectory; position, "
+      "orientation, shape and overlap of the objects; precision, recall and F1. At least one of "
+      "--objects and --trajectory is needed.",
+      QUADMAP_VERSION};
+  TCLAP::UnlabeledValueArg<std::string> outputFolder{
+      "OUTDIR", "Folder quadmap-slam wrote.", true, "", "OUTDIR", line.args()};
+  Text objects{"",        "objects",  "True objects, same form as objects.json.", false, "",
+               "gt.json", line.args()};
+  Text trajectory{"",       "trajectory", "True trajectory: time tx ty tz qx qy qz qw.", false, "",
+                  "gt.tum", line.args()};
+  Text json{"", "json", "Write the figures to this file too.", false, "", "FILE", line.args()};
+  TCLAP::SwitchArg inPlace{
+      "", "in-place", "Both worlds are the same: compare without aligning them.", line.args()};
+  TCLAP::ValueArg<double> maxTimeDifference{
+      "",
+      "max-time-difference",
+      "Between an estimated and a true pose [s] (default 0.02).",
+      false,
+      0.02,
+      "S",
+      line.args()};
+};
+
+/** The value of an argument, if it was given. */
+std::optional<std::string> given(Cli::Text& argument)
+{
+  if (!argument.isSet()) return std::nullopt;
+  return argument.getValue();
+}
+
+void run(Cli& cli)
+{
+  if (!cli.objects.isSet() && !cli.trajectory.isSet())
+    throw cli::UsageError("nothing to compare with: give --objects, --trajectory or both");
+  if (!(cli.maxTimeDifference.getValue() >= 0))
+    throw cli::UsageError("--max-time-difference: must be >= 0");
+
+  EvaluationInput input;
+  input.outputFolder = cli.outputFolder.getValue();
+  input.trueObjectsPath = given(cli.objects);
+  input.trueTrajectoryPath = given(cli.trajectory);
+  input.inPlace = cli.inPlace.getValue();
+  input.maxTimeDifference = cli.maxTimeDifference.getValue();
+  const EvaluationReport report = evaluateRun(input);
+
+  if (cli.line.verbosity() == mrpt::system::LVL_DEBUG)
+    std::cerr << "quadmap-evaluate: pose of the map in the true world (x y z yaw pitch roll): "
+              << report.T_truth_estimated << "\n";
+  std::cout << toTable(report);
+  if (cli.json.isSet()) writeTextFile(cli.json.getValue(), toJson(report));
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return cli::runMain(
+      "quadmap-evaluate",
+      [&]
+      {
+        Cli cli;
+        if (cli.line.parse(argc, argv)) run(cli);
+      });
+}

@@ -1,0 +1,167 @@
+#include "quadmap/evaluation/TrajectoryAlignment.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "quadmap/geometry/PinholeCamera.h"
+
+namespace quadmap
+{
+namespace
+{
+/** Weight of one radian between the bodies against one metre between their positions [m^2]. */
+constexpr double kOrientationWeight = 1.0;
+
+/** The optical axes are taken for the truth's only when they fit this much better. */
+constexpr double kClearlyBetter = 0.25;
+
+Eigen::Vector3d position(const mrpt::poses::CPose3D& T) { return {T.x(), T.y(), T.z()}; }
+Eigen::Matrix3d rotation(const mrpt::poses::CPose3D& T) { return T.getRotationMatrix().asEigen(); }
+
+struct Centroids
+{
+  Eigen::Vector3d truth = Eigen::Vector3d::Zero(), estimated = Eigen::Vector3d::Zero();
+};
+
+Centroids centroidsOf(const std::vector<PosePair>& pairs)
+{
+  Centroids mean;
+  for (const auto& pair : pairs)
+  {
+    mean.truth += position(pair.T_truth_body);
+    mean.estimated += position(pair.T_estimated_body);
+  }
+  mean.truth /= static_cast<double>(pairs.size());
+  mean.estimated /= static_cast<double>(pairs.size());
+  return mean;
+}
+
+/** sum (p_truth - mean) (p_estimated - mean)^t / n [m^2]. */
+Eigen::Matrix3d crossCovariance(const std::vector<PosePair>& pairs, const Centroids& mean)
+{
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const auto& pair : pairs)
+    sum += (position(pair.T_truth_body) - mean.truth) *
+           (position(pair.T_estimated_body) - mean.estimated).transpose();
+  return sum / static_cast<double>(pairs.size());
+}
+
+/** sum R_truth B^t R_estimated^t / n. */
+Eigen::Matrix3d axesCovariance(const std::vector<PosePair>& pairs, const Eigen::Matrix3d& B)
+{
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const auto& pair : pairs)
+    sum +=
+        rotation(pair.T_truth_body) * B.transpose() * rotation(pair.T_estimated_body).transpose();
+  return sum / static_cast<double>(pairs.size());
+}
+
+/** The rotation R that maximises tr(R^t M). */
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& M)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return svd.matrixU() * Eigen::Vector3d(1, 1, sign < 0 ? -1 : 1).asDiagonal() *
+         svd.matrixV().transpose();
+}
+
+/** Rotation from positions and axes together; see alignTrajectories. */
+Eigen::Matrix3d rotationWithOrientations(
+    const std::vector<PosePair>& pairs, const Eigen::Matrix3d& positions)
+{
+  // The largest trace possible is that of perfect agreement; what is missing is the disagreement.
+  const double perfect =
+      Eigen::JacobiSVD<Eigen::Matrix3d>(positions).singularValues().sum() + 3 * kOrientationWeight;
+  const auto solve = [&](const Eigen::Matrix3d& B, double& disagreement)
+  {
+    const Eigen::Matrix3d M = positions + kOrientationWeight * axesCovariance(pairs, B);
+    const Eigen::Matrix3d R = nearestRotation(M);
+    disagreement = perfect - (R.transpose() * M).trace();
+    return R;
+  };
+  double sameBody = 0, optical = 0;
+  const Eigen::Matrix3d R_sameBody = solve(Eigen::Matrix3d::Identity(), sameBody);
+  const Eigen::Matrix3d R_optical = solve(rotation(T_sensor_optical()), optical);
+  return optical < kClearlyBetter * sameBody - 1e-9 ? R_optical : R_sameBody;
+}
+
+mrpt::poses::CPose3D poseFrom(const Eigen::Matrix3d& R, const Eigen::Vector3d& t)
+{
+  mrpt::math::CMatrixDouble44 T;
+  T.setIdentity();
+  T.asEigen().topLeftCorner<3, 3>() = R;
+  T.asEigen().topRightCorner<3, 1>() = t;
+  return mrpt::poses::CPose3D(T);
+}
+
+const StampedPose* nearestInTime(const Trajectory& sorted, double time)
+{
+  const auto after = std::lower_bound(
+      sorted.begin(), sorted.end(), time,
+      [](const StampedPose& sample, double t) { return sample.time < t; });
+  if (after == sorted.begin()) return after == sorted.end() ? nullptr : &*after;
+  const auto before = after - 1;
+  if (after == sorted.end() || time - before->time <= after->time - time) return &*before;
+  return &*after;
+}
+
+void requirePairs(const std::vector<PosePair>& pairs)
+{
+  if (pairs.empty()) throw std::invalid_argument("trajectories: no pair of poses to compare");
+}
+}  // namespace
+
+std::vector<PosePair> pairByTime(
+    const Trajectory& truth, const Trajectory& estimated, double maxTimeDifference)
+{
+  Trajectory sorted = truth;
+  std::stable_sort(
+      sorted.begin(), sorted.end(),
+      [](const StampedPose& a, const StampedPose& b) { return a.time < b.time; });
+
+  std::map<const StampedPose*, const StampedPose*> estimatedOfTruth;
+  for (const StampedPose& pose : estimated)
+  {
+    const StampedPose* nearest = nearestInTime(sorted, pose.time);
+    if (!nearest || std::abs(nearest->time - pose.time) > maxTimeDifference) continue;
+    const StampedPose*& partner = estimatedOfTruth[nearest];
+    if (!partner || std::abs(pose.time - nearest->time) < std::abs(partner->time - nearest->time))
+      partner = &pose;
+  }
+
+  std::vector<PosePair> pairs;
+  pairs.reserve(estimatedOfTruth.size());
+  for (const auto& [t, e] : estimatedOfTruth) pairs.push_back({t->pose, e->pose});
+  return pairs;
+}
+
+TrajectoryAlignment alignTrajectories(const std::vector<PosePair>& pairs)
+{
+  requirePairs(pairs);
+  const Centroids mean = centroidsOf(pairs);
+  const Eigen::Matrix3d H = crossCovariance(pairs, mean);
+
+  TrajectoryAlignment result;
+  result.secondSpread = std::sqrt(Eigen::JacobiSVD<Eigen::Matrix3d>(H).singularValues()[1]);
+  if (result.secondSpread < kMinSecondSpread) result.source = AlignmentSource::Orientations;
+  const Eigen::Matrix3d R = result.source == AlignmentSource::Positions
+                                ? nearestRotation(H)
+                                : rotationWithOrientations(pairs, H);
+  result.T_truth_estimated = poseFrom(R, mean.truth - R * mean.estimated);
+  return result;
+}
+
+double ateRmse(const std::vector<PosePair>& pairs, const mrpt::poses::CPose3D& T_truth_estimated)
+{
+  requirePairs(pairs);
+  double sum = 0;
+  for (const auto& pair : pairs)
+    sum += (position(pair.T_truth_body) - position(T_truth_estimated + pair.T_estimated_body))
+               .squaredNorm();
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+}  // namespace quadmap
