@@ -114,6 +114,7 @@ void CloudCollector::add(
     }
   }
   scan.resizePoints3DVectors(0);
+  ++frames_;
   while (cells_.size() > maxPoints_) growCells();
 }
 
@@ -135,11 +136,14 @@ void CloudCollector::growCells()
 
 Cloud CloudCollector::points() const
 {
+  // Points that only one pixel ever saw are mostly the noise of edges; few frames cannot tell.
+  const float fewestHits = frames_ < 10 ? 1.0F : 2.0F;
   Cloud out;
   out.reserve(cells_.size());
   for (const auto& entry : cells_)
   {
     const Cell& cell = entry.second;
+    if (cell.count < fewestHits) continue;
     CloudPoint p;
     p.position = cell.positionSum / cell.count;
     p.normal = cell.normalSum.isZero() ? cell.normalSum : cell.normalSum.normalized();

@@ -156,25 +156,55 @@ float paleColor(std::uint8_t value, double paleness)
   return static_cast<float>(v + paleness * (1.0 - v));
 }
 
+/** Is a point part of an object? A little outside counts, for depth is noisy; what the object
+ * stands on does not. */
+bool isInside(const Eigen::Vector3d& p_map, const std::vector<ObjectRecord>& objects)
+{
+  constexpr double kNoise = 0.04;  // [m]
+  return std::any_of(
+      objects.begin(), objects.end(),
+      [&](const ObjectRecord& record)
+      {
+        const Eigen::Vector3d s = record.object.semiAxes();
+        const Eigen::Vector3d p_obj =
+            record.object.rotation().transpose() * (p_map - record.object.center());
+        const bool isAbove = p_obj.z() > std::min(-s.z() + kNoise, 0.0);
+        return isAbove && (p_obj.cwiseAbs() - s).maxCoeff() < kNoise;
+      });
+}
+
+/** The cloud around the objects, and what belongs to them: few and small points, so that the
+ * ellipsoids can be seen and compared with it. */
+struct CloudParts
+{
+  mrpt::opengl::CPointCloudColoured::Ptr around = mrpt::opengl::CPointCloudColoured::Create();
+  mrpt::opengl::CPointCloudColoured::Ptr inside = mrpt::opengl::CPointCloudColoured::Create();
+};
+
 /** \param view If given, only the points that face the eye. */
-mrpt::opengl::CPointCloudColoured::Ptr cloudOf(
-    const SceneContent& content, const SceneOptions& options, const ViewPoint* view)
+CloudParts cloudOf(const SceneContent& content, const SceneOptions& options, const ViewPoint* view)
 {
   Eigen::AlignedBox3d shown = boundsOf(content);
   shown.min().array() -= options.cloudMargin;
   shown.max().array() += options.cloudMargin;
-  auto cloud = mrpt::opengl::CPointCloudColoured::Create();
-  cloud->setName("cloud");
+  CloudParts parts;
+  parts.around->setName("cloud");
+  parts.inside->setName("cloud of the objects");
+  std::size_t insideCount = 0;
   for (const CloudPoint& p : content.cloud)
   {
     const Eigen::Vector3d position = p.position.cast<double>();
     if (!shown.contains(position)) continue;
     if (view && p.normal.cast<double>().dot(view->eye() - position) <= 0) continue;
-    const auto color = [&](std::size_t i) { return paleColor(p.rgb[i], options.cloudPaleness); };
-    cloud->push_back(
-        p.position.x(), p.position.y(), p.position.z(), color(0), color(1), color(2), 1.0F);
+    const bool inside = isInside(position, content.objects);
+    if (inside && insideCount++ % options.insideThinning != 0) continue;
+    const double paleness = inside ? 0.0 : options.cloudPaleness;
+    const auto color = [&](std::size_t i) { return paleColor(p.rgb[i], paleness); };
+    (inside ? parts.inside : parts.around)
+        ->push_back(
+            p.position.x(), p.position.y(), p.position.z(), color(0), color(1), color(2), 1.0F);
   }
-  return cloud;
+  return parts;
 }
 
 /** What scenes and pictures have in common: all but cloud and labels.
@@ -205,9 +235,11 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::scene(const SceneContent& content)
 {
   const ViewPoint view = obliqueView(content, PictureSize().aspect());
   auto scene = commonParts(content, options_, options_.lineRadius);
-  auto cloud = cloudOf(content, options_, nullptr);
-  cloud->setPointSize(3.0F);
-  scene->insert(cloud);
+  const CloudParts cloud = cloudOf(content, options_, nullptr);
+  cloud.around->setPointSize(3.0F);
+  cloud.inside->setPointSize(2.0F);
+  scene->insert(cloud.around);
+  scene->insert(cloud.inside);
   scene->insert(standingLabels(content.objects, view, options_.labelHeight));
   view.applyTo(scene->getViewport()->getCamera());
   return scene;
@@ -219,12 +251,14 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::picture(
   const double metresPerHeight = 2 * std::tan(0.5 * view.verticalFov) * view.distance;
   auto scene = commonParts(content, options_, options_.pictureLineRadius * metresPerHeight);
 
-  auto cloud = cloudOf(content, options_, &view);
+  const CloudParts cloud = cloudOf(content, options_, &view);
   constexpr double kOverlap = 1.3;  // a little larger than the gaps: no holes
   const double pixelsPerMetre = PictureSize::kOversampling * size.height / metresPerHeight;
-  cloud->setPointSize(
-      static_cast<float>(std::clamp(kOverlap * content.cloudCellSize * pixelsPerMetre, 1.0, 12.0)));
-  scene->insert(cloud);
+  const double gap = content.cloudCellSize * pixelsPerMetre;  // [px]
+  cloud.around->setPointSize(static_cast<float>(std::clamp(kOverlap * gap, 1.0, 12.0)));
+  cloud.inside->setPointSize(static_cast<float>(std::clamp(0.5 * gap, 1.0, 4.0)));
+  scene->insert(cloud.around);
+  scene->insert(cloud.inside);
 
   const PictureLabels style{size.aspect(), options_.pictureLabelHeight};
   scene->insert(pictureLabels(content.objects, view, style));

@@ -57,6 +57,7 @@ class CloudCollector
   double cellSize_;
   std::size_t maxPoints_;
   Cells cells_;
+  std::size_t frames_ = 0;
 };
 
 }  // namespace quadmap

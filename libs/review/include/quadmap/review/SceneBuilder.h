@@ -18,12 +18,14 @@ struct SceneOptions
   double pictureLineRadius = 0.0018;  //!< The same in pictures, as a part of their height, > 0
   double cloudMargin = 1.0;           //!< The cloud is drawn this far around the rest [m], >= 0
   double cloudPaleness = 0.35;        //!< Share of white in the cloud's colours, in [0, 1]
+  unsigned insideThinning = 4;        //!< One in so many of the cloud's points on objects, > 0
   double cameraLength = 0.18;         //!< Of the pyramids [m], > 0
   unsigned shownCameras = 12;         //!< Pyramids, spread evenly over the keyframes
 };
 
 /** Makes 3D scenes out of the parts of a map. The objects of a scene are grouped under the names
- * "floor", "cloud", "objects", "labels", "truth", "trajectory", "odometry" and "cameras". */
+ * "floor", "cloud", "cloud of the objects", "objects", "labels", "truth", "trajectory", "odometry"
+ * and "cameras". */
 class SceneBuilder
 {
  public:
