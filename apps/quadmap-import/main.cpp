@@ -1,10 +1,12 @@
 #include <mrpt/system/progress.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "../common/CommandLine.h"
 #include "TumImport.h"
+#include "quadmap/sensors/TumCheck.h"
 
 namespace
 {
@@ -29,6 +31,11 @@ struct Cli
                                       "OUT.rawlog", line.args()};
   TCLAP::SwitchArg check{
       "", "check", "Write nothing; list what is wrong with the recording.", line.args()};
+  TCLAP::ValueArg<double> maxGap{
+      "",  "max-gap",  "--check: longest time between frames [s] (default: 5 medians).", false, 0,
+      "S", line.args()};
+  TCLAP::ValueArg<double> maxSpeed{
+      "", "max-speed", "--check: fastest plausible motion [m/s].", false, 2.0, "M/S", line.args()};
   TCLAP::SwitchArg external{
       "", "external", "Images into OUT_Images/ instead of into the rawlog.", line.args()};
   TCLAP::ValueArg<std::string> posesAs{
@@ -75,15 +82,41 @@ void import(const TumDataset& dataset, Cli& cli)
   std::cout << "\n";
 }
 
-void run(Cli& cli)
+/** Prints what is wrong, by kind. \return The exit status: 1 when something is. */
+int checkOnly(const TumDataset& dataset, Cli& cli)
 {
+  constexpr std::size_t kExamples = 3;
+  TumCheckOptions options;
+  options.maxGap = cli.maxGap.getValue();
+  options.maxSpeed = cli.maxSpeed.getValue();
+  const auto problems = checkTum(dataset, options, showProgress);
+  const auto& frames = dataset.frames();
+  std::cout << dataset.folder() << ": " << frames.size() << " frames in "
+            << frames.back().time - frames.front().time << " s, " << dataset.trajectory().size()
+            << " poses: " << (problems.empty() ? "no problem found\n" : "\n");
+  for (const auto& [kind, texts] : problems)
+  {
+    std::cout << kind << " (" << texts.size() << ")\n";
+    for (std::size_t i = 0; i < std::min(texts.size(), kExamples); ++i)
+      std::cout << "  " << texts[i] << "\n";
+    if (texts.size() > kExamples) std::cout << "  ...\n";
+  }
+  return problems.empty() ? 0 : 1;
+}
+
+int run(Cli& cli)
+{
+  const bool checking = cli.check.getValue();
   if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be >= 1");
   TumDatasetOptions reading;
   reading.detections = cli.detections.getValue();
-  if (cli.output.getValue().empty()) throw cli::UsageError("missing argument: -o OUT.rawlog");
+  if (!checking && cli.output.getValue().empty())
+    throw cli::UsageError("missing argument: -o OUT.rawlog");
   const TumDataset dataset(cli.source.getValue(), reading);
   for (const auto& note : dataset.notes()) std::cerr << "quadmap-import: note: " << note << "\n";
+  if (checking) return checkOnly(dataset, cli);
   import(dataset, cli);
+  return 0;
 }
 }  // namespace
 
@@ -94,6 +127,6 @@ int main(int argc, char** argv)
       [&]
       {
         Cli cli;
-        if (cli.line.parse(argc, argv)) run(cli);
+        return cli.line.parse(argc, argv) ? run(cli) : 0;
       });
 }

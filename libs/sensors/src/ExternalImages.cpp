@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <vector>
 
 #include "GzStream.h"
 #include "RecordReader.h"
@@ -18,13 +17,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** MRPT does not notice when the end of a file was not written. */
-void requireCompleteGz(const std::string& path)
-{
-  std::vector<char> buffer(1u << 16);
-  GzInput file(path);
-  while (file.Read(buffer.data(), buffer.size()) > 0) file.startRecord();
-}
+// MRPT does not notice when the end of a file was not written.
+void requireCompleteGz(const std::string& path) { GzInput(path).skipToEnd(); }
 
 void requireCompleteJpeg(const std::string& path)
 {
@@ -76,7 +70,7 @@ void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQ
   }
   catch (const std::exception& e)
   {
-    throw std::runtime_error(folder_ + "/" + now + ": " + firstLine(e));
+    throw std::runtime_error(folder_ + "/" + now + ": " + rootMessage(e));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 namespace quadmap
 {
@@ -55,16 +56,15 @@ double GzInput::progress() const
   return std::clamp(offset / static_cast<double>(fileBytes_), 0.0, 1.0);
 }
 
-std::size_t GzInput::fail(const std::string& why)
+void GzInput::fail(const std::string& why)
 {
   failure_ = why;
   throw std::runtime_error(why);
 }
 
-std::size_t GzInput::Read(void* buffer, std::size_t count)
+/** Less than `count` at the end of the file only. */
+std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
 {
-  if (!failure_.empty()) throw std::runtime_error(failure_);
-  auto* bytes = static_cast<char*>(buffer);
   std::size_t done = 0;
   while (done < count)
   {
@@ -72,18 +72,34 @@ std::size_t GzInput::Read(void* buffer, std::size_t count)
     const int got = gzread(file_, bytes + done, want);
     int error = Z_OK;
     gzerror(file_, &error);
-    if (error == Z_BUF_ERROR) return fail("the file is truncated (its compressed data ends early)");
+    if (error == Z_BUF_ERROR) fail("the file is truncated (its compressed data ends early)");
     if (got < 0 || (error != Z_OK && error != Z_STREAM_END))
-      return fail("the file is damaged (" + errorText(error) + ")");
+      fail("the file is damaged (" + errorText(error) + ")");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
+  return done;
+}
+
+std::size_t GzInput::Read(void* buffer, std::size_t count)
+{
+  if (!failure_.empty()) throw std::runtime_error(failure_);
+  auto* bytes = static_cast<char*>(buffer);
+  const std::size_t done = readAvailable(bytes, count);
   if (done < count && (done > 0 || recordBytes_ > 0))
-    return fail("the file is truncated (it ends within a record)");
+    fail("the file is truncated (it ends within a record)");
   if (head_.size() < kHeadBytes) head_.append(bytes, std::min(done, kHeadBytes - head_.size()));
   recordBytes_ += done;
   position_ += done;
   return done;
+}
+
+void GzInput::skipToEnd()
+{
+  std::vector<char> bytes(kBufferBytes);
+  while (readAvailable(bytes.data(), bytes.size()) == bytes.size())
+  {
+  }
 }
 
 std::size_t GzInput::Write(const void*, std::size_t)
@@ -97,7 +113,7 @@ std::uint64_t GzInput::Seek(std::int64_t, TSeekOrigin)
 }
 
 GzOutput::GzOutput(const std::string& path, int level) :
-    path_(path), file_(openOrThrow(path, "wb" + std::to_string(std::clamp(level, 0, 9))))
+    file_(openOrThrow(path, "wb" + std::to_string(std::clamp(level, 0, 9))))
 {
 }
 
@@ -108,7 +124,7 @@ GzOutput::~GzOutput()
 
 void GzOutput::fail(int zlibError)
 {
-  failure_ = path_ + ": cannot write: " + errorText(zlibError);
+  failure_ = "cannot write: " + errorText(zlibError);
   throw std::runtime_error(failure_);
 }
 

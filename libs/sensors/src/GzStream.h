@@ -30,13 +30,16 @@ class GzInput : public mrpt::io::CStream
 
   /** \exception std::runtime_error If the file ends within a record or is damaged. */
   std::size_t Read(void* buffer, std::size_t count) override;
+  /** Reads to the end, whatever is there. \exception std::runtime_error If the file is damaged. */
+  void skipToEnd();
   std::size_t Write(const void* buffer, std::size_t count) override;
   std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
   std::uint64_t getTotalBytesCount() const override { return fileBytes_; }
   std::uint64_t getPosition() const override { return position_; }
 
  private:
-  std::size_t fail(const std::string& why);
+  [[noreturn]] void fail(const std::string& why);
+  std::size_t readAvailable(char* bytes, std::size_t count);
 
   gzFile file_ = nullptr;
   std::uint64_t fileBytes_ = 0, position_ = 0, recordBytes_ = 0;
@@ -67,7 +70,6 @@ class GzOutput : public mrpt::io::CStream
  private:
   [[noreturn]] void fail(int zlibError);
 
-  std::string path_;
   gzFile file_ = nullptr;
   std::uint64_t position_ = 0;
   std::string failure_;

@@ -2,7 +2,6 @@
 
 #include <mrpt/core/format.h>
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -103,7 +102,7 @@ struct RawlogSource::Impl
 
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
     reader(file),
-    imagesFolder(mrpt::obs::CRawlog::detectImagesDirectory(file)),
+    imagesFolder(findImagesFolder(file)),
     options(std::move(o)),
     boxes(options.maxBoxDelay),
     log_(owner)
@@ -211,7 +210,7 @@ void RawlogSource::Impl::readObservation(
   }
   catch (const std::exception& e)
   {
-    return report({reader.file(), record, label, firstLine(e)});
+    return report({reader.file(), record, label, rootMessage(e)});
   }
   if (observation->timestamp != INVALID_TIMESTAMP)
     latestTime_ = std::max(latestTime_, mrpt::Clock::toDouble(observation->timestamp));
@@ -258,7 +257,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
   }
   catch (const std::exception& e)
   {
-    report({reader.file(), frame.record, frame.scan->sensorLabel, firstLine(e)});
+    report({reader.file(), frame.record, frame.scan->sensorLabel, rootMessage(e)});
     return std::nullopt;
   }
   if (!frame.scan->doDepthAndIntensityCamerasCoincide() && frame.scan->hasIntensityImage)

@@ -79,7 +79,7 @@ class ArchiveFile
   /** The user knows the final name, not the temporary one. */
   [[noreturn]] void fail(const std::exception& e)
   {
-    const std::string why = stream_.failure().empty() ? firstLine(e) : stream_.failure();
+    const std::string why = stream_.failure().empty() ? rootMessage(e) : stream_.failure();
     throw std::runtime_error(output_.finalPath() + ": " + why);
   }
 

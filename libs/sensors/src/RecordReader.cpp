@@ -27,11 +27,13 @@ std::string classNameIn(const std::string& head)
 }
 }  // namespace
 
-std::string firstLine(const std::exception& e)
+std::string rootMessage(const std::exception& e)
 {
-  const auto* withStack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&e);
-  const std::string text = withStack ? withStack->originalWhat : e.what();
-  const auto begin = text.find_first_not_of("\n\r ");
+  // MRPT nests messages and call stacks; the innermost message is the cause.
+  const std::string text = e.what(), mark = "Message:  ";
+  const auto nested = text.rfind(mark);
+  const auto begin =
+      text.find_first_not_of("\n\r ", nested == std::string::npos ? 0 : nested + mark.size());
   if (begin == std::string::npos) return "unknown error";
   return text.substr(begin, text.find_first_of("\n\r", begin) - begin);
 }
@@ -53,7 +55,7 @@ std::string RecordReader::explain(const std::exception& e) const
   if (!stream_.failure().empty()) return name + ": " + stream_.failure();
   if (!mrpt::rtti::findRegisteredClass(name))
     return "class " + name + " is unknown; MRPT files cannot be read on after an unknown class";
-  return name + " cannot be read: " + firstLine(e);
+  return name + " cannot be read: " + rootMessage(e);
 }
 
 mrpt::serialization::CSerializable::Ptr RecordReader::next()

@@ -38,7 +38,7 @@ class RecordReader
   bool ended_ = false;
 };
 
-/** First line of an exception's text, without MRPT's call stack. */
-std::string firstLine(const std::exception& e);
+/** The cause an exception tells, on one line: without MRPT's nested messages and call stacks. */
+std::string rootMessage(const std::exception& e);
 
 }  // namespace quadmap

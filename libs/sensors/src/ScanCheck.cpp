@@ -37,7 +37,7 @@ void loadExternalImages(CObservation3DRangeScan& scan, const std::string& folder
   }
   catch (const std::exception& e)
   {
-    throw std::runtime_error("its external images cannot be read: " + firstLine(e));
+    throw std::runtime_error("its external images cannot be read: " + rootMessage(e));
   }
 }
 

@@ -1,0 +1,213 @@
+#include "quadmap/sensors/TumCheck.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
+#include <mrpt/poses/Lie/SO.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "quadmap/sensors/BoxCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kGapFactor = 5;  // times the median interval, when no gap is given
+
+double medianOf(std::vector<double> values)
+{
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** Median of the measured depths of a frame [m]; nothing when there are none. */
+std::optional<double> medianDepth(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  std::vector<double> depths;
+  for (int v = 0; v < scan.rangeImage.rows(); v += 4)  // every 16th pixel is plenty for a median
+    for (int u = 0; u < scan.rangeImage.cols(); u += 4)
+      if (scan.rangeImage(v, u) > 0)
+        depths.push_back(scan.rangeImage(v, u) * static_cast<double>(scan.rangeUnits));
+  if (depths.empty()) return std::nullopt;
+  return medianOf(std::move(depths));
+}
+
+void checkBoxes(const TumDataset& dataset, std::size_t frame, TumProblems& problems)
+try
+{
+  if (!dataset.hasDetections()) return;
+  const std::string file = dataset.boxesFile(frame);
+  const auto boxes = dataset.boxes(frame);
+  if (!boxes) return problems["missing file"].push_back(file);
+  for (const auto& object : boxes->objects)
+    if (const auto why = whyUnusable(
+            object.box, object.score, boxes->cameraParams.ncols, boxes->cameraParams.nrows))
+      problems["box"].push_back(file + ": " + object.label + " " + *why);
+}
+catch (const std::exception& e)
+{
+  problems["box"].push_back(e.what());
+}
+
+/** Median depths of the frames [m] go to `depths`. */
+void checkImages(
+    const TumDataset& dataset,
+    std::size_t index,
+    std::vector<double>& depths,
+    TumProblems& problems)
+{
+  const auto& frame = dataset.frames()[index];
+  bool complete = true;
+  for (const auto& file : {frame.color, frame.depth})
+    if (!std::filesystem::is_regular_file(file))
+    {
+      problems["missing file"].push_back(file + " (" + frame.listed + ")");
+      complete = false;
+    }
+  if (!complete) return;
+  try
+  {
+    if (const auto depth = medianDepth(*dataset.scan(index)))
+      depths.push_back(*depth);
+    else
+      problems["no depth"].push_back(frame.depth + ": no pixel has a depth");
+  }
+  catch (const std::exception& e)
+  {
+    problems["image"].push_back(e.what());
+  }
+}
+
+void checkDepthScale(
+    const TumDataset& dataset,
+    const std::vector<double>& depths,
+    const TumCheckOptions& options,
+    TumProblems& problems)
+{
+  const double depth = medianOf(depths);
+  if (depths.empty() || (depth >= options.minDepth && depth <= options.maxDepth)) return;
+  problems["depth scale"].push_back(mrpt::format(
+      "the median depth is %.3g m: depth_factor %g of calibration.yaml cannot be right "
+      "(plausible: %g..%g m)",
+      depth, dataset.calibration().depthFactor, options.minDepth, options.maxDepth));
+}
+
+void checkTimes(const TumDataset& dataset, const TumCheckOptions& options, TumProblems& problems)
+{
+  const auto& frames = dataset.frames();
+  std::vector<double> intervals;  // [s]
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (frames[i].time > frames[i - 1].time)
+      intervals.push_back(frames[i].time - frames[i - 1].time);
+  const double maxGap = options.maxGap > 0 ? options.maxGap : kGapFactor * medianOf(intervals);
+  for (std::size_t i = 1; i < frames.size(); ++i)
+  {
+    const double step = frames[i].time - frames[i - 1].time;
+    if (step <= 0)
+      problems["time going backwards"].push_back(
+          mrpt::format("%s: %.6f s before the frame before", frames[i].listed.c_str(), -step));
+    else if (step > maxGap)
+      problems["gap in time"].push_back(mrpt::format(
+          "%s: %.3f s after the frame before (limit %.3f s)", frames[i].listed.c_str(), step,
+          maxGap));
+  }
+}
+
+struct Motion
+{
+  std::size_t frame;
+  double speed, turnRate;  // since the frame before [m/s], [rad/s]
+};
+
+std::vector<Motion> motionsOf(const TumDataset& dataset, TumProblems& problems)
+{
+  std::vector<Motion> motions;
+  std::optional<std::size_t> previous;
+  std::optional<mrpt::poses::CPose3D> T_world_previous;
+  for (std::size_t i = 0; i < dataset.frames().size(); ++i)
+  {
+    const auto T_world_robot = dataset.T_world_robot(i);
+    if (!T_world_robot)
+    {
+      problems["no pose"].push_back(mrpt::format(
+          "%s: groundtruth.txt does not cover %.6f s", dataset.frames()[i].listed.c_str(),
+          dataset.frames()[i].time));
+      continue;
+    }
+    const double dt = previous ? dataset.frames()[i].time - dataset.frames()[*previous].time : 0;
+    if (dt > 0)
+    {
+      const auto T_previous_robot = *T_world_robot - *T_world_previous;
+      const auto turn = mrpt::poses::Lie::SO<3>::log(T_previous_robot.getRotationMatrix());
+      motions.push_back({i, T_previous_robot.translation().norm() / dt, turn.norm() / dt});
+    }
+    previous = i;
+    T_world_previous = T_world_robot;
+  }
+  return motions;
+}
+
+void checkMotion(const TumDataset& dataset, const TumCheckOptions& options, TumProblems& problems)
+{
+  if (dataset.trajectory().empty()) return;
+  const auto motions = motionsOf(dataset, problems);
+  std::vector<double> speeds, turnRates;
+  for (const auto& m : motions)
+  {
+    speeds.push_back(m.speed);
+    turnRates.push_back(m.turnRate);
+  }
+  const double speedLimit = std::max(options.maxSpeed, options.jumpFactor * medianOf(speeds));
+  const double turnLimit =
+      std::max(mrpt::DEG2RAD(options.maxTurnRate_deg), options.jumpFactor * medianOf(turnRates));
+  for (const auto& m : motions)
+    if (m.speed > speedLimit || m.turnRate > turnLimit)
+      problems["pose jumps"].push_back(mrpt::format(
+          "%s: %.2f m/s, %.0f deg/s since the frame before (limits %.2f, %.0f)",
+          dataset.frames()[m.frame].listed.c_str(), m.speed, mrpt::RAD2DEG(m.turnRate), speedLimit,
+          mrpt::RAD2DEG(turnLimit)));
+}
+
+void check(const TumCheckOptions& o)
+{
+  const auto require = [](bool good, const char* what, double value)
+  {
+    if (!good) throw std::invalid_argument(mrpt::format("%s, got %g", what, value));
+  };
+  require(o.maxGap >= 0, "maxGap: must be >= 0 s", o.maxGap);
+  require(o.minDepth > 0, "minDepth: must be > 0 m", o.minDepth);
+  require(o.maxDepth > o.minDepth, "maxDepth: must be > minDepth [m]", o.maxDepth);
+  require(o.jumpFactor > 1, "jumpFactor: must be > 1", o.jumpFactor);
+  require(o.maxSpeed > 0, "maxSpeed: must be > 0 m/s", o.maxSpeed);
+  require(o.maxTurnRate_deg > 0, "maxTurnRate_deg: must be > 0 deg/s", o.maxTurnRate_deg);
+}
+}  // namespace
+
+TumProblems checkTum(
+    const TumDataset& dataset,
+    const TumCheckOptions& options,
+    const std::function<void(double)>& progress)
+{
+  check(options);
+  TumProblems problems;
+  std::vector<double> depths;  // medians of the frames [m]
+  const std::size_t frames = dataset.frames().size();
+  for (std::size_t i = 0; i < frames; ++i)
+  {
+    progress(static_cast<double>(i) / static_cast<double>(frames));
+    checkImages(dataset, i, depths, problems);
+    checkBoxes(dataset, i, problems);
+  }
+  checkDepthScale(dataset, depths, options, problems);
+  checkTimes(dataset, options, problems);
+  checkMotion(dataset, options, problems);
+  progress(1.0);
+  return problems;
+}
+
+}  // namespace quadmap
