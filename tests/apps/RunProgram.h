@@ -1,0 +1,31 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "../obs/TemporaryFolder.h"
+
+namespace quadmap
+{
+struct ProgramResult
+{
+  int status = -1;       //!< Exit status; -1 when a signal ended it
+  std::string out, err;  //!< What it printed
+};
+
+/** Runs one of our programs to its end.
+ * \param arguments As typed in a shell. */
+inline ProgramResult runProgram(const std::string& program, const std::string& arguments)
+{
+  const TemporaryFolder folder;
+  const std::string command = std::string(QUADMAP_BIN_DIR) + "/" + program + " " + arguments +
+                              " >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'";
+  const int status = std::system(command.c_str());
+  return {
+      WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(folder.path("out")),
+      readFile(folder.path("err"))};
+}
+
+}  // namespace quadmap

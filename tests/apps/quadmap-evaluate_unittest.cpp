@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "RunProgram.h"
+#include "quadmap/obs/ObjectList.h"
+#include "quadmap/obs/Trajectory.h"
+
+using namespace quadmap;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+/** A folder as quadmap-slam leaves it, and its truth: all perfect but one missed object. */
+class QuadmapEvaluate : public testing::Test
+{
+ protected:
+  QuadmapEvaluate()
+  {
+    Trajectory trajectory;
+    for (int i = 0; i < 10; ++i)
+      trajectory.push_back({10.0 + i, CPose3D(std::cos(i), std::sin(i), 0.1 * i, 0.2 * i, 0, 0)});
+    writeTumTrajectory(folder_.path("trajectory.tum"), trajectory);
+    writeTumTrajectory(folder_.path("gt.tum"), trajectory);
+
+    ObjectRecord cup, chair;
+    cup.id = "1";
+    cup.label = "cup";
+    chair.id = "2";
+    chair.label = "chair";
+    chair.object = Ellipsoid(CPose3D(4, 0, 0, 0, 0, 0), {0.3, 0.3, 0.5});
+    writeObjectsJson(folder_.path("objects.json"), {cup});
+    writeObjectsJson(folder_.path("gt.json"), {cup, chair});
+  }
+
+  /** Arguments with DIR for the folder. */
+  ProgramResult run(std::string arguments)
+  {
+    for (auto at = arguments.find("DIR"); at != kNotFound; at = arguments.find("DIR"))
+      arguments.replace(at, 3, folder_.folder().string());
+    return runProgram("quadmap-evaluate", arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool isOneLine(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+}  // namespace
+
+TEST_F(QuadmapEvaluate, PrintsATableAndWritesJson)
+{
+  const auto result =
+      run("DIR --objects DIR/gt.json --trajectory DIR/gt.tum --json DIR/figures.json");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("2 true, 1 estimated, 1 matched"), kNotFound) << result.out;
+  EXPECT_NE(result.out.find("Missed:\n  chair"), kNotFound) << result.out;
+  EXPECT_TRUE(result.err.empty()) << result.err;
+  const auto json = nlohmann::json::parse(readFile(folder_.path("figures.json")));
+  EXPECT_EQ(json["objects"]["recall"], 0.5);
+  EXPECT_TRUE(json["trajectory"]["ate_rmse_odometry_m"].is_null());
+}
+
+TEST_F(QuadmapEvaluate, TakesEitherTruthAlone)
+{
+  const auto objects = run("DIR --objects DIR/gt.json");
+  EXPECT_EQ(objects.status, 0) << objects.err;
+  EXPECT_EQ(objects.out.find("ATE"), kNotFound);
+  EXPECT_NE(objects.out.find("in place"), kNotFound) << "said, because nothing was aligned";
+  const auto trajectory = run("DIR --trajectory DIR/gt.tum");
+  EXPECT_EQ(trajectory.status, 0) << trajectory.err;
+  EXPECT_NE(trajectory.out.find("ATE"), kNotFound);
+}
+
+TEST_F(QuadmapEvaluate, TellsTheAlignmentWhenDebugging)
+{
+  const auto result = run("DIR --trajectory DIR/gt.tum -v debug");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("pose of the map"), kNotFound);
+}
+
+TEST_F(QuadmapEvaluate, ShowsHelpAndVersion)
+{
+  const auto help = run("--help");
+  EXPECT_EQ(help.status, 0);
+  for (const char* option : {"--objects", "--trajectory", "--json", "--in-place", "--verbosity"})
+    EXPECT_NE(help.out.find(option), kNotFound) << option;
+  const auto version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.find("quadmap-evaluate "), 0u);
+  EXPECT_TRUE(isOneLine(version.out)) << version.out;
+}
+
+TEST_F(QuadmapEvaluate, AnswersWrongUsageWithStatus2AndOneLine)
+{
+  for (const char* arguments :
+       {"", "DIR", "--objects DIR/gt.json", "DIR --objects", "DIR --objcts DIR/gt.json",
+        "DIR another --objects DIR/gt.json", "DIR --objects DIR/gt.json -v loud",
+        "DIR --trajectory DIR/gt.tum --max-time-difference ten",
+        "DIR --trajectory DIR/gt.tum --max-time-difference -1"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find("quadmap-evaluate: "), 0u) << result.err;
+    EXPECT_TRUE(result.out.empty()) << result.out;
+  }
+}
+
+TEST_F(QuadmapEvaluate, AnswersBadInputWithStatus1AndOneLineNamingTheFile)
+{
+  folder_.write("broken.json", "{\"objects\": [");
+  folder_.write("short.tum", "1 2 3 4 5 6 7\n");
+  folder_.write("other.tum", "1e6 0 0 0 0 0 0 1\n");
+  const std::pair<const char*, const char*> cases[] = {
+      {                       "DIR/nowhere --objects DIR/gt.json",                                "nowhere"},
+      {                             "DIR --objects DIR/none.json",                              "none.json"},
+      {                           "DIR --objects DIR/broken.json",                            "broken.json"},
+      {                           "DIR --trajectory DIR/none.tum",                               "none.tum"},
+      {                          "DIR --trajectory DIR/short.tum", "short.tum:1: expected 8 columns, got 7"},
+      {                          "DIR --trajectory DIR/other.tum",                              "other.tum"},
+      {"DIR --objects DIR/gt.json --json DIR/no/such/folder.json",                            "folder.json"}
+  };
+  for (const auto& [arguments, name] : cases)
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find("quadmap-evaluate: "), 0u) << result.err;
+    EXPECT_NE(result.err.find(name), kNotFound) << result.err;
+  }
+}
+
+TEST_F(QuadmapEvaluate, LeavesNoJsonWhenItFails)
+{
+  const auto before = folder_.fileCount();
+  EXPECT_EQ(run("DIR --objects DIR/none.json --json DIR/figures.json").status, 1);
+  EXPECT_EQ(folder_.fileCount(), before);
+}
