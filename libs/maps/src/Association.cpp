@@ -13,19 +13,6 @@ namespace
 {
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
-/** log N(a - b; 0, S), normalised. */
-double logGaussian(const Eigen::VectorXd& difference, const Eigen::MatrixXd& S)
-{
-  const Eigen::LLT<Eigen::MatrixXd> llt(S);
-  if (llt.info() != Eigen::Success)
-    throw std::invalid_argument("associateFrame: a covariance is not positive definite");
-  const Eigen::VectorXd whitened = llt.matrixL().solve(difference);
-  double halfLogDet = 0;
-  for (Eigen::Index i = 0; i < S.rows(); ++i) halfLogDet += std::log(llt.matrixLLT()(i, i));
-  const double dimension = static_cast<double>(difference.size());
-  return -0.5 * whitened.squaredNorm() - halfLogDet - 0.5 * dimension * std::log(2.0 * M_PI);
-}
-
 double labelCount(const AssociationTarget& target, const std::string& label)
 {
   for (const auto& [name, count] : target.labelCounts)
@@ -33,17 +20,13 @@ double labelCount(const AssociationTarget& target, const std::string& label)
   return 0;
 }
 
-/** log m_i + log (n_iu + beta)/(m_i + U beta) + log N(z; h, S)   (DESIGN section 4) */
-double logJoin(
+/** log m_i + log (n_iu + beta)/(m_i + U beta) */
+double logPrior(
     const AssociationCandidate& z, const AssociationTarget& object, const AssociationParameters& p)
 {
-  if (z.position.size() != object.position.size())
-    throw std::invalid_argument("associateFrame: measurement and object differ in dimension");
   if (object.observations == 0) return kImpossible;
   const double m = object.observations;
-  const double label = std::log((labelCount(object, z.label) + p.beta) / (m + p.labels * p.beta));
-  return std::log(m) + label +
-         logGaussian(z.position - object.position, z.covariance + object.covariance);
+  return std::log(m) + std::log((labelCount(object, z.label) + p.beta) / (m + p.labels * p.beta));
 }
 
 double logSumExp(const Eigen::VectorXd& v)
@@ -58,29 +41,25 @@ void requireValid(const AssociationParameters& p)
     throw std::invalid_argument("associateFrame: alpha, beta, labels and volume must be > 0");
 }
 
-/** Rows: measurements. Columns: the objects, then "none of them" (a new object, or waiting). */
+/** Adds to the log-likelihoods (rows: measurements, columns: objects) the prior of the Dirichlet
+ * process, and a last column "none of them" (a new object, or waiting): DESIGN section 4. */
 Eigen::MatrixXd unnormalisedLogPosterior(
     const std::vector<AssociationCandidate>& measurements,
     const std::vector<AssociationTarget>& targets,
     const AssociationParameters& p,
-    const Eigen::MatrixXd& extra)
+    const Eigen::MatrixXd& logLikelihood)
 {
   const auto rows = static_cast<Eigen::Index>(measurements.size());
   const auto objects = static_cast<Eigen::Index>(targets.size());
-  const bool hasExtra = extra.size() != 0;
-  if (hasExtra && (extra.rows() != rows || extra.cols() != objects))
-    throw std::invalid_argument("associateFrame: extraLogLikelihood has the wrong size");
+  if (logLikelihood.rows() != rows || logLikelihood.cols() != objects)
+    throw std::invalid_argument("associateFrame: the log-likelihoods have the wrong size");
 
   Eigen::MatrixXd log(rows, objects + 1);
   for (Eigen::Index k = 0; k < rows; ++k)
   {
+    const auto& z = measurements[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < objects; ++i)
-      log(k, i) = hasExtra && extra(k, i) == kImpossible
-                      ? kImpossible
-                      : logJoin(
-                            measurements[static_cast<std::size_t>(k)],
-                            targets[static_cast<std::size_t>(i)], p) +
-                            (hasExtra ? extra(k, i) : 0.0);
+      log(k, i) = logLikelihood(k, i) + logPrior(z, targets[static_cast<std::size_t>(i)], p);
     log(k, objects) = std::log(p.alpha) - std::log(double(p.labels)) - std::log(p.newObjectVolume);
   }
   return log;
@@ -102,17 +81,52 @@ Eigen::MatrixXd assignmentCost(const Eigen::MatrixXd& logPosterior)
 
 }  // namespace
 
+double logGaussian(const Eigen::VectorXd& difference, const Eigen::MatrixXd& S)
+{
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  if (llt.info() != Eigen::Success)
+    throw std::invalid_argument("logGaussian: a covariance is not positive definite");
+  const Eigen::VectorXd whitened = llt.matrixL().solve(difference);
+  double halfLogDet = 0;
+  for (Eigen::Index i = 0; i < S.rows(); ++i) halfLogDet += std::log(llt.matrixLLT()(i, i));
+  const double dimension = static_cast<double>(difference.size());
+  return -0.5 * whitened.squaredNorm() - halfLogDet - 0.5 * dimension * std::log(2.0 * M_PI);
+}
+
 std::vector<AssociationDecision> associateFrame(
     const std::vector<AssociationCandidate>& measurements,
     const std::vector<AssociationTarget>& targets,
     const AssociationParameters& parameters,
     const Eigen::MatrixXd& extraLogLikelihood)
 {
+  Eigen::MatrixXd log = extraLogLikelihood;
+  const auto rows = static_cast<Eigen::Index>(measurements.size());
+  const auto columns = static_cast<Eigen::Index>(targets.size());
+  if (log.size() == 0) log = Eigen::MatrixXd::Zero(rows, columns);
+  if (log.rows() != rows || log.cols() != columns)
+    throw std::invalid_argument("associateFrame: extraLogLikelihood has the wrong size");
+  for (Eigen::Index k = 0; k < rows; ++k)
+    for (Eigen::Index i = 0; i < columns; ++i)
+    {
+      const auto& z = measurements[static_cast<std::size_t>(k)];
+      const auto& object = targets[static_cast<std::size_t>(i)];
+      if (z.position.size() != object.position.size())
+        throw std::invalid_argument("associateFrame: measurement and object differ in dimension");
+      log(k, i) += logGaussian(z.position - object.position, z.covariance + object.covariance);
+    }
+  return associateByLikelihood(measurements, targets, parameters, log);
+}
+
+std::vector<AssociationDecision> associateByLikelihood(
+    const std::vector<AssociationCandidate>& measurements,
+    const std::vector<AssociationTarget>& targets,
+    const AssociationParameters& parameters,
+    const Eigen::MatrixXd& logLikelihood)
+{
   requireValid(parameters);
   if (measurements.empty()) return {};
 
-  Eigen::MatrixXd log =
-      unnormalisedLogPosterior(measurements, targets, parameters, extraLogLikelihood);
+  Eigen::MatrixXd log = unnormalisedLogPosterior(measurements, targets, parameters, logLikelihood);
   for (Eigen::Index k = 0; k < log.rows(); ++k) log.row(k).array() -= logSumExp(log.row(k));
 
   const auto columns = optimalAssignment(assignmentCost(log));

@@ -23,11 +23,9 @@ bool hasBetterTwin(
   return false;
 }
 
-AssociationTarget targetOf(const MapObject& object, double extentShare)
+AssociationTarget targetOf(const MapObject& object)
 {
   AssociationTarget t;
-  t.position = object.object.center();
-  t.covariance = associationCovariance(object, extentShare);
   t.observations = object.observations();
   t.labelCounts.assign(object.labelCounts.begin(), object.labelCounts.end());
   return t;
@@ -87,27 +85,29 @@ void CQuadricObjectMap::associate(Frame& frame) const
   for (const auto& [id, object] : objects_)
   {
     ids.push_back(id);
-    targets.push_back(targetOf(object, options.agreement.extentShare));
+    targets.push_back(targetOf(object));
   }
   std::vector<AssociationCandidate> candidates;
-  Eigen::MatrixXd extra(frame.views.size(), ids.size());
+  Eigen::MatrixXd likelihood(frame.views.size(), ids.size());
   for (std::size_t k = 0; k < frame.views.size(); ++k)
   {
     const ObjectView& view = frame.views[k];
-    candidates.push_back({view.center, view.centerCovariance, view.label, view.complete});
+    candidates.push_back({{}, {}, view.label, view.complete});
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
-      double& value = extra(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i));
-      value = agreementLogLikelihood(
-          view, frame.allBoxes[frame.boxes[k]], objects_.at(ids[i]), frame.geometry, *labels_,
-          options.agreement);
+      double& value = likelihood(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i));
+      const MapObject& object = objects_.at(ids[i]);
+      value = positionLogLikelihood(view, object, options.agreement) +
+              agreementLogLikelihood(
+                  view, frame.allBoxes[frame.boxes[k]], object, frame.geometry, *labels_,
+                  options.agreement);
       if (!options.useInstanceIds || !frame.instances[k]) continue;
       const auto known = objectOfInstance_.find(*frame.instances[k]);
       const bool isIt = known != objectOfInstance_.end() && known->second == ids[i];
       value = isIt ? 1e6 : -std::numeric_limits<double>::infinity();
     }
   }
-  for (const auto& d : associateFrame(candidates, targets, options.association, extra))
+  for (const auto& d : associateByLikelihood(candidates, targets, options.association, likelihood))
   {
     Decision decision;
     decision.box = frame.boxes[d.measurement];
@@ -205,8 +205,9 @@ bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
   const bool seenEnough = object.completeCount >= static_cast<unsigned>(existence.minComplete) ||
                           object.observations() >= static_cast<unsigned>(existence.minPartial);
   const double sigma = std::sqrt(object.covariance.diagonal().head<3>().maxCoeff());
+  const double sizeSigma = std::sqrt(object.covariance.diagonal().tail<3>().maxCoeff());
   return object.existenceLogOdds > existence.confirmLogOdds && seenEnough &&
-         sigma < existence.maxCenterSigma;
+         sigma < existence.maxCenterSigma && sizeSigma < existence.maxSizeSigma;
 }
 
 void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)

@@ -47,6 +47,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.integer("minComplete", o.existence.minComplete, 1, 1000000);
   v.integer("minPartial", o.existence.minPartial, 1, 1000000);
   v.number("maxCenterSigma", o.existence.maxCenterSigma, kSmall, 1000);
+  v.number("maxSizeSigma", o.existence.maxSizeSigma, kSmall, 1000);
   v.number("missMinRange", o.existence.minRange, 0, 1000);
   v.number("missMaxRange", o.existence.maxRange, 0, 1000);
   v.number("missMinBoxSize_px", o.existence.minBoxSize, 0, 10000);
@@ -123,16 +124,24 @@ struct Loader
   void flag(const char* key, bool& value) { readFlag(source, section, key, value); }
 };
 
-/** Hands each option on as text with that many digits; 17 are exact. */
+/** The shortest text that reads back as the same number. */
+std::string exactText(double value)
+{
+  std::string text;
+  for (int digits = 6; digits <= 17; ++digits)
+  {
+    text = mrpt::format("%.*g", digits, value);
+    if (std::stod(text) == value) break;
+  }
+  return text;
+}
+
+/** Hands each option on as text. */
 template <typename Write>
 struct Writer
 {
   Write write;
-  int digits;
-  void number(const char* key, double value, double, double)
-  {
-    write(key, mrpt::format("%.*g", digits, value));
-  }
+  void number(const char* key, double value, double, double) { write(key, exactText(value)); }
   void degrees(const char* key, double value, double min, double max)
   {
     number(key, value / kRadiansPerDegree, min, max);
@@ -145,20 +154,18 @@ struct Writer
   void flag(const char* key, bool value) { write(key, std::string(value ? "true" : "false")); }
 };
 template <typename Write>
-Writer(Write, int) -> Writer<Write>;
+Writer(Write) -> Writer<Write>;
 
 auto intoConfig(mrpt::config::CConfigFileBase& target, const std::string& section)
 {
-  return Writer{
-      [&](const char* key, const std::string& text) { target.write(section, key, text); }, 17};
+  return Writer{[&](const char* key, const std::string& text)
+                { target.write(section, key, text); }};
 }
 
 auto intoText(std::ostream& out)
 {
-  return Writer{
-      [&](const char* key, const std::string& text)
-      { out << mrpt::format("%-28s = %s\n", key, text.c_str()); },
-      6};
+  return Writer{[&](const char* key, const std::string& text)
+                { out << mrpt::format("%-28s = %s\n", key, text.c_str()); }};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace
 {
 /** What is known of an undefined yaw: it is somewhere within 45 degrees [rad]. */
 constexpr double kFreeYawSigma = M_PI / 4;
+/** Huber threshold of terms that are not measurements. */
+constexpr double kQuadratic = std::numeric_limits<double>::infinity();
 /** Share of the complete measurements that must show a direction. */
 constexpr double kYawShare = 0.25;
 
@@ -32,13 +35,13 @@ void addLabelPrior(
   {
     UprightState J = UprightState::Zero();
     J[4 + i] = 1.0 / spread;
-    eq.add((x[4 + i] - expected[i]) / spread, J, options.huber);
+    eq.add((x[4 + i] - expected[i]) / spread, J, kQuadratic);
   }
   if (label.dominantDirection) return;
   UprightState J = UprightState::Zero();
   J[4] = 1.0 / options.roundnessSigma;
   J[5] = -1.0 / options.roundnessSigma;
-  eq.add((x[4] - x[5]) / options.roundnessSigma, J, options.huber);
+  eq.add((x[4] - x[5]) / options.roundnessSigma, J, kQuadratic);
 }
 
 void addPrior(const InformationPrior& prior, const UprightState& x, NormalEquations& eq)

@@ -5,6 +5,8 @@
 
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RotationDistance.h"
+#include "quadmap/geometry/Support.h"
+#include "quadmap/maps/Association.h"
 
 namespace quadmap
 {
@@ -95,12 +97,46 @@ double agreementLogLikelihood(
          imageTerm(box, object.object, frame, shapeExponent, options) + labelTerm;
 }
 
-Eigen::Matrix3d associationCovariance(const MapObject& object, double extentShare)
+double positionLogLikelihood(
+    const ObjectView& view, const MapObject& object, const AgreementOptions& options)
 {
+  const Eigen::Vector3d off = view.center - object.object.center();
   const Eigen::Matrix3d R = object.object.rotation();
-  const Eigen::Vector3d extent = extentShare * object.object.semiAxes();
-  return object.covariance.topLeftCorner<3, 3>() +
-         R * extent.cwiseAbs2().asDiagonal() * R.transpose();
+  const Eigen::Vector3d extent = options.extentShare * object.object.semiAxes();
+  const Eigen::Matrix3d S_object =
+      object.covariance.topLeftCorner<3, 3>() + R * extent.cwiseAbs2().asDiagonal() * R.transpose();
+  if (!view.complete) return logGaussian(off, S_object + view.centerCovariance);
+
+  Eigen::Vector3d difference;
+  Eigen::Matrix3d axes;  // of the measured cuboid, as rows
+  Eigen::Vector3d variances;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const auto& plus = view.faces[2 * axis];
+    const auto& minus = view.faces[2 * axis + 1];
+    const Eigen::Vector3d n = view.faceNormal(2 * axis);
+    axes.row(i) = n;
+    const double center = n.dot(off);
+    const double larger =
+        supportFunction<double>(R.transpose() * n, object.object.semiAxes(), 2.0) -
+        view.halfSizes[i];  // by how much the object is larger on each side
+    if (view.axisKnown(axis))
+      difference[i] = center;
+    else if (isEquality(plus.kind))
+      difference[i] = center - larger;
+    else if (isEquality(minus.kind))
+      difference[i] = center + larger;
+    else
+      difference[i] =
+          std::copysign(std::max(0.0, std::abs(center) - std::max(larger, 0.0)), center);
+    variances[i] = view.axisKnown(axis)
+                       ? 0.25 * (plus.sigma * plus.sigma + minus.sigma * minus.sigma)
+                       : std::pow(isEquality(minus.kind) ? minus.sigma : plus.sigma, 2);
+  }
+  Eigen::Matrix3d S = axes * S_object * axes.transpose();
+  S.diagonal() += variances;
+  return logGaussian(difference, S);
 }
 
 }  // namespace quadmap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quadmap
 {
@@ -46,6 +47,37 @@ bool setCuboid(
   for (auto& face : view.faces)
     face.sigma = std::hypot(std::max(face.sigma, kMinFaceSigma), poseSigma);
   return true;
+}
+
+/** A face that looks out over a box edge at the image border or behind an occluder, and reaches it,
+ * ends where the view ends: the object is at least that large. */
+void weakenCutFaces(
+    const std::array<EdgeMeasurement, 4>& edges,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    ObjectView& view)
+{
+  constexpr double kLooksOut = 0.25;  // cosine between outward normal and the edge's outside
+  constexpr double kReaches = 0.03;   // distance to the edge's plane as a share of the range
+  const Ellipsoid cuboid(
+      mrpt::poses::CPose3D(view.center.x(), view.center.y(), view.center.z(), view.yaw, 0, 0),
+      view.halfSizes);
+  const Eigen::Matrix<double, 3, 8> corners = cuboid.cuboidCorners();
+  const double range = (view.center - view.camera).norm();
+  for (const auto& edge : edges)
+  {
+    if (edge.state == EdgeState::Usable) continue;
+    const Plane plane = edge.plane_sensor.transformed(T_map_sensor);
+    for (std::size_t f = 0; f < kFaces; ++f)
+    {
+      if (view.faces[f].kind != FaceKind::Measured) continue;
+      if (-plane.n.dot(view.faceNormal(f)) < kLooksOut) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (Eigen::Index c = 0; c < 8; ++c)
+        if (view.faceNormal(f).dot(corners.col(c)) > view.faceOffset(f) - 1e-6)
+          nearest = std::min(nearest, plane.signedDistance(corners.col(c)));
+      if (nearest < kReaches * range) view.faces[f].kind = FaceKind::AtLeast;
+    }
+  }
 }
 
 /** Of the cuboid's centre: half the sum of two opposite faces; unseen faces may lie further out. */
@@ -146,7 +178,10 @@ std::optional<ObjectView> viewOf(
 
   if (m.kind == MeasurementKind::Complete && m.complete &&
       setCuboid(*m.complete, T_map_sensor, noise, view))
+  {
+    if (m.edges) weakenCutFaces(*m.edges, T_map_sensor, view);
     view.centerCovariance = cuboidCenterCovariance(view);
+  }
   else if (m.seed_sensor || view.edges.size() == 4)
     setPartialPosition(detected, T_map_sensor, properties, view);
   else

@@ -68,7 +68,7 @@ void addEdges(
     double weight,
     NormalEquations& eq)
 {
-  const double range = (x.head<3>() - view.camera).norm();
+  const double range = (view.center - view.camera).norm();
   for (const auto& edge : view.edges)
   {
     const HalfWidth width = halfWidth(x, edge.plane.n, shapeExponent);

@@ -51,4 +51,17 @@ std::vector<AssociationDecision> associateFrame(
     const AssociationParameters& parameters,
     const Eigen::MatrixXd& extraLogLikelihood = {});
 
+/** The same with the log-likelihoods of the measurements given: one row per measurement, one column
+ * per object, for measurements that are more than a position (their `position` and `covariance` are
+ * not looked at). -infinity forbids a pair. */
+std::vector<AssociationDecision> associateByLikelihood(
+    const std::vector<AssociationCandidate>& measurements,
+    const std::vector<AssociationTarget>& targets,
+    const AssociationParameters& parameters,
+    const Eigen::MatrixXd& logLikelihood);
+
+/** log N(difference; 0, S), normalised, of any dimension.
+ * \exception std::invalid_argument If S is not positive definite. */
+double logGaussian(const Eigen::VectorXd& difference, const Eigen::MatrixXd& S);
+
 }  // namespace quadmap

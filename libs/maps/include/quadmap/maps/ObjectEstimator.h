@@ -18,7 +18,7 @@ struct EstimatorOptions
   double edgeFloor = 0.01;       //!< Added to the sigma of every box edge [m], >= 0
   bool edgesOfComplete = true;   //!< Use the box edges of complete measurements too
   double roundnessSigma = 0.1;   //!< Of ln(a/b) for labels without dominant direction [-], > 0
-  double sizePriorSpread = 2.0;  //!< Factor on the label table's spread of sizes, > 0
+  double sizePriorSpread = 1.0;  //!< Factor on the label table's spread of sizes, > 0
 };
 
 /** Quadratic knowledge about a state: cost = 1/2 x^T L x - xi^T x. */

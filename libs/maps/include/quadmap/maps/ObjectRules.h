@@ -50,8 +50,11 @@ double agreementLogLikelihood(
     const LabelTable& labels,
     const AgreementOptions& options);
 
-/** Covariance of where a measurement of the object would put its centre: the object's own plus a
- * share of its extent [m^2]. */
-Eigen::Matrix3d associationCovariance(const MapObject& object, double extentShare);
+/** log N of where the measurement is, given the object (DESIGN section 4: h(x, l_i), S_ik). Along
+ * an axis of a cuboid with both ends measured its centre is compared, with one end measured that
+ * end, and with none only what sticks out of the object counts. S is the measurement's, the
+ * object's and a share of its extent. */
+double positionLogLikelihood(
+    const ObjectView& view, const MapObject& object, const AgreementOptions& options);
 
 }  // namespace quadmap

@@ -15,13 +15,15 @@ namespace quadmap
  * frame that should have shown the object and did not adds ln((1-pD)/(1-pFA)). */
 struct ExistenceOptions
 {
-  double detectionProbability = 0.4;    //!< pD: of a visible object, per frame, in (0, 1)
-  double falseAlarmProbability = 0.08;  //!< pFA: a box where nothing is, in (0, pD)
-  double maxLogOdds = 10;               //!< Bound, so that evidence can turn, > 0
-  double confirmLogOdds = 2;            //!< Reported above this
-  int minComplete = 3;                  //!< Reported with this many complete measurements, >= 1
-  int minPartial = 8;                   //!< ... or with this many measurements of any kind, >= 1
-  double maxCenterSigma = 0.2;          //!< Reported below this uncertainty per axis [m], > 0
+  double detectionProbability = 0.5;   //!< pD: of a visible object, per frame, in (0, 1)
+  double falseAlarmProbability = 0.1;  //!< pFA: a box where nothing is, in (0, pD)
+  double maxLogOdds = 10;              //!< Bound, so that evidence can turn, > 0
+  double confirmLogOdds = 2;           //!< Reported above this
+  int minComplete = 3;                 //!< Reported with this many complete measurements, >= 1
+  int minPartial = 8;                  //!< ... or with this many measurements of any kind, >= 1
+  double maxCenterSigma = 0.2;         //!< Reported below this uncertainty per axis [m], > 0
+
+  double maxSizeSigma = 0.5;  //!< ... and of the logarithm of its sizes below this [-], > 0
 
   double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
   double minBoxSize = 30;                 //!< Both sides of the projected box [px]
