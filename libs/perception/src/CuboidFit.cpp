@@ -33,6 +33,7 @@ class FaceEstimator
       const PerceptionOptions& options) :
       cloud_(cloud), planes_(planes), object_(object), options_(options), range_(level.medianRange)
   {
+    cells_ = level.cells;
     R_obj_optical_ = Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
                      level.R_level_optical;
     const Eigen::Matrix3d R_obj_level = R_obj_optical_ * level.R_level_optical.transpose();
@@ -51,6 +52,16 @@ class FaceEstimator
 
   const Eigen::Matrix3d& R_obj_optical() const { return R_obj_optical_; }
   double range() const { return range_; }
+
+  /** Cosine between a face's outward normal and the line of sight: > 0 faces away. */
+  double facingAway(int axis, int sign) const { return sign * centroid_.normalized()[axis]; }
+
+  double lowestSeen() const  //!< Along the object's z, from the camera [m]
+  {
+    std::vector<double> z;
+    for (const auto& p : points_) z.push_back(p.z());
+    return quantile(std::move(z), kTailShare);
+  }
 
   /** Of the face whose outward normal is `sign` times axis `axis`. */
   FaceEstimate face(int axis, int sign) const
@@ -96,7 +107,7 @@ class FaceEstimator
     int cut = 0, profile = 0, withNormal = 0;
     for (const std::size_t i : rim)
     {
-      cut += isCut(object_.cells[i], axis, sign) ? 1 : 0;
+      cut += isCut(cells_[i], axis, sign) ? 1 : 0;
       if (normals_[i].isZero()) continue;
       ++withNormal;
       profile += std::abs(normals_[i][axis]) < 0.5 ? 1 : 0;
@@ -108,13 +119,11 @@ class FaceEstimator
     const bool isCutOff = cut > kMaxCut * static_cast<double>(rim.size());
     // A side that faces away counts when a surface that leads up to it is seen, as the top of a
     // cabinet does for its back; a rim that only fades away says "at least this large".
-    Eigen::Vector3d n = Eigen::Vector3d::Zero();
-    n[axis] = sign;
-    const double facingAway = n.dot(centroid_.normalized());
+    const double away = facingAway(axis, sign);
     const double depthAlong = extreme - quantile(along, kTailShare);
     const bool leadsUp = withNormal > 0 && profile > kMinProfile * withNormal && depthAlong > 0.05;
-    if (isCutOff || (facingAway > 0.25 && !leadsUp)) out.worth.kind = FaceKind::AtLeast;
-    if (facingAway > 0.25) out.worth.sigma += 0.01 + 0.03 * depthAlong;
+    if (isCutOff || (away > 0.25 && !leadsUp)) out.worth.kind = FaceKind::AtLeast;
+    if (away > 0.25) out.worth.sigma += 0.01 + 0.03 * depthAlong;
     return out;
   }
 
@@ -156,6 +165,7 @@ class FaceEstimator
   double range_;
   Eigen::Matrix3d R_obj_optical_;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
+  std::vector<ObjectCloud::Cell> cells_;
   std::vector<Eigen::Vector3d> points_, normals_;
   std::vector<bool> mask_;
 };
@@ -182,6 +192,23 @@ void completeRound(Faces& faces)
   if (near + 2.0 * radius < far.position) return;  // deeper than wide: keep what was seen
   far.position = near + 2.0 * radius;
   far.worth = {FaceKind::Measured, 0.01 + 0.2 * radius};
+}
+
+/** When the lower part is hidden (a chair behind a table), what is seen bounds the whole only from
+ * inside: the object may come nearer below. */
+void doubtHiddenPart(Faces& faces, double lowestSeen, const FaceEstimator& estimator)
+{
+  constexpr double kMaxHidden = 0.3;   // of the height
+  constexpr double kSideDoubt = 0.03;  // [m]
+  const double bottom = -faces[5].position, top = faces[4].position;
+  if (lowestSeen - bottom < kMaxHidden * (top - bottom)) return;
+  for (int axis = 0; axis < 2; ++axis)
+    for (int side = 0; side < 2; ++side)
+    {
+      auto& worth = faces[static_cast<std::size_t>(2 * axis + side)].worth;
+      if (estimator.facingAway(axis, side == 0 ? 1 : -1) < -0.25) worth.kind = FaceKind::AtLeast;
+      worth.sigma += kSideDoubt;
+    }
 }
 
 CompleteMeasurement assemble(const Faces& faces, const Eigen::Matrix3d& R_obj_optical)
@@ -229,7 +256,10 @@ CompleteMeasurement fitCuboid(
     faces[static_cast<std::size_t>(2 * axis + 1)] = estimator.face(axis, -1);
   }
   if (object.support)
+  {
     faces[5] = supportFace(planes.plane(*object.support).plane, estimator.range(), options);
+    doubtHiddenPart(faces, estimator.lowestSeen(), estimator);
+  }
   if (!label.dominantDirection) completeRound(faces);
 
   CompleteMeasurement out = assemble(faces, estimator.R_obj_optical());

@@ -2,7 +2,7 @@
 
 #include <mrpt/core/format.h>
 
-#include <stdexcept>
+#include <algorithm>
 
 #include "CuboidFit.h"
 #include "EdgeMeasurements.h"
@@ -70,6 +70,81 @@ double nearDepthOf(const ObjectCloud& object)
   return quantile(std::move(depths), 0.05);
 }
 
+/** The lower end of the cuboid raised to the lowest point that was seen of the object. */
+Ellipsoid visiblePart(const Ellipsoid& cuboid, const ObjectCloud& object)
+{
+  const Eigen::Vector3d up = cuboid.rotation().col(2);
+  double lowest = cuboid.semiAxes().z();
+  for (const auto& p : object.points) lowest = std::min(lowest, up.dot(p - cuboid.center()));
+  const double raise = 0.5 * (std::max(lowest, -cuboid.semiAxes().z()) + cuboid.semiAxes().z());
+  constexpr double kMinHalfHeight = 0.008;  // [m]
+  Eigen::Vector3d semiAxes = cuboid.semiAxes();
+  semiAxes.z() = std::max(kMinHalfHeight, semiAxes.z() - raise);
+  mrpt::poses::CPose3D pose = cuboid.pose();
+  const Eigen::Vector3d center = cuboid.center() + up * raise;
+  pose.x(center.x());
+  pose.y(center.y());
+  pose.z(center.z());
+  return Ellipsoid(pose, semiAxes);
+}
+
+/** How well a cuboid explains the detector's box. */
+struct BoxFit
+{
+  double iou = 0;          // p of DESIGN section 4
+  double tolerantIoU = 0;  // the same with box edges free to move by their standard deviation
+};
+
+BoxFit fitToBox(
+    const PinholeCamera& camera, const ImageBox& unclipped, const ImageBox& box, double edgeSigma)
+{
+  const ImageBox projected = unclipped.clipped(camera.width, camera.height);
+  const ImageBox detected = box.clipped(camera.width, camera.height);
+  const auto towards = [&](double from, double to)
+  { return from + std::clamp(to - from, -edgeSigma, edgeSigma); };
+  const ImageBox moved = {
+      towards(detected.x1, projected.x1), towards(detected.y1, projected.y1),
+      towards(detected.x2, projected.x2), towards(detected.y2, projected.y2)};
+  return {imageBoxIoU(projected, detected), imageBoxIoU(projected, moved)};
+}
+
+/** Box around the cells of a cloud [px]. */
+ImageBox boundsOf(const DepthCloud& cloud, const ObjectCloud& object)
+{
+  ImageBox out = {1e9, 1e9, -1e9, -1e9};
+  for (const auto& cell : object.cells)
+  {
+    const double u = cell.c * cloud.stride(), v = cell.r * cloud.stride();
+    out = {std::min(out.x1, u), std::min(out.y1, v), std::max(out.x2, u), std::max(out.y2, v)};
+  }
+  return out;
+}
+
+/** p of a measured cuboid. An object whose lower part is hidden stands on its support all the same,
+ * but its box shows only what is visible; and an L-shaped thing (a chair) leaves a corner of its
+ * cuboid empty: of these views the one that fits the box best counts, the last one with a malus. */
+BoxFit bestFit(
+    const DepthCloud& cloud,
+    const Ellipsoid& cuboid,
+    const ObjectCloud& object,
+    const ImageBox& box,
+    double edgeSigma)
+{
+  constexpr double kMinCuboidIoU = 0.5, kMalus = 0.1;
+  const auto& camera = cloud.camera();
+  BoxFit best;
+  for (const Ellipsoid& view : {cuboid, visiblePart(cuboid, object)})
+    if (const auto projected = projectCuboidBox(camera, view))
+    {
+      const BoxFit fit = fitToBox(camera, *projected, box, edgeSigma);
+      if (fit.tolerantIoU > best.tolerantIoU) best = fit;
+    }
+  const BoxFit outline = fitToBox(camera, boundsOf(cloud, object), box, edgeSigma);
+  if (best.tolerantIoU > kMinCuboidIoU)
+    best.tolerantIoU = std::max(best.tolerantIoU, outline.tolerantIoU - kMalus);
+  return best;
+}
+
 }  // namespace
 
 struct FramePerception::Impl
@@ -96,13 +171,11 @@ void FramePerception::Impl::tryComplete(
 {
   CompleteMeasurement complete =
       fitCuboid(cloud, planes, object, labels.properties(detection.label), options);
-  const auto projected = projectCuboidBox(cloud.camera(), complete.object_sensor);
-  const auto clip = [&](const ImageBox& b)
-  { return b.clipped(cloud.camera().width, cloud.camera().height); };
-  if (projected) out.projectedIoU = imageBoxIoU(clip(*projected), clip(detection.box));
-
-  if (out.projectedIoU < options.minCompleteIoU)
-    out.reason = mrpt::format("cuboid fits the box only by %.2f", out.projectedIoU);
+  const BoxFit fit =
+      bestFit(cloud, complete.object_sensor, object, detection.box, options.edgeSigma);
+  out.projectedIoU = fit.iou;
+  if (fit.tolerantIoU < options.minCompleteIoU)
+    out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);
   else if (out.depthCoverage < options.minDepthCoverage)
     out.reason = mrpt::format("depth in only %.0f %% of the box", 100 * out.depthCoverage);
   else
@@ -166,15 +239,14 @@ FramePerception::FramePerception(const PerceptionOptions& options, const LabelTa
 
 FramePerception::~FramePerception() = default;
 
-void FramePerception::measure(
+std::optional<Plane> FramePerception::measure(
     const mrpt::obs::CObservation3DRangeScan& scan,
     CObservationObjects& boxes,
-    const std::optional<Eigen::Vector3d>& up_sensor) const
+    const std::optional<Eigen::Vector3d>& up_sensor,
+    const std::optional<Plane>& knownFloor_sensor) const
 {
   const DepthCloud cloud(scan, impl_->options);
   boxes.coarseDepth = cloud.coarse(kCoarseColumns, kCoarseRows);
-  if (boxes.objects.empty()) return;
-
   PlaneSegmentation segmentation = segmentPlanes(cloud, impl_->options);
   std::optional<Eigen::Vector3d> up;
   if (up_sensor)
@@ -189,10 +261,15 @@ void FramePerception::measure(
       object.measurement.kind = MeasurementKind::Rejected;
       object.measurement.reason = "no up direction: neither a pose nor a plane in the frame";
     }
-    return;
+    return {};
   }
-  const ScenePlanes planes = classifyPlanes(cloud, std::move(segmentation), *up, impl_->options);
+  std::optional<Plane> knownFloor;
+  if (knownFloor_sensor) knownFloor = knownFloor_sensor->transformed(-T_sensor_optical());
+  const ScenePlanes planes =
+      classifyPlanes(cloud, std::move(segmentation), *up, knownFloor, impl_->options);
   for (auto& object : boxes.objects) object.measurement = impl_->measureBox(cloud, planes, object);
+  if (!planes.floorSeen) return {};
+  return planes.plane(*planes.floor).plane.transformed(T_sensor_optical());
 }
 
 }  // namespace quadmap

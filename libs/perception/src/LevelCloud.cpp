@@ -108,8 +108,11 @@ LevelCloud levelCloud(
   }
   out.R_level_optical = levelRotation(up_optical, centroid.normalized());
   out.medianRange = median(ranges);
-  for (std::size_t i = 0; i < object.points.size(); ++i)
+  constexpr std::size_t kMaxSamples = 5000;
+  const std::size_t step = 1 + object.points.size() / kMaxSamples;
+  for (std::size_t i = 0; i < object.points.size(); i += step)
   {
+    out.cells.push_back(object.cells[i]);
     out.points.push_back(out.R_level_optical * object.points[i]);
     const auto normal = cloud.normal(object.cells[i].c, object.cells[i].r);
     if (normal)

@@ -26,33 +26,6 @@ double coverageOf(const DepthCloud& cloud, const ImageBox& box)
   return static_cast<double>(valid) / range.cells();
 }
 
-/** For each plane: does it reach so far beyond the box that it is not part of the object? */
-std::vector<bool> backgroundPlanes(
-    const DepthCloud& cloud,
-    const ScenePlanes& planes,
-    const ImageBox& box,
-    const PerceptionOptions& options)
-{
-  constexpr int kStep = 4;
-  constexpr double kMaxInsideShare = 0.5;  // of a plane that may be the object's own
-  const auto range = cloud.cellsOf(box);
-  std::vector<int> inside(planes.all.planes.size(), 0), total(planes.all.planes.size(), 0);
-  for (int r = 0; r < cloud.rows(); r += kStep)
-    for (int c = 0; c < cloud.columns(); c += kStep)
-    {
-      if (!cloud.valid(c, r)) continue;
-      const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(cloud.depth(c, r));
-      const int plane = planes.all.planeAt(cloud, c, r, tolerance);
-      if (plane < 0) continue;
-      ++total[static_cast<std::size_t>(plane)];
-      if (range.contains(c, r)) ++inside[static_cast<std::size_t>(plane)];
-    }
-  std::vector<bool> out(total.size());
-  for (std::size_t i = 0; i < total.size(); ++i)
-    out[i] = total[i] > 0 && inside[i] < kMaxInsideShare * total[i];
-  return out;
-}
-
 /** A point nearer than this to its supporting plane belongs to the plane [m]; thin objects (a book)
  * allow less than tall ones. */
 double supportTolerance(double z, const LabelProperties& label, const PerceptionOptions& options)
@@ -76,8 +49,11 @@ Candidates collect(
     const PerceptionOptions& options)
 {
   const ImageBox box = enlarged(detection.box, options.boxMargin);
-  const auto background = backgroundPlanes(cloud, planes, box, options);
   const auto range = cloud.cellsOf(box);
+  const auto insideShares = planes.all.sharesWithin(range);
+  // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
+  // on a wall covers much of what is seen of it.
+  const double minOwnShare = label.support == UsualSupport::Wall ? 0.85 : 0.5;
   Candidates out;
   for (int r = range.r0; r < range.r1; ++r)
     for (int c = range.c0; c < range.c1; ++c)
@@ -93,7 +69,7 @@ Candidates collect(
         continue;
       const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
       const int plane = planes.all.planeAt(cloud, c, r, tolerance);
-      if (plane >= 0 && background[static_cast<std::size_t>(plane)]) continue;
+      if (plane >= 0 && insideShares[static_cast<std::size_t>(plane)] < minOwnShare) continue;
       out.cells.push_back({c, r});
       out.points.push_back(p);
     }

@@ -94,6 +94,21 @@ int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tol
   return best;
 }
 
+std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange& range) const
+{
+  std::vector<double> inside(planes.size(), 0.0);
+  for (int r = range.r0 / kPlaneStride; r < std::min(rows_, range.r1 / kPlaneStride); ++r)
+    for (int c = range.c0 / kPlaneStride; c < std::min(columns_, range.c1 / kPlaneStride); ++c)
+    {
+      const int label = labels_[static_cast<std::size_t>(r * columns_ + c)];
+      if (label >= 0) inside[static_cast<std::size_t>(label)] += 1.0;
+    }
+  const double cells = static_cast<double>(labels_.size());
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    inside[i] = planes[i].share > 0 ? inside[i] / (planes[i].share * cells) : 0.0;
+  return inside;
+}
+
 PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options)
 {
   const auto points = reducedCloud(cloud);
@@ -171,6 +186,7 @@ ScenePlanes classifyPlanes(
     const DepthCloud& cloud,
     PlaneSegmentation segmentation,
     const Eigen::Vector3d& up,
+    const std::optional<Plane>& knownFloor,
     const PerceptionOptions& options)
 {
   constexpr double kFloorMargin = 0.06;  // [m]
@@ -196,6 +212,17 @@ ScenePlanes classifyPlanes(
     const int lowest = out.horizontal.front();
     if (shareBelow(cloud, out.plane(lowest).plane, kFloorMargin) <= kMaxBelowFloor)
       out.floor = lowest;
+  }
+  out.floorSeen = out.floor.has_value();
+  constexpr double kSameFloor = 0.12;  // [m]; a table top is higher above the floor than this
+  const bool isTooHigh = out.floor && knownFloor &&
+                         knownFloor->signedDistance(out.plane(*out.floor).centroid) > kSameFloor;
+  if (knownFloor && (!out.floor || isTooHigh))
+  {
+    out.floorSeen = false;
+    out.floor = static_cast<int>(out.all.planes.size());
+    out.all.planes.push_back({*knownFloor, 0.0, -knownFloor->d * knownFloor->n});
+    out.horizontal.insert(out.horizontal.begin(), *out.floor);
   }
   return out;
 }

@@ -21,11 +21,14 @@ struct ScenePlane
 class PlaneSegmentation
 {
  public:
-  std::vector<ScenePlane> planes;  //!< The largest first
+  std::vector<ScenePlane> planes;  //!< The largest first; a floor known from elsewhere last
 
   /** Index into `planes` of the plane that a cell of the cloud, or one near it, belongs to and
    * that its point is within the tolerance [m] of; -1 for none. */
   int planeAt(const DepthCloud& cloud, int c, int r, double tolerance) const;
+
+  /** For each plane the share of its cells that lie in a range of the cloud's cells, in [0, 1]. */
+  std::vector<double> sharesWithin(const DepthCloud::CellRange& range) const;
 
  private:
   friend PlaneSegmentation segmentPlanes(const DepthCloud&, const PerceptionOptions&);
@@ -43,6 +46,7 @@ struct ScenePlanes
   std::vector<int> horizontal;  //!< Indices of those that face up, from the lowest to the highest
   std::vector<int> vertical;
   std::optional<int> floor;  //!< The lowest horizontal one, when nothing much lies under it
+  bool floorSeen = false;    //!< False: the floor is the one known from other frames
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();  //!< Optical frame, unit
 
   const ScenePlane& plane(int index) const { return all.planes[static_cast<std::size_t>(index)]; }
@@ -53,11 +57,13 @@ struct ScenePlanes
 std::optional<Eigen::Vector3d> upFromPlanes(
     const DepthCloud& cloud, const std::vector<ScenePlane>& planes);
 
-/** Sorts planes by orientation and finds the floor. */
+/** Sorts planes by orientation and finds the floor: the lowest horizontal plane with nothing under
+ * it, unless other frames have seen a lower one (`knownFloor`, optical frame). */
 ScenePlanes classifyPlanes(
     const DepthCloud& cloud,
     PlaneSegmentation segmentation,
     const Eigen::Vector3d& up,
+    const std::optional<Plane>& knownFloor,
     const PerceptionOptions& options);
 
 }  // namespace quadmap

@@ -26,11 +26,16 @@ class FramePerception
    * \param boxes Of the same image.
    * \param up_sensor Unit vector that points up in the sensor frame, e.g. from the robot's pose in
    * a z-up world; when absent, up comes from the planes of the scene.
+   * \param knownFloor_sensor Where the floor is according to other frames (see FloorTracker); what
+   * this frame shows of a floor goes before it.
+   * \return The lowest horizontal surface of this frame that nothing shows under, sensor frame: a
+   * candidate for the floor.
    * \exception std::runtime_error If the scan has no depth image or no usable calibration. */
-  void measure(
+  std::optional<Plane> measure(
       const mrpt::obs::CObservation3DRangeScan& scan,
       CObservationObjects& boxes,
-      const std::optional<Eigen::Vector3d>& up_sensor) const;
+      const std::optional<Eigen::Vector3d>& up_sensor,
+      const std::optional<Plane>& knownFloor_sensor = {}) const;
 
  private:
   struct Impl;
