@@ -135,6 +135,12 @@ TEST_F(EvaluatedRun, WritesNullForWhatDoesNotExist)
     EXPECT_TRUE(inPlace["objects"][key].is_null()) << key;
 }
 
+TEST_F(EvaluatedRun, HasNoOdometryFigureForAnEmptyFile)
+{
+  folder_.write("trajectory_odometry.tum", "# time tx ty tz qx qy qz qw\n");
+  EXPECT_FALSE(evaluateRun(input_).trajectory->ateRmseOdometry);
+}
+
 TEST_F(EvaluatedRun, ComparesInPlaceWhenAsked)
 {
   input_.inPlace = true;

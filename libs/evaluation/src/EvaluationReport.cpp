@@ -53,7 +53,9 @@ std::optional<double> odometryAte(const EvaluationInput& input)
 {
   const std::string path = inFolder(input, "trajectory_odometry.tum");
   if (!std::filesystem::exists(path)) return std::nullopt;
-  const auto pairs = pairsWithTruth(path, readTumTrajectory(path), input);
+  const Trajectory odometry = readTumTrajectory(path);
+  if (odometry.empty()) return std::nullopt;
+  const auto pairs = pairsWithTruth(path, odometry, input);
   const auto T =
       input.inPlace ? mrpt::poses::CPose3D() : alignTrajectories(pairs).T_truth_estimated;
   return ateRmse(pairs, T);

@@ -67,7 +67,7 @@ std::optional<ImageBox> projectEllipsoidBox(
 
   const auto u = outlineRange(D, t, 0), v = outlineRange(D, t, 1);
   Bounds bounds;
-  for (int i = 0; i < 2; ++i)
+  for (std::size_t i = 0; i < 2; ++i)
     bounds.add({camera.fx * u[i] + camera.cx, camera.fy * v[i] + camera.cy});
   if (!bounds.box.isValid()) return std::nullopt;
   return bounds.box;
