@@ -224,13 +224,18 @@ catch (const std::exception& e)
   throw std::runtime_error(path + ": " + e.what());
 }
 
-void writeObjectsJson(const std::string& path, const std::vector<ObjectRecord>& objects)
+std::string objectsToJson(const std::vector<ObjectRecord>& objects)
 {
   std::string text = "{\"objects\":[";
   for (std::size_t i = 0; i < objects.size(); ++i)
     text += (i == 0 ? "\n " : ",\n ") +
             jsonOf(objects[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
-  writeTextFile(path, text + "\n]}\n");
+  return text + "\n]}\n";
+}
+
+void writeObjectsJson(const std::string& path, const std::vector<ObjectRecord>& objects)
+{
+  writeTextFile(path, objectsToJson(objects));
 }
 
 }  // namespace quadmap

@@ -173,6 +173,14 @@ bool isInside(const Eigen::Vector3d& p_map, const std::vector<ObjectRecord>& obj
       });
 }
 
+/** Was the surface seen from the side of the eye? Not at a grazing angle: normals are noisy. */
+bool facesEye(const CloudPoint& p, const ViewPoint& view)
+{
+  constexpr double kGrazing = 0.15;  // cosine
+  const Eigen::Vector3d toEye = (view.eye() - p.position.cast<double>()).normalized();
+  return p.normal.cast<double>().dot(toEye) > kGrazing;
+}
+
 /** The cloud around the objects, and what belongs to them: few and small points, so that the
  * ellipsoids can be seen and compared with it. */
 struct CloudParts
@@ -195,7 +203,7 @@ CloudParts cloudOf(const SceneContent& content, const SceneOptions& options, con
   {
     const Eigen::Vector3d position = p.position.cast<double>();
     if (!shown.contains(position)) continue;
-    if (view && p.normal.cast<double>().dot(view->eye() - position) <= 0) continue;
+    if (view && !facesEye(p, *view)) continue;
     const bool inside = isInside(position, content.objects);
     if (inside && insideCount++ % options.insideThinning != 0) continue;
     const double paleness = inside ? 0.0 : options.cloudPaleness;
@@ -205,6 +213,16 @@ CloudParts cloudOf(const SceneContent& content, const SceneOptions& options, con
             p.position.x(), p.position.y(), p.position.z(), color(0), color(1), color(2), 1.0F);
   }
   return parts;
+}
+
+/** Does correcting the trajectory show? Equal lines on top of each other would flicker. */
+bool differVisibly(const std::vector<CPose3D>& a, const std::vector<CPose3D>& b)
+{
+  constexpr double kVisible = 0.01;  // [m]
+  if (a.size() != b.size()) return true;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if ((a[i].translation() - b[i].translation()).norm() > kVisible) return true;
+  return false;
 }
 
 /** What scenes and pictures have in common: all but cloud and labels.
@@ -219,8 +237,9 @@ mrpt::opengl::COpenGLScene::Ptr commonParts(
   light.diffuse = kDiffuseLight;
   light.specular = kSpecularLight;
   scene->insert(floorGrid(content));
-  scene->insert(
-      lineThrough(content.odometry, FlatMesh("odometry", kOdometryColor), 0.6 * lineRadius));
+  if (differVisibly(content.odometry, content.trajectory))
+    scene->insert(
+        lineThrough(content.odometry, FlatMesh("odometry", kOdometryColor), 0.6 * lineRadius));
   scene->insert(
       lineThrough(content.trajectory, FlatMesh("trajectory", kTrajectoryColor), lineRadius));
   scene->insert(camerasOf(content, options, 0.5 * lineRadius));

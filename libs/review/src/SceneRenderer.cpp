@@ -19,12 +19,10 @@ std::string firstLine(const std::string& text) { return text.substr(0, text.find
 
 SceneRenderer::SceneRenderer(const PictureSize& size) : size_(size)
 {
-  constexpr unsigned kSmallest = 16, kLargest = 4096;
-  for (const unsigned side : {size.width, size.height})
-    if (side < kSmallest || side > kLargest)
-      throw std::invalid_argument(mrpt::format(
-          "picture size %ux%u: sides must be %u...%u pixels", size.width, size.height, kSmallest,
-          kLargest));
+  if (!size.isValid())
+    throw std::invalid_argument(mrpt::format(
+        "picture size %ux%u: sides must be %u...%u pixels", size.width, size.height,
+        PictureSize::kSmallestSide, PictureSize::kLargestSide));
   if (rendererIsAlive)
     throw std::runtime_error("only one SceneRenderer can live in a thread at a time");
   try

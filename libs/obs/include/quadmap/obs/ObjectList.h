@@ -30,6 +30,9 @@ struct ObjectRecord
 /** \exception std::runtime_error On unreadable or malformed files; names file and object. */
 std::vector<ObjectRecord> readObjectsJson(const std::string& path);
 
+/** The text of such a file. */
+std::string objectsToJson(const std::vector<ObjectRecord>& objects);
+
 /** Written to a temporary name and renamed when complete. \exception std::runtime_error */
 void writeObjectsJson(const std::string& path, const std::vector<ObjectRecord>& objects);
 

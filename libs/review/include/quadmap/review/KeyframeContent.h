@@ -12,7 +12,7 @@ struct CloudOptions
   double cellSize = 0.01;          //!< One point per cube of this edge [m], > 0
   std::size_t maxPoints = 800000;  //!< Cells grow when there would be more, > 0
   double maxRange = 4.5;           //!< Depth beyond this is too noisy to look at [m], > 0
-  std::size_t maxKeyframes = 150;  //!< Spread evenly over the file, > 0
+  std::size_t maxKeyframes = 100;  //!< Spread evenly over the file, > 0
 };
 
 /** Takes cloud and cameras from the keyframes of a .simplemap. One keyframe is in memory at a time.

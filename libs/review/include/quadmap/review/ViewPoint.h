@@ -3,6 +3,7 @@
 #include <mrpt/opengl/CCamera.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <vector>
 
 namespace quadmap
@@ -32,7 +33,13 @@ struct PictureSize
   /** Pictures are rendered larger and scaled down: OpenGL draws lines without smoothing. */
   static constexpr unsigned kOversampling = 2;
 
+  static constexpr unsigned kSmallestSide = 16, kLargestSide = 4096;  //!< [px]
+
   double aspect() const { return static_cast<double>(width) / height; }
+  bool isValid() const  //!< Both sides within the bounds
+  {
+    return std::min(width, height) >= kSmallestSide && std::max(width, height) <= kLargestSide;
+  }
 };
 
 /** Moves `view` along and across its direction until all points fit into the picture tightly.

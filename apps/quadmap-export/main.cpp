@@ -1,0 +1,115 @@
+#include <filesystem>
+#include <iostream>
+#include <regex>
+#include <string>
+
+#include "ExportInput.h"
+#include "common/CommandLine.h"
+#include "quadmap/obs/OutputFile.h"
+#include "quadmap/review/PlyFile.h"
+#include "quadmap/review/SceneBuilder.h"
+#include "quadmap/review/SceneRenderer.h"
+
+namespace
+{
+using namespace quadmap;
+
+/** The arguments of the program. */
+struct Cli
+{
+  using Text = TCLAP::ValueArg<std::string>;
+
+  cli::CommandLine line{
+      "quadmap-export",
+      "Writes a map in forms that people and other programs can look at. Of a folder it shows the "
+      "objects, the trajectories and the coloured point cloud of the keyframes; of a single "
+      "objects.quadmap the objects. No display is needed.",
+      QUADMAP_VERSION};
+  TCLAP::UnlabeledValueArg<std::string> input{
+      "OUTDIR",   "Folder quadmap-slam wrote, or its objects.quadmap.", true, "", "OUTDIR",
+      line.args()};
+  Text scene{"",     "scene",    "Scene for MRPT's SceneViewer3D (.3Dscene).", false, "",
+             "FILE", line.args()};
+  Text png{"", "png", "Picture at an angle from above.", false, "", "FILE", line.args()};
+  Text top{"", "top", "Picture straight from above (.png).", false, "", "FILE", line.args()};
+  Text ply{"",     "ply",      "Ellipsoids as triangles, and the point cloud.", false, "",
+           "FILE", line.args()};
+  Text json{"", "json", "The objects (form of objects.json).", false, "", "FILE", line.args()};
+  Text truth{"",        "truth",    "True objects to draw in black, in the map's frame.", false, "",
+             "gt.json", line.args()};
+  Text size{"",    "size",     "Of the pictures [px] (default 1280x720).", false, "1280x720",
+            "WxH", line.args()};
+  TCLAP::SwitchArg noCloud{"", "no-cloud", "Leave out the point cloud.", line.args()};
+};
+
+PictureSize pictureSizeFrom(const std::string& text)
+{
+  std::smatch match;
+  if (!std::regex_match(text, match, std::regex("([0-9]{1,4})x([0-9]{1,4})")))
+    throw cli::UsageError("--size: expected WIDTHxHEIGHT, as 1280x720, got '" + text + "'");
+  const auto number = [&](std::size_t i) { return static_cast<unsigned>(std::stoul(match[i])); };
+  const PictureSize size{number(1), number(2)};
+  if (!size.isValid())
+    throw cli::UsageError("--size: sides must be 16 to 4096 pixels, got '" + text + "'");
+  return size;
+}
+
+void requirePngName(TCLAP::ValueArg<std::string>& argument)
+{
+  if (argument.isSet() && std::filesystem::path(argument.getValue()).extension() != ".png")
+    throw cli::UsageError("--" + argument.getName() + ": the name must end in .png");
+}
+
+void checkUsage(Cli& cli)
+{
+  requirePngName(cli.png);
+  requirePngName(cli.top);
+  for (const auto* output : {&cli.scene, &cli.png, &cli.top, &cli.ply, &cli.json})
+    if (output->isSet()) return;
+  throw cli::UsageError("nothing to write: give --scene, --png, --top, --ply or --json");
+}
+
+/** Runs a writer when its file was asked for, and says so. */
+template <typename Write>
+void writeIfSet(TCLAP::ValueArg<std::string>& argument, Write&& write)
+{
+  if (!argument.isSet()) return;
+  write(argument.getValue());
+  std::cout << "wrote " << argument.getValue() << "\n";
+}
+
+void run(Cli& cli)
+{
+  checkUsage(cli);
+  const PictureSize size = pictureSizeFrom(cli.size.getValue());
+  ExportInput input;
+  input.path = cli.input.getValue();
+  if (cli.truth.isSet()) input.truthPath = cli.truth.getValue();
+  const bool showsCloud =
+      cli.scene.isSet() || cli.png.isSet() || cli.top.isSet() || cli.ply.isSet();
+  input.withCloud = showsCloud && !cli.noCloud.getValue();
+  const SceneContent content = readExportInput(input);
+
+  const SceneBuilder builder;
+  writeIfSet(cli.json, [&](const auto& path) { writeObjectsJson(path, content.objects); });
+  writeIfSet(cli.ply, [&](const auto& path) { writePly(content, path); });
+  writeIfSet(cli.scene, [&](const auto& path) { writeScene(*builder.scene(content), path); });
+  if (!cli.png.isSet() && !cli.top.isSet()) return;
+  SceneRenderer renderer(size);
+  const auto picture = [&](const std::string& path, const ViewPoint& view)
+  { writePicture(renderer.render(*builder.picture(content, view, size), view), path); };
+  writeIfSet(cli.png, [&](const auto& p) { picture(p, obliqueView(content, size.aspect())); });
+  writeIfSet(cli.top, [&](const auto& p) { picture(p, topView(content, size.aspect())); });
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return cli::runMain(
+      "quadmap-export",
+      [&]
+      {
+        Cli cli;
+        if (cli.line.parse(argc, argv)) run(cli);
+      });
+}

@@ -1,0 +1,101 @@
+#include "Commands.h"
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "ObjectTable.h"
+#include "common/CommandLine.h"
+#include "common/MapFile.h"
+
+namespace quadmap
+{
+namespace
+{
+using Text = TCLAP::ValueArg<std::string>;
+using Id = TCLAP::ValueArg<unsigned>;
+
+/** What the sub-commands that change a map have in common. */
+struct EditCli
+{
+  EditCli(const std::string& command, const std::string& description) :
+      line("quadmap-map " + command, description, QUADMAP_VERSION)
+  {
+  }
+
+  /** Writes the changed map and says so. */
+  void write(const CQuadricObjectMap& map)
+  {
+    writeMapFile(output.getValue(), map);
+    std::cout << "wrote " << output.getValue() << " with " << map.confirmedObjects().size()
+              << " objects\n";
+  }
+
+  cli::CommandLine line;
+  TCLAP::UnlabeledValueArg<std::string> file{"FILE",     "An objects.quadmap.", true, "", "FILE",
+                                             line.args()};
+  Text output{"o",           "output",   "The changed map; may be the same file.", true, "",
+              "out.quadmap", line.args()};
+};
+
+void requireObject(const CQuadricObjectMap& map, ObjectId id, const std::string& path)
+{
+  if (!map.find(id))
+    throw std::runtime_error(path + ": has no object with id " + std::to_string(id));
+}
+
+}  // namespace
+
+void infoCommand(int argc, char** argv)
+{
+  cli::CommandLine line("quadmap-map info", "Shows what a map contains.", QUADMAP_VERSION);
+  TCLAP::UnlabeledValueArg<std::string> file(
+      "FILE", "An objects.quadmap.", true, "", "FILE", line.args());
+  if (!line.parse(argc, argv)) return;
+  std::cout << mapSummary(*readMapFile(file.getValue()), file.getValue());
+}
+
+void relabelCommand(int argc, char** argv)
+{
+  EditCli cli("relabel", "Gives an object another label.");
+  Id id("", "id", "The object.", true, 0, "N", cli.line.args());
+  Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
+  if (!cli.line.parse(argc, argv)) return;
+  if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
+  const auto map = readMapFile(cli.file.getValue());
+  requireObject(*map, id.getValue(), cli.file.getValue());
+  map->relabel(id.getValue(), label.getValue());
+  cli.write(*map);
+}
+
+void removeCommand(int argc, char** argv)
+{
+  EditCli cli("remove", "Takes objects out of a map.");
+  TCLAP::MultiArg<unsigned> ids(
+      "", "id", "An object; may be given several times.", true, "N", cli.line.args());
+  if (!cli.line.parse(argc, argv)) return;
+  const auto map = readMapFile(cli.file.getValue());
+  for (const unsigned id : ids.getValue())
+  {
+    requireObject(*map, id, cli.file.getValue());
+    map->remove(id);
+  }
+  cli.write(*map);
+}
+
+void mergeCommand(int argc, char** argv)
+{
+  EditCli cli("merge", "Makes one object of two that are the same.");
+  Id kept("", "keep", "The object that stays.", true, 0, "N", cli.line.args());
+  Id absorbed("", "absorb", "The object that goes into it.", true, 0, "N", cli.line.args());
+  if (!cli.line.parse(argc, argv)) return;
+  if (kept.getValue() == absorbed.getValue())
+    throw cli::UsageError("--keep and --absorb: must be two objects");
+  const auto map = readMapFile(cli.file.getValue());
+  requireObject(*map, kept.getValue(), cli.file.getValue());
+  requireObject(*map, absorbed.getValue(), cli.file.getValue());
+  map->merge(kept.getValue(), absorbed.getValue());
+  cli.write(*map);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace quadmap
+{
+/** The sub-commands of quadmap-map. `argv[0]` is the sub-command's name.
+ * \exception cli::UsageError For wrong arguments. \exception std::runtime_error Names the file. */
+void infoCommand(int argc, char** argv);
+void queryCommand(int argc, char** argv);
+void relabelCommand(int argc, char** argv);
+void removeCommand(int argc, char** argv);
+void mergeCommand(int argc, char** argv);
+
+}  // namespace quadmap
