@@ -194,8 +194,42 @@ TEST(RawlogErrors, UnreadableExternalImages)
   RawlogWriter writer(file, external);
   for (int i = 0; i < 2; ++i) writer.write(*sampleScan(kStart + i));
   writer.finish();
-  folder.write("x_Images/camera_000001_depth.bin", "no depth here");
-  expectProblem(file, {"x.rawlog: record 1 (camera): ", "external images cannot be read"}, 1);
+  const std::string depth = "x_Images/camera_000001_depth.bin",
+                    color = "x_Images/camera_000001.jpg";
+  const auto goodDepth = readFile(folder.path(depth)), goodColor = readFile(folder.path(color));
+
+  const std::string where = "x.rawlog: record 1 (camera): ";
+  folder.write(depth, "no depth here");
+  expectProblem(file, {where, depth + " cannot be read: ", "not plausible"}, 1);
+  folder.write(depth, goodDepth.substr(0, goodDepth.size() / 2));
+  expectProblem(file, {where, depth + " cannot be read: ", "truncated"}, 1);
+  folder.write(depth, "");
+  expectProblem(file, {where, depth + " cannot be read: ", "empty"}, 1);
+  folder.write(depth, goodDepth);
+  folder.write(color, "no image here");
+  expectProblem(file, {where, color + " cannot be read"}, 1);
+  folder.write(color, goodColor);
+  EXPECT_EQ(readAll(file).size(), 2u);
+}
+
+TEST(RawlogErrors, CalibrationOfAnotherImageSize)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path("x.rawlog");
+  RawlogWriterOptions external;  // of embedded images MRPT overwrites the calibration's size
+  external.external = true;
+  RawlogWriter writer(file, external);
+  auto scan = sampleScan(kStart);
+  scan->cameraParams.ncols = 640;
+  scan->cameraParams.nrows = 480;
+  writer.write(*scan);
+  writer.write(*sampleScan(kStart + 1));
+  writer.finish();
+  expectProblem(
+      file,
+      {"x.rawlog: record 0 (camera): ",
+       "its calibration is for 640x480 images, its depth image has 64x48"},
+      1);
 }
 
 TEST(RawlogErrors, ScansNobodyCanUse)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "GzStream.h"
 #include "RecordReader.h"
 #include "quadmap/sensors/BoxCheck.h"
 
@@ -22,23 +23,56 @@ void requireFile(const std::string& path)
     throw std::runtime_error("its external image " + path + " is missing");
 }
 
-void loadExternalImages(CObservation3DRangeScan& scan, const std::string& folder)
+/** MRPT's external depth image: rows and columns (4 bytes each), then 16 bits per pixel, gz. MRPT's
+ * own loader crashes on damaged files. */
+void loadDepthFile(const std::string& path, CObservation3DRangeScan& scan)
 {
-  const bool externalDepth = scan.hasRangeImage && scan.rangeImage_isExternallyStored();
-  const bool externalColor = scan.hasIntensityImage && scan.intensityImage.isExternallyStored();
-  if (!externalDepth && !externalColor) return;
-  mrpt::io::setLazyLoadPathBase(folder);
-  if (externalDepth) requireFile(scan.rangeImage_getExternalStorageFileAbsolutePath(""));
-  if (externalColor) requireFile(scan.intensityImage.getExternalStorageFileAbsolutePath());
+  constexpr std::uint32_t kMaxPixels = 20000;  // per side
+  GzInput file(path);
+  std::uint32_t size[2] = {0, 0};
+  if (file.Read(size, sizeof size) == 0) throw std::runtime_error("it is empty");
+  const auto [rows, columns] = size;
+  if (rows < 1 || rows > kMaxPixels || columns < 1 || columns > kMaxPixels)
+    throw std::runtime_error(mrpt::format("a size of %ux%u is not plausible", columns, rows));
+  scan.rangeImage_setSize(static_cast<int>(rows), static_cast<int>(columns));
+  const std::size_t bytes = std::size_t{rows} * columns * sizeof(std::uint16_t);
+  file.Read(scan.rangeImage.data(), bytes);
+}
+
+void loadExternalDepth(CObservation3DRangeScan& scan)
+{
+  const std::string path = scan.rangeImage_getExternalStorageFileAbsolutePath("");
+  requireFile(path);
   try
   {
-    scan.load();
-    if (externalColor) scan.intensityImage.forceLoad();
+    if (std::filesystem::path(path).extension() == ".txt")
+      scan.load();
+    else
+      loadDepthFile(path, scan);
   }
   catch (const std::exception& e)
   {
-    throw std::runtime_error("its external images cannot be read: " + rootMessage(e));
+    throw std::runtime_error("its external image " + path + " cannot be read: " + rootMessage(e));
   }
+  scan.rangeImage_forceResetExternalStorage();
+}
+
+void loadExternalColor(CObservation3DRangeScan& scan)
+{
+  const std::string path = scan.intensityImage.getExternalStorageFileAbsolutePath();
+  requireFile(path);
+  mrpt::img::CImage image;
+  if (!image.loadFromFile(path))
+    throw std::runtime_error("its external image " + path + " cannot be read");
+  scan.intensityImage = image;
+}
+
+/** Afterwards the scan holds its images itself. */
+void loadExternalImages(CObservation3DRangeScan& scan, const std::string& folder)
+{
+  mrpt::io::setLazyLoadPathBase(folder);
+  if (scan.rangeImage_isExternallyStored()) loadExternalDepth(scan);
+  if (scan.hasIntensityImage && scan.intensityImage.isExternallyStored()) loadExternalColor(scan);
 }
 
 void requireCalibration(const CObservation3DRangeScan& scan)
