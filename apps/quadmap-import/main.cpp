@@ -108,6 +108,8 @@ int run(Cli& cli)
 {
   const bool checking = cli.check.getValue();
   if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be >= 1");
+  if (!(cli.maxGap.getValue() >= 0)) throw cli::UsageError("--max-gap: must be >= 0 s");
+  if (!(cli.maxSpeed.getValue() > 0)) throw cli::UsageError("--max-speed: must be > 0 m/s");
   TumDatasetOptions reading;
   reading.detections = cli.detections.getValue();
   if (!checking && cli.output.getValue().empty())

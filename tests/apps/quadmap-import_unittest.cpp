@@ -1,0 +1,263 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../obs/TestData.h"
+#include "../sensors/SampleRawlog.h"
+#include "../sensors/SampleRecording.h"
+#include "RunProgram.h"
+
+using namespace quadmap;
+
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+/** A good recording to spoil, and a folder for what is written. */
+class QuadmapImport : public testing::Test
+{
+ protected:
+  /** Arguments with IN for the recording and OUT for the output folder. */
+  ProgramResult run(std::string arguments)
+  {
+    const auto replace = [&](const std::string& word, const std::string& value)
+    {
+      for (auto at = arguments.find(word); at != kNotFound; at = arguments.find(word))
+        arguments.replace(at, word.size(), value);
+    };
+    replace("IN", recording_.folder());
+    replace("OUT", out_.folder().string());
+    return runProgram("quadmap-import", arguments);
+  }
+
+  SampleRecording recording_;
+  TemporaryFolder out_;
+};
+
+bool isOneLine(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+void expectFailure(const ProgramResult& result, const std::string& part)
+{
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_EQ(result.err.find("quadmap-import: "), 0u) << result.err;
+  EXPECT_NE(result.err.find(part), kNotFound) << "'" << part << "' is not in: " << result.err;
+}
+}  // namespace
+
+TEST_F(QuadmapImport, WritesRawlogAndBoxes)
+{
+  const auto result = run("tum IN -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(result.err.empty()) << "no progress bar when redirected: " << result.err;
+  EXPECT_NE(result.out.find("6 frames, 6 poses as odometry, 6 boxes"), kNotFound) << result.out;
+  EXPECT_EQ(out_.fileCount(), 2u);
+  const auto frames = readAll(out_.path("x.rawlog"));
+  ASSERT_EQ(frames.size(), 6u);
+  for (const auto& frame : frames)
+  {
+    EXPECT_TRUE(frame.T_odom_robot);
+    EXPECT_FALSE(frame.T_world_robot);
+    ASSERT_TRUE(frame.objects);
+    EXPECT_EQ(frame.objects->objects.at(0).label, "chair");
+  }
+  EXPECT_NEAR(frames[5].T_odom_robot->x(), 0.25, 1e-9);
+}
+
+TEST_F(QuadmapImport, TakesPosesAsAsked)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);
+  auto frame = readAll(out_.path("x.rawlog")).at(0);
+  EXPECT_TRUE(frame.T_world_robot);
+  EXPECT_FALSE(frame.T_odom_robot);
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  frame = readAll(out_.path("x.rawlog")).at(0);
+  EXPECT_FALSE(frame.T_world_robot || frame.T_odom_robot);
+}
+
+TEST_F(QuadmapImport, TakesEveryNthFrameAndOtherDetections)
+{
+  const TemporaryFolder detections;
+  detections.write("f4.txt", "41 cup 0.5 1 1 9 9\n41 cup 0.5 2 2 9 9\n");
+  const auto result =
+      run("tum IN -o OUT/x.rawlog --every 2 --detections " + detections.folder().string());
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto frames = readAll(out_.path("x.rawlog"));
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_NEAR(frames[1].time(), 100.2, 1e-6);
+  EXPECT_FALSE(frames[1].objects);
+  ASSERT_TRUE(frames[2].objects);
+  EXPECT_EQ(frames[2].objects->objects.size(), 2u);
+}
+
+TEST_F(QuadmapImport, WritesExternalImages)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --external").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out_.path("x_Images/camera_000005_depth.bin")));
+  EXPECT_EQ(readAll(out_.path("x.rawlog")).size(), 6u);
+}
+
+TEST_F(QuadmapImport, SaysWhatIsMissingButNotNeeded)
+{
+  std::filesystem::remove(recording_.files.path("groundtruth.txt"));
+  const auto result = run("tum IN -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("note: "), kNotFound);
+  EXPECT_NE(result.err.find("no groundtruth.txt, hence no poses"), kNotFound) << result.err;
+}
+
+TEST_F(QuadmapImport, ChecksWithoutWriting)
+{
+  auto result = run("tum IN --check");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.out.find("no problem found"), kNotFound) << result.out;
+  for (const char* file : {"rgb/f1.png", "rgb/f2.png", "rgb/f3.png", "rgb/f4.png", "depth/f5.png"})
+    std::filesystem::remove(recording_.files.path(file));
+  result = run("tum IN --check -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("missing file (5)"), kNotFound) << result.out;
+  EXPECT_NE(result.out.find("rgb/f3.png"), kNotFound) << "the first three are examples";
+  EXPECT_EQ(result.out.find("rgb/f4.png"), kNotFound);
+  EXPECT_EQ(out_.fileCount(), 0u);
+}
+
+TEST_F(QuadmapImport, ChecksWithTheLimitsAskedFor)
+{
+  EXPECT_EQ(run("tum IN --check --max-gap 0.05").status, 1);
+  recording_.files.write(
+      "groundtruth.txt", SampleRecording::pose(0, 0) + SampleRecording::pose(1, 0.4) +
+                             SampleRecording::pose(2, 0.45) + SampleRecording::pose(3, 0.5) +
+                             SampleRecording::pose(4, 0.55) + SampleRecording::pose(5, 0.6));
+  auto result = run("tum IN --check");
+  EXPECT_EQ(result.status, 0) << "4 m/s is less than ten times the median: " << result.out;
+  recording_.files.write(
+      "groundtruth.txt", SampleRecording::pose(0, 0) + SampleRecording::pose(1, 0.4) +
+                             SampleRecording::pose(2, 0.41) + SampleRecording::pose(3, 0.42) +
+                             SampleRecording::pose(4, 0.43) + SampleRecording::pose(5, 0.44));
+  result = run("tum IN --check");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("pose jumps (1)"), kNotFound) << result.out;
+  EXPECT_EQ(run("tum IN --check --max-speed 5").status, 0);
+}
+
+TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)
+{
+  const auto expect = [&](const std::string& file, const std::string& text, const std::string& part)
+  {
+    const auto good = readFile(recording_.files.path(file));
+    if (text.empty())
+      std::filesystem::remove(recording_.files.path(file));
+    else
+      recording_.files.write(file, text);
+    expectFailure(run("tum IN -o OUT/x.rawlog"), part);
+    EXPECT_EQ(out_.fileCount(), 0u);
+    recording_.files.write(file, good);
+  };
+  expect("calibration.yaml", "", "calibration.yaml: no such file");
+  expect("calibration.yaml", "%YAML:1.0\n---\nfx: 0.\nfy: 1.\n", "calibration.yaml: fx=0");
+  expect("associations.txt", "1 2 3\n", "associations.txt:1: expected 4 columns");
+  expect("rgb/f3.png", "", "rgb/f3.png: no such file");
+  expect("depth/f3.png", "x", "depth/f3.png: cannot be read as an image");
+  expect("detections/f3.txt", "1 cup 1 9 9 5 5\n", "detections/f3.txt: cup (x1=9 y1=9 x2=5 y2=5)");
+  expect("groundtruth.txt", "1 2\n", "groundtruth.txt:1");
+  expect(
+      "associations.txt",
+      SampleRecording::line(0, 2) + SampleRecording::line(1, 1) + SampleRecording::line(2, 3),
+      "associations.txt:2: time 1.000000 s is not after the frame before");
+  expectFailure(run("tum OUT/none -o OUT/x.rawlog"), "none: no such folder");
+  expectFailure(run("tum IN -o OUT/x.rawlog --detections OUT/none"), "none: no such folder");
+}
+
+TEST_F(QuadmapImport, KeepsGoingAndSaysWhatItDropped)
+{
+  std::filesystem::remove(recording_.files.path("rgb/f3.png"));
+  recording_.files.write("detections/f1.txt", "1 cup 1 9 9 5 5\n1 cup 1 1 1 5 5\n");
+  const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("dropped: "), kNotFound);
+  EXPECT_NE(result.err.find("rgb/f3.png: no such file"), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("is inverted"), kNotFound) << result.err;
+  EXPECT_NE(result.out.find("(2 things dropped)"), kNotFound) << result.out;
+  const auto frames = readAll(out_.path("x.rawlog"));
+  ASSERT_EQ(frames.size(), 5u);
+  ASSERT_TRUE(frames[1].objects);
+  EXPECT_EQ(frames[1].objects->objects.size(), 1u);
+}
+
+TEST_F(QuadmapImport, KeepGoingWithoutAnyFrameIsAFailure)
+{
+  std::filesystem::remove_all(recording_.files.path("rgb"));
+  const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("no frame could be imported"), kNotFound) << result.err;
+  EXPECT_EQ(out_.fileCount(), 0u);
+}
+
+TEST_F(QuadmapImport, UnwritableOutput)
+{
+  expectFailure(run("tum IN -o OUT/no/x.rawlog"), "no/x.rawlog");
+  std::filesystem::create_directory(out_.path("x.rawlog"));
+  expectFailure(run("tum IN -o OUT/x.rawlog"), "x.rawlog");
+  EXPECT_EQ(out_.fileCount(), 1u);
+}
+
+TEST_F(QuadmapImport, FullDiskLeavesNothing)
+{
+  for (const std::string option : {"", " --external"})
+  {
+    ProgramResult result;
+    {
+      const FileSizeLimit full(400);  // the program inherits it
+      result = run("tum IN -o OUT/x.rawlog" + option);
+    }
+    expectFailure(result, option.empty() ? "x.rawlog: cannot write: " : "x_Images/camera_000000");
+    EXPECT_EQ(out_.fileCount(), 0u);
+  }
+}
+
+TEST_F(QuadmapImport, WrongUsageIsStatus2)
+{
+  for (const char* arguments :
+       {"", "tum", "tum IN", "tom IN -o OUT/x.rawlog", "tum IN -o OUT/x.rawlog --every 0",
+        "tum IN -o OUT/x.rawlog --every two", "tum IN -o OUT/x.rawlog --poses-as truth",
+        "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o", "tum IN --check --max-gap -1",
+        "tum IN --check --max-speed 0"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << arguments << "\n" << result.err;
+    EXPECT_EQ(out_.fileCount(), 0u);
+  }
+}
+
+TEST_F(QuadmapImport, ShowsHelpAndVersion)
+{
+  const auto help = run("--help");
+  EXPECT_EQ(help.status, 0);
+  for (const char* option : {"--output", "--check", "--external", "--poses-as", "--detections"})
+    EXPECT_NE(help.out.find(option), kNotFound) << option;
+  const auto version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.find("quadmap-import "), 0u) << version.out;
+}
+
+TEST_F(QuadmapImport, ImportsARealRecording)
+{
+  const auto cabinet = testData("tum_fr3_cabinet");
+  if (cabinet.empty()) GTEST_SKIP() << "the recordings are not here";
+  const auto result = run("tum " + cabinet + " -o OUT/cabinet.rawlog");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto frames = readAll(out_.path("cabinet.rawlog"));
+  ASSERT_EQ(frames.size(), 58u);
+  std::size_t boxes = 0;
+  for (const auto& frame : frames)
+  {
+    EXPECT_TRUE(frame.T_odom_robot);
+    ASSERT_TRUE(frame.objects);
+    boxes += frame.objects->objects.size();
+  }
+  EXPECT_EQ(boxes, 51u);
+}
