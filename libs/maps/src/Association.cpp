@@ -37,8 +37,9 @@ double logSumExp(const Eigen::VectorXd& v)
 
 void requireValid(const AssociationParameters& p)
 {
-  if (!(p.alpha > 0) || !(p.beta > 0) || p.labels == 0 || !(p.newObjectVolume > 0))
-    throw std::invalid_argument("associateFrame: alpha, beta, labels and volume must be > 0");
+  if (!(p.alpha > 0) || !(p.beta > 0) || p.labels == 0 || !(p.newObjectVolume > 0) ||
+      !(p.minJoinPosterior >= 0 && p.minJoinPosterior < 1))
+    throw std::invalid_argument("associateFrame: alpha, beta, labels, volume must be > 0");
 }
 
 /** Adds to the log-likelihoods (rows: measurements, columns: objects) the prior of the Dirichlet
@@ -66,14 +67,15 @@ Eigen::MatrixXd unnormalisedLogPosterior(
 }
 
 /** One private "none" column per row, so that any number of boxes can be new. */
-Eigen::MatrixXd assignmentCost(const Eigen::MatrixXd& logPosterior)
+Eigen::MatrixXd assignmentCost(const Eigen::MatrixXd& logPosterior, double minJoinPosterior)
 {
   const Eigen::Index rows = logPosterior.rows(), objects = logPosterior.cols() - 1;
   Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(rows, objects + rows, kForbiddenCost);
   for (Eigen::Index k = 0; k < rows; ++k)
   {
     for (Eigen::Index i = 0; i < objects; ++i)
-      cost(k, i) = std::min(-logPosterior(k, i), kForbiddenCost);
+      if (logPosterior(k, i) != kImpossible && std::exp(logPosterior(k, i)) >= minJoinPosterior)
+        cost(k, i) = -logPosterior(k, i);
     cost(k, objects + k) = -logPosterior(k, objects);
   }
   return cost;
@@ -129,7 +131,7 @@ std::vector<AssociationDecision> associateByLikelihood(
   Eigen::MatrixXd log = unnormalisedLogPosterior(measurements, targets, parameters, logLikelihood);
   for (Eigen::Index k = 0; k < log.rows(); ++k) log.row(k).array() -= logSumExp(log.row(k));
 
-  const auto columns = optimalAssignment(assignmentCost(log));
+  const auto columns = optimalAssignment(assignmentCost(log, parameters.minJoinPosterior));
   std::vector<AssociationDecision> decisions;
   for (std::size_t k = 0; k < measurements.size(); ++k)
   {

@@ -31,6 +31,19 @@ AssociationTarget targetOf(const MapObject& object)
   return t;
 }
 
+/** Largest deviation of a size from the label's typical one, in spreads; x and y are unordered. */
+double sizeDeviation(const Ellipsoid& object, const LabelProperties& label)
+{
+  const auto ordered = [](Eigen::Vector3d size)
+  {
+    if (size.x() > size.y()) std::swap(size.x(), size.y());
+    return size;
+  };
+  const Eigen::Array3d ratio =
+      ordered(2 * object.semiAxes()).array() / ordered(label.typicalSize).array();
+  return ratio.log().abs().maxCoeff() / label.sizeSpread;
+}
+
 }  // namespace
 
 bool CQuadricObjectMap::internal_insertObservation(
@@ -202,12 +215,18 @@ void CQuadricObjectMap::estimate(MapObject& object, bool restart)
 bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
 {
   const auto& existence = insertionOptions.existence;
-  const bool seenEnough = object.completeCount >= static_cast<unsigned>(existence.minComplete) ||
-                          object.observations() >= static_cast<unsigned>(existence.minPartial);
-  const double sigma = std::sqrt(object.covariance.diagonal().head<3>().maxCoeff());
-  const double sizeSigma = std::sqrt(object.covariance.diagonal().tail<3>().maxCoeff());
-  return object.existenceLogOdds > existence.confirmLogOdds && seenEnough &&
-         sigma < existence.maxCenterSigma && sizeSigma < existence.maxSizeSigma;
+  const bool manyComplete = object.completeCount >= static_cast<unsigned>(existence.minComplete);
+  const bool manyPartial = object.observations() >= static_cast<unsigned>(existence.minPartial) &&
+                           sizeDeviation(object.object, labels_->properties(object.label())) <=
+                               existence.maxSizeDeviation;
+  const double centerSigma = std::sqrt(object.covariance.diagonal().head<3>().maxCoeff());
+  const double sizeSigma = object.covariance.diagonal()
+                               .tail<3>()
+                               .cwiseSqrt()
+                               .cwiseProduct(object.object.semiAxes())
+                               .maxCoeff();
+  return object.existenceLogOdds > existence.confirmLogOdds && (manyComplete || manyPartial) &&
+         centerSigma < existence.maxCenterSigma && sizeSigma < existence.maxSizeSigma;
 }
 
 void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)

@@ -24,6 +24,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.number("beta", o.association.beta, kSmall, kLarge);
   v.integer("labels", o.association.labels, 1, 1000000);
   v.number("newObjectVolume", o.association.newObjectVolume, kSmall, kLarge);
+  v.number("minJoinPosterior", o.association.minJoinPosterior, 0, 1 - kSmall);
   v.number("extentShare", o.agreement.extentShare, 0, 10);
   v.number("sizeLogSigma", o.agreement.sizeLogSigma, kSmall, 100);
   v.number("maxSizePenalty", o.agreement.maxSizePenalty, 0, 1000);
@@ -47,6 +48,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.integer("minComplete", o.existence.minComplete, 1, 1000000);
   v.integer("minPartial", o.existence.minPartial, 1, 1000000);
   v.number("maxCenterSigma", o.existence.maxCenterSigma, kSmall, 1000);
+  v.number("maxSizeDeviation", o.existence.maxSizeDeviation, kSmall, 1000);
   v.number("maxSizeSigma", o.existence.maxSizeSigma, kSmall, 1000);
   v.number("missMinRange", o.existence.minRange, 0, 1000);
   v.number("missMaxRange", o.existence.maxRange, 0, 1000);
@@ -56,6 +58,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.number("missMaxHiddenShare", o.existence.maxHiddenShare, 0, 1);
   v.number("mergeOverlap", o.merging.overlap, kSmall, 1);
   v.number("mergeAnyLabelIoU", o.merging.anyLabelIoU, kSmall, 1);
+  v.number("mergeConcentricShare", o.merging.concentricShare, 0, 10);
   v.number("mergeLabelShare", o.merging.labelShare, 0, 1);
   v.integer("waitingCapacity", o.waiting.capacity, 1, 1000000);
   v.integer("waitingMinViews", o.waiting.minViews, 2, 1000);

@@ -89,7 +89,7 @@ UprightState limited(UprightState step)
 template <typename Linearise>
 NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIterations)
 {
-  constexpr double kSmallStep = 1e-5;
+  constexpr double kSmallStep = 1e-4;
   NormalEquations eq = linearise(x);
   double lambda = 1e-4;
   for (int iteration = 0; iteration < maxIterations; ++iteration)

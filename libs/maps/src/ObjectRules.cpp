@@ -48,6 +48,32 @@ double imageTerm(
   return options.imageWeight * std::log(std::max(iou, options.minImageIoU) / 0.5);
 }
 
+/** log density of a measured cuboid along one of its axes.
+ * \param offset Centre of the measurement minus that of the object [m].
+ * \param objectHalf Half width of the object, \param variance of its position [m^2]. */
+double axisLogLikelihood(
+    const ObjectView& view, std::size_t axis, double offset, double objectHalf, double variance)
+{
+  const auto& plus = view.faces[2 * axis];
+  const auto& minus = view.faces[2 * axis + 1];
+  // By how much the object ends further out than the measurement, were they concentric.
+  const double larger = objectHalf - view.halfSizes[static_cast<Eigen::Index>(axis)];
+  const auto logNormal = [](double x, double v)
+  { return -0.5 * x * x / v - 0.5 * std::log(2 * M_PI * v); };
+
+  if (view.axisKnown(axis))
+    return logNormal(
+        offset, variance + 0.25 * (std::pow(plus.sigma, 2) + std::pow(minus.sigma, 2)));
+  if (isEquality(plus.kind)) return logNormal(offset - larger, variance + std::pow(plus.sigma, 2));
+  if (isEquality(minus.kind))
+    return logNormal(offset + larger, variance + std::pow(minus.sigma, 2));
+  // A part without known ends lies anywhere inside: uniform there, Gaussian tails outside.
+  const double inside = std::max(larger, 0.0);
+  const double outside = std::max(0.0, std::abs(offset) - inside);
+  const double v = variance + std::pow(plus.sigma, 2);
+  return -0.5 * outside * outside / v - std::log(2 * inside + std::sqrt(2 * M_PI * v));
+}
+
 }  // namespace
 
 std::vector<std::string> frequentLabels(const MapObject& object, double share)
@@ -71,12 +97,18 @@ bool labelFits(
 bool areOneObject(
     const MapObject& a, const MapObject& b, const LabelTable& labels, const MergeOptions& options)
 {
-  const double reach = a.object.semiAxes().norm() + b.object.semiAxes().norm();
-  if ((a.object.center() - b.object.center()).norm() > reach) return false;
+  const double distance = (a.object.center() - b.object.center()).norm();
+  if (distance > a.object.semiAxes().norm() + b.object.semiAxes().norm()) return false;
   const double volumeA = a.object.cuboidVolume(), volumeB = b.object.cuboidVolume();
   const double shared = cuboidIntersectionVolume(a.object, b.object);
   if (shared > options.anyLabelIoU * (volumeA + volumeB - shared)) return true;
-  if (shared <= options.overlap * std::min(volumeA, volumeB)) return false;
+
+  // Without a known orientation (a TV seen as boxes only) the overlap says little.
+  const double width =
+      std::max(a.object.semiAxes().head<2>().maxCoeff(), b.object.semiAxes().head<2>().maxCoeff());
+  const bool concentric =
+      !(a.orientationDefined && b.orientationDefined) && distance < options.concentricShare * width;
+  if (!concentric && shared <= options.overlap * std::min(volumeA, volumeB)) return false;
 
   for (const auto& name : frequentLabels(a, options.labelShare))
     if (labelFits(b, name, labels, options.labelShare)) return true;
@@ -107,36 +139,15 @@ double positionLogLikelihood(
       object.covariance.topLeftCorner<3, 3>() + R * extent.cwiseAbs2().asDiagonal() * R.transpose();
   if (!view.complete) return logGaussian(off, S_object + view.centerCovariance);
 
-  Eigen::Vector3d difference;
-  Eigen::Matrix3d axes;  // of the measured cuboid, as rows
-  Eigen::Vector3d variances;
+  double log = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto i = static_cast<Eigen::Index>(axis);
-    const auto& plus = view.faces[2 * axis];
-    const auto& minus = view.faces[2 * axis + 1];
     const Eigen::Vector3d n = view.faceNormal(2 * axis);
-    axes.row(i) = n;
-    const double center = n.dot(off);
-    const double larger =
-        supportFunction<double>(R.transpose() * n, object.object.semiAxes(), 2.0) -
-        view.halfSizes[i];  // by how much the object is larger on each side
-    if (view.axisKnown(axis))
-      difference[i] = center;
-    else if (isEquality(plus.kind))
-      difference[i] = center - larger;
-    else if (isEquality(minus.kind))
-      difference[i] = center + larger;
-    else
-      difference[i] =
-          std::copysign(std::max(0.0, std::abs(center) - std::max(larger, 0.0)), center);
-    variances[i] = view.axisKnown(axis)
-                       ? 0.25 * (plus.sigma * plus.sigma + minus.sigma * minus.sigma)
-                       : std::pow(isEquality(minus.kind) ? minus.sigma : plus.sigma, 2);
+    const double objectHalf =
+        supportFunction<double>(R.transpose() * n, object.object.semiAxes(), 2.0);
+    log += axisLogLikelihood(view, axis, n.dot(off), objectHalf, n.dot(S_object * n));
   }
-  Eigen::Matrix3d S = axes * S_object * axes.transpose();
-  S.diagonal() += variances;
-  return logGaussian(difference, S);
+  return log;
 }
 
 }  // namespace quadmap

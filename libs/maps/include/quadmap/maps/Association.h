@@ -10,9 +10,12 @@ namespace quadmap
 /** Parameters of the Dirichlet process (DESIGN section 4; Mu et al., IROS 2016). */
 struct AssociationParameters
 {
-  double alpha = 0.5;              //!< Concentration of the Dirichlet process, > 0
-  double beta = 0.3;               //!< Dirichlet prior of the label histogram, > 0
-  unsigned labels = 80;            //!< U, number of classes
+  double alpha = 0.5;    //!< Concentration of the Dirichlet process, > 0
+  double beta = 0.1;     //!< Dirichlet prior of the label histogram, > 0
+  unsigned labels = 80;  //!< U, number of classes
+  /** A box joins an object only with at least this posterior probability, in [0, 1): when its
+   * likely object is taken by another box of the frame, it is not pressed into an unlikely one. */
+  double minJoinPosterior = 0.02;
   double newObjectVolume = 100.0;  //!< V, volume (area in 2-D) a new object may lie in [m^D]
 };
 

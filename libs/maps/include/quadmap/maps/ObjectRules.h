@@ -16,7 +16,7 @@ struct AgreementOptions
   double maxSizePenalty = 8;  //!< Bound of the size term's log-likelihood [-], >= 0
   double imageWeight = 1.5;   //!< Times ln(IoU / 0.5) of the boxes in the image [-], >= 0
   double minImageIoU = 0.05;  //!< Bound of that term, (0, 1)
-  double labelPenalty = 3;    //!< Log-likelihood lost by labels never taken for each other, >= 0
+  double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
   double duplicateIoU = 0.8;  //!< Two boxes of one frame this alike show the same thing, (0, 1]
 };
 
@@ -24,7 +24,10 @@ struct MergeOptions
 {
   double overlap = 0.4;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
   double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
-  double labelShare = 0.2;   //!< A label counts with this share of an object's measurements
+  /** Centres this near, as a share of the larger half width, when an orientation is unknown, >= 0.
+   */
+  double concentricShare = 0.6;
+  double labelShare = 0.2;  //!< A label counts with this share of an object's measurements
 };
 
 /** Labels with at least `share` of the object's measurements. */

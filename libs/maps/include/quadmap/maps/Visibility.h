@@ -23,7 +23,8 @@ struct ExistenceOptions
   int minPartial = 8;                  //!< ... or with this many measurements of any kind, >= 1
   double maxCenterSigma = 0.2;         //!< Reported below this uncertainty per axis [m], > 0
 
-  double maxSizeSigma = 0.5;  //!< ... and of the logarithm of its sizes below this [-], > 0
+  double maxSizeDeviation = 3;  //!< Sizes from partial measurements: spreads off the label's, > 0
+  double maxSizeSigma = 0.5;    //!< ... and of the logarithm of its sizes below this [-], > 0
 
   double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
   double minBoxSize = 30;                 //!< Both sides of the projected box [px]
