@@ -12,7 +12,7 @@ namespace quadmap::simulator
 namespace
 {
 constexpr int kSamplesPerWaypoint = 64;
-constexpr double kTurnLength = 0.6;  // turning by 1 rad takes as long as walking this far [m]
+constexpr double kTurnLength = 0.9;  // turning by 1 rad takes as long as walking this far [m]
 
 /** Catmull-Rom: through b (t = 0) and c (t = 1). */
 Eigen::Vector3d interpolate(
@@ -116,7 +116,8 @@ std::vector<mrpt::poses::CPose3D> cameraPath(const Scene& scene, const Trajector
       throw std::runtime_error(mrpt::format(
           "[trajectory] frame %zu looks straight up or down (eye and target too close?)",
           path.size()));
-    path.push_back(handHeld(view, options, static_cast<double>(path.size()) / options.rate));
+    path.push_back(handHeld(
+        view, options, options.duration * static_cast<double>(path.size()) / options.frames));
     checkFree(scene, path.back(), path.size() - 1);
   }
   return path;

@@ -12,12 +12,13 @@ namespace quadmap::simulator
 {
 namespace
 {
-/** NAME.rawlog -> NAME. */
+/** NAME.rawlog or NAME.rawlog.gz -> NAME. */
 std::string stemOf(const std::string& rawlog)
 {
-  const std::filesystem::path path(rawlog);
-  return path.extension() == ".rawlog" ? std::filesystem::path(path).replace_extension().string()
-                                       : rawlog;
+  std::filesystem::path path(rawlog);
+  if (path.extension() == ".gz") path.replace_extension();
+  if (path.extension() == ".rawlog") path.replace_extension();
+  return path.string();
 }
 
 std::vector<ObjectRecord> truthOf(const Scene& scene, const std::vector<unsigned>& framesVisible)

@@ -73,7 +73,8 @@ Simulator::Simulator(Scene scene, LabelTable labels, std::uint64_t seed) :
 double Simulator::time(std::size_t frame) const
 {
   const auto& trajectory = scene_.options.trajectory;
-  return trajectory.startTime + static_cast<double>(frame) / trajectory.rate;
+  return trajectory.startTime +
+         trajectory.duration * static_cast<double>(frame) / trajectory.frames;
 }
 
 SimulatedFrame Simulator::frame(std::size_t index) const

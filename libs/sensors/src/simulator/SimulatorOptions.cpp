@@ -41,14 +41,14 @@ void CameraOptions::resize(int newWidth, int newHeight)
 void TrajectoryOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& c, const std::string& section)
 {
-  std::set<std::string> known{"frames", "rate", "startTime", "bob", "sway_deg", "stepRate"};
+  std::set<std::string> known{"frames", "duration", "startTime", "bob", "sway_deg", "stepRate"};
   std::vector<std::string> keys;
   c.getAllKeys(section, keys);
   for (const auto& key : keys)
     if (key.compare(0, 8, "waypoint") == 0) known.insert(key);  // the scene reads these
   rejectUnknownKeys(c, section, known);
   readNumber(c, section, "frames", frames, 2, 100000);
-  readNumber(c, section, "rate", rate, 0.1, 1000);
+  readNumber(c, section, "duration", duration, 0.1, 100000);
   readNumber(c, section, "startTime", startTime, 0, 4e9);
   readNumber(c, section, "bob", bob, 0, 0.3);
   readNumber(c, section, "sway_deg", sway_deg, 0, 20);

@@ -65,7 +65,7 @@ using Progress = std::function<void(double)>;
 
 /** Makes all frames and writes NAME.rawlog, NAME.objects.rawlog, NAME.objects.gt.json and
  * NAME.groundtruth.tum; each appears complete or not at all, and all four only when the last frame
- * is done. \param rawlog Path of NAME.rawlog; another extension stays part of NAME.
+ * is done. \param rawlog Path of NAME.rawlog (or NAME.rawlog.gz).
  * \exception std::runtime_error If a file cannot be written. */
 SimulationSummary simulateToFiles(
     const Simulator& simulator, const std::string& rawlog, const Progress& progress = {});

@@ -26,8 +26,8 @@ struct CameraOptions : public mrpt::config::CLoadableOptions
 /** INI section [trajectory]. The way itself is in the waypoints of the same section. */
 struct TrajectoryOptions : public mrpt::config::CLoadableOptions
 {
-  int frames = 140;          //!< For the whole way, 2..100000
-  double rate = 10;          //!< Frames per second, 0.1..1000: a walk of 14 s
+  int frames = 180;          //!< For the whole way, 2..100000
+  double duration = 45;      //!< Of the whole way [s], 0.1..100000: a slow walk around a room
   double startTime = 1.6e9;  //!< Of the first frame [s since 1970], 0..4e9: fixed, so reproducible
   double bob = 0.02;         //!< Amplitude of the up and down of the steps [m], 0..0.3
   double sway_deg = 1.0;     //!< Amplitude of pitch and roll of the hands [deg], 0..20

@@ -1,0 +1,254 @@
+#include "quadmap/sensors/simulator/Simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "SceneFixture.h"
+#include "quadmap/obs/Trajectory.h"
+#include "quadmap/sensors/RawlogSource.h"
+
+namespace quadmap::simulator
+{
+namespace
+{
+const char* const kExtensions[] = {
+    ".rawlog", ".objects.rawlog", ".objects.gt.json", ".groundtruth.tum"};
+
+/** Home in small. */
+Scene smallHome()
+{
+  Scene scene = homeScene();
+  scene.options.camera.resize(160, 120);
+  scene.options.trajectory.frames = 12;
+  return scene;
+}
+
+SimulationSummary simulate(Scene scene, std::uint64_t seed, const std::string& rawlog)
+{
+  return simulateToFiles(Simulator(std::move(scene), LabelTable::installed(), seed), rawlog);
+}
+
+TEST(Simulator, SameSeedGivesTheSameBytes)
+{
+  const TemporaryFolder folder;
+  simulate(smallHome(), 3, folder.path("a.rawlog"));
+  simulate(smallHome(), 3, folder.path("b.rawlog"));
+  simulate(smallHome(), 4, folder.path("c.rawlog"));
+  for (const char* extension : kExtensions)
+  {
+    const std::string a = readFile(folder.path(std::string("a") + extension));
+    EXPECT_GT(a.size(), 200U);
+    EXPECT_TRUE(a == readFile(folder.path(std::string("b") + extension))) << extension;
+  }
+  for (const char* extension : {".rawlog", ".objects.rawlog"})
+    EXPECT_FALSE(
+        readFile(folder.path(std::string("a") + extension)) ==
+        readFile(folder.path(std::string("c") + extension)))
+        << "another seed, another recording";
+  EXPECT_EQ(readFile(folder.path("a.groundtruth.tum")), readFile(folder.path("c.groundtruth.tum")))
+      << "of the same walk";
+  EXPECT_EQ(12U, folder.fileCount()) << "nothing else is left";
+}
+
+TEST(Simulator, FramesDoNotDependOnTheOrderTheyAreMadeIn)
+{
+  const Simulator simulator(smallHome(), LabelTable::installed(), 5);
+  const SimulatedFrame late = simulator.frame(7);
+  simulator.frame(2);
+  const SimulatedFrame again = simulator.frame(7);
+  EXPECT_TRUE(late.scan->rangeImage == again.scan->rangeImage);
+  ASSERT_EQ(late.objects->objects.size(), again.objects->objects.size());
+  for (std::size_t i = 0; i < late.objects->objects.size(); ++i)
+    EXPECT_EQ(late.objects->objects[i].box.x1, again.objects->objects[i].box.x1);
+}
+
+TEST(Simulator, RawlogIsReadBackComplete)
+{
+  const TemporaryFolder folder;
+  const auto summary = simulate(smallHome(), 1, folder.path("a.rawlog"));
+  const Trajectory truth = readTumTrajectory(folder.path("a.groundtruth.tum"));
+  ASSERT_EQ(12U, truth.size());
+  EXPECT_EQ(12U, summary.frames);
+  RawlogSource source(folder.path("a.rawlog"), RawlogSourceOptions());
+  std::size_t boxes = 0, frames = 0;
+  for (; const auto frame = source.next(); ++frames)
+  {
+    EXPECT_EQ("camera", frame->scan->sensorLabel);
+    EXPECT_TRUE(frame->scan->hasIntensityImage);
+    EXPECT_EQ(160U, frame->scan->cameraParams.ncols);
+    EXPECT_NEAR(525 / 4.0, frame->scan->cameraParams.fx(), 1e-9);
+    ASSERT_TRUE(frame->objects);
+    boxes += frame->objects->objects.size();
+    ASSERT_TRUE(frame->T_odom_robot && frame->T_world_robot);
+    EXPECT_NEAR(truth[frames].time, frame->time(), 1e-6);
+    EXPECT_LT((truth[frames].pose - *frame->T_world_robot).norm(), 1e-6);
+    EXPECT_LT((truth[frames].pose - *frame->T_odom_robot).norm(), 0.5) << "drift";
+    EXPECT_EQ(frames > 0, (truth[frames].pose - *frame->T_odom_robot).norm() > 1e-5);
+  }
+  EXPECT_EQ(12U, frames);
+  EXPECT_EQ(summary.boxes, boxes);
+  EXPECT_TRUE(source.problems().empty());
+}
+
+TEST(Simulator, TruthCountsTheFramesInWhichAnObjectCanBeSeen)
+{
+  const TemporaryFolder folder;
+  const Simulator simulator(smallHome(), LabelTable::installed(), 1);
+  const auto summary = simulateToFiles(simulator, folder.path("a.rawlog"));
+  const auto truth = readObjectsJson(folder.path("a.objects.gt.json"));
+  std::vector<unsigned> expected(simulator.scene().objects.size(), 0);
+  for (std::size_t i = 0; i < simulator.frameCount(); ++i)
+    for (const auto& seen : simulator.frame(i).visible) ++expected[seen.object];
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const SceneObject& object = simulator.scene().objects[i];
+    if (object.label.empty()) continue;
+    ASSERT_LT(next, truth.size());
+    EXPECT_EQ(std::to_string(next + 1), truth[next].id);
+    EXPECT_EQ(object.label, truth[next].label);
+    EXPECT_EQ(object.orientationDefined, truth[next].orientationDefined);
+    EXPECT_EQ(expected[i], truth[next].framesVisible.value_or(999));
+    EXPECT_LT((object.truth().center() - truth[next].object.center()).norm(), 1e-6);
+    EXPECT_LT((object.truth().semiAxes() - truth[next].object.semiAxes()).norm(), 1e-6);
+    ++next;
+  }
+  EXPECT_EQ(truth.size(), next);
+  EXPECT_EQ(truth.size(), summary.truth.size());
+}
+
+TEST(Simulator, PerfectSensorsSeeThePointsOfTheSurfaces)
+{
+  Scene scene = smallHome();
+  scene.options.scaleNoise(0);
+  const Simulator simulator(scene, LabelTable::installed(), 1);
+  const auto scan = simulator.frame(0).scan;
+  const mrpt::poses::CPose3D pose = simulator.truePoses()[0];
+  EXPECT_LT((simulator.odometry().back() - simulator.truePoses().back()).norm(), 1e-6);
+  const RenderedFrame rendered =
+      RayCaster(simulator.scene(), scene.options.camera.pinhole()).render(pose);
+  scan->unprojectInto(*scan);  // MRPT's own idea of camera and depth
+  ASSERT_GT(scan->points3D_x.size(), 10000U);
+  std::size_t onFloor = 0, wrong = 0;
+  for (std::size_t i = 0; i < scan->points3D_x.size(); ++i)
+  {
+    const Eigen::Vector3d p(
+        static_cast<double>(scan->points3D_x[i]), static_cast<double>(scan->points3D_y[i]),
+        static_cast<double>(scan->points3D_z[i]));
+    const std::size_t pixel =
+        scan->points3D_idxs_y[i] * std::size_t{160} + scan->points3D_idxs_x[i];
+    if (std::abs(p.x() - static_cast<double>(rendered.depth[pixel])) > 1.01e-4) ++wrong;
+    const Eigen::Vector3d world = transformed(pose, p);
+    onFloor += std::abs(world.z()) < 0.001;
+    EXPECT_GT(world.z(), -0.001) << "nothing below the floor";
+  }
+  EXPECT_EQ(0U, wrong) << "half of the 0.2 mm unit";
+  EXPECT_GT(onFloor, 3000U);
+}
+
+TEST(Simulator, WritesNothingWhereItCannot)
+{
+  const TemporaryFolder folder;
+  const std::string message =
+      errorOf([&] { simulate(smallHome(), 1, folder.path("missing/a.rawlog")); });
+  EXPECT_NE(std::string::npos, message.find("missing/a.rawlog")) << message;
+  EXPECT_EQ(0U, folder.fileCount());
+}
+
+struct ProgramResult
+{
+  int status = 0;
+  std::string error;
+};
+
+/** Runs the program in `folder`. */
+ProgramResult runProgram(const TemporaryFolder& folder, const std::string& arguments)
+{
+  const std::string command = "cd '" + folder.folder().string() +
+                              "' && '" QUADMAP_BIN_DIR "/quadmap-simulate' " + arguments +
+                              " > out.txt 2> err.txt";
+  const int status = std::system(command.c_str());
+  return {WEXITSTATUS(status), readFile(folder.path("err.txt"))};
+}
+
+TEST(SimulateProgram, MakesARawlogFromASceneOfTheUser)
+{
+  const TemporaryFolder folder;
+  folder.write(
+      "mine.ini", kRoomText +
+                      "[object x]\nlabel = cup\nposition = 1.5 0 1\n"
+                      "part1 = cylinder 0 0 0.1 0.2 0.2 0.2 grey\n");
+  const auto result = runProgram(
+      folder, "mine.ini -o b.rawlog --seed 9 --frames 4 --resolution 160x120 --noise 0.5");
+  EXPECT_EQ(0, result.status) << result.error;
+  EXPECT_EQ("", result.error) << "no progress bar when redirected";
+  EXPECT_NE(std::string::npos, readFile(folder.path("out.txt")).find("4 frames"));
+  EXPECT_EQ(4U, readTumTrajectory(folder.path("b.groundtruth.tum")).size());
+  const auto truth = readObjectsJson(folder.path("b.objects.gt.json"));
+  ASSERT_EQ(1U, truth.size());
+  EXPECT_EQ(4U, truth[0].framesVisible.value_or(0));
+}
+
+TEST(SimulateProgram, RejectsWrongCallsWithStatusTwo)
+{
+  const TemporaryFolder folder;
+  for (const auto* arguments :
+       {"", "home", "-o x.rawlog", "home -o", "home -o x.rawlog --seed -1",
+        "home extra -o x.rawlog", "home -o x.rawlog --seed 1.5", "home -o x.rawlog --seed",
+        "home -o x.rawlog --noise loud", "home -o x.rawlog --noise -1",
+        "home -o x.rawlog --noise 11", "home -o x.rawlog --noise nan",
+        "home -o x.rawlog --frames 1", "home -o x.rawlog --frames many",
+        "home -o x.rawlog --resolution 320", "home -o x.rawlog --resolution 10x10",
+        "home -o x.rawlog --resolution 320x", "home -o x.rawlog --unknown"})
+  {
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(2, result.status) << arguments;
+    EXPECT_EQ(0U, result.error.find("quadmap-simulate: ")) << result.error;
+    EXPECT_EQ(result.error.size() - 1, result.error.find('\n')) << "one line: " << result.error;
+  }
+  EXPECT_EQ(2U, folder.fileCount()) << "only what the shell wrote";
+}
+
+TEST(SimulateProgram, NamesTheBadFileWithStatusOne)
+{
+  const TemporaryFolder folder;
+  folder.write("bad.ini", kRoomText + "[object x]\nlabel = cup\nposition = 1 0\n");
+  for (const auto& [arguments, part] : {
+           std::pair{            "bad.ini -o x.rawlog", "bad.ini: [object x] position"},
+           {            "nowhere -o x.rawlog",           "scenes/nowhere.ini"},
+           {         "./none.ini -o x.rawlog",                   "./none.ini"},
+           {"home -o no/such/folder/x.rawlog",      "no/such/folder/x.rawlog"}
+  })
+  {
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(1, result.status) << arguments;
+    EXPECT_NE(std::string::npos, result.error.find(part)) << result.error;
+    EXPECT_EQ(result.error.size() - 1, result.error.find('\n')) << "one line";
+  }
+}
+
+TEST(BundledRawlog, IsSmallAndFitsItsTruth)
+{
+  const std::string stem = QUADMAP_SOURCE_DIR "/rawlogs/home";
+  std::uintmax_t bytes = 0;
+  for (const char* extension : kExtensions) bytes += std::filesystem::file_size(stem + extension);
+  EXPECT_LE(bytes, 12'000'000U);
+
+  // The truth is that of the scene file as it is now: whoever changes one makes the other again.
+  const auto truth = readObjectsJson(stem + ".objects.gt.json");
+  std::size_t next = 0;
+  for (const auto& object : homeScene().objects)
+  {
+    if (object.label.empty()) continue;
+    ASSERT_LT(next, truth.size());
+    EXPECT_EQ(object.label, truth[next].label);
+    EXPECT_LT((object.truth().center() - truth[next].object.center()).norm(), 1e-6);
+    EXPECT_GE(truth[next].framesVisible.value_or(0), 10U) << object.name;
+    ++next;
+  }
+  EXPECT_EQ(truth.size(), next);
+}
+
+}  // namespace
+}  // namespace quadmap::simulator
