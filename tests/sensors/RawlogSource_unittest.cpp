@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "../obs/TestData.h"
 #include "SampleRawlog.h"
 #include "quadmap/sensors/RawlogNames.h"
 
@@ -232,6 +233,21 @@ TEST(RawlogSource, PairsTheSidecarBySensorAndTime)
   EXPECT_TRUE(frames[3].objects->objects.empty());
 }
 
+TEST(RawlogSource, WaitsForBoxesThatWereRecordedLate)
+{
+  const TemporaryFolder folder;
+  const auto file = writeObjects(
+      folder.path("x.rawlog"),
+      {sampleScan(kStart), sampleBoxes(kStart), sampleScan(kStart + 0.1), sampleScan(kStart + 0.2),
+       sampleBoxes(kStart + 0.1), sampleScan(kStart + 0.3), sampleBoxes(kStart + 0.3)});
+  const auto frames = readAll(file);
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_TRUE(frames[0].objects);
+  EXPECT_TRUE(frames[1].objects) << "its boxes come after the next scan";
+  EXPECT_FALSE(frames[2].objects);
+  EXPECT_TRUE(frames[3].objects);
+}
+
 TEST(RawlogSource, FindsTheSidecarOfCompressedNames)
 {
   EXPECT_EQ(objectsFileOf("d/x.rawlog"), "d/x.objects.rawlog");
@@ -332,4 +348,26 @@ TEST(RawlogSource, SaysWhatIsInAFileWithoutRgbd)
   EXPECT_EQ(
       source.contentSummary(),
       "2 CObservationRobotPose, 1 CActionCollection, 1 CObservationComment");
+}
+
+TEST(RawlogSource, ReadsTheRawlogsOfMrpt)
+{
+  if (testData("mrpt").empty()) GTEST_SKIP() << "the recordings are not here";
+  RawlogSource rgbd(testData("mrpt/tests_rgbd.rawlog"), {});
+  rgbd.setVerbosityLevel(mrpt::system::LVL_ERROR);
+  const auto frames = readAll(rgbd);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].scan->sensorLabel, "OPENNI2");
+  EXPECT_GT(frames[0].scan->rangeImage.asEigen().cast<int>().maxCoeff(), 0);
+
+  const auto expectNoRgbd = [](const std::string& name, const std::string& content)
+  {
+    RawlogSource source(testData("mrpt/" + name), {});
+    EXPECT_FALSE(source.next());
+    EXPECT_EQ(source.contentSummary(), content);
+    EXPECT_EQ(source.odometryKind(), "CActionRobotMovement");
+  };
+  expectNoRgbd("localization_demo.rawlog", "37 CActionCollection, 37 CObservation2DRangeScan");
+  expectNoRgbd("kf-slam_demo.rawlog", "250 CActionCollection, 250 CObservationBearingRange");
+  expectNoRgbd("kf-slam_6D_demo.rawlog", "600 CActionCollection, 600 CObservationBearingRange");
 }

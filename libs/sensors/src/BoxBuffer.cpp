@@ -47,14 +47,23 @@ void BoxBuffer::add(Entry entry)
   const std::string label = entry.boxes->sensorLabel;
   if (entry.boxes->timestamp == INVALID_TIMESTAMP)
     throw std::runtime_error("the boxes have no time stamp");
+  const double time = secondsOf(entry);
+  const auto before = latest_.find(label);
+  if (before != latest_.end() && time < before->second)
+    throw std::runtime_error(
+        mrpt::format("the time of the boxes goes back by %.6f s", before->second - time));
+  latest_[label] = time;
   auto& queue = waiting_[label];
-  if (!queue.empty() && secondsOf(entry) < secondsOf(queue.back()))
-    throw std::runtime_error(mrpt::format(
-        "the time of the boxes goes back by %.6f s", secondsOf(queue.back()) - secondsOf(entry)));
   queue.push_back(std::move(entry));
   if (queue.size() <= kMaxWaiting) return;
   queue.pop_front();
   ++dropped_[label];
+}
+
+bool BoxBuffer::mayStillCome(const std::string& label, double time) const
+{
+  const auto latest = latest_.find(label);
+  return !sidecar_ && latest != latest_.end() && latest->second < time - maxDelay_;
 }
 
 std::optional<BoxBuffer::Entry> BoxBuffer::take(const std::string& label, double time)

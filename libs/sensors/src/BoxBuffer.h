@@ -35,6 +35,10 @@ class BoxBuffer
   /** \exception std::runtime_error Without time stamp, or if time goes backwards. */
   void add(Entry entry);
 
+  /** A detector takes its time: can boxes of this sensor and time [s] still turn up in the rawlog?
+   *  Not before the sensor's first boxes, nor once later ones were seen. */
+  bool mayStillCome(const std::string& label, double time) const;
+
   /** Takes out the boxes of this sensor nearest to a time [s]. */
   std::optional<Entry> take(const std::string& label, double time);
 
@@ -48,6 +52,7 @@ class BoxBuffer
   std::unique_ptr<RecordReader> sidecar_;
   std::optional<double> sidecarTime_;                 // of the last record read [s]
   std::map<std::string, std::deque<Entry>> waiting_;  // by sensor, in the order of time
+  std::map<std::string, double> latest_;              // of the boxes of each sensor [s]
   std::map<std::string, std::size_t> dropped_;        // too old to find a scan, by sensor
   std::size_t paired_ = 0;
   bool seenAny_ = false;

@@ -23,6 +23,7 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kMaxPending = 32;  // frames waiting for later poses and boxes: up to 50 MB
+constexpr double kMaxScanDelay = 10;     // [s]; poses are kept so long for scans recorded late
 
 /** A scan that waits until everything that belongs to it has been read. */
 struct PendingFrame
@@ -214,6 +215,7 @@ void RawlogSource::Impl::readObservation(
   }
   if (observation->timestamp != INVALID_TIMESTAMP)
     latestTime_ = std::max(latestTime_, mrpt::Clock::toDouble(observation->timestamp));
+  if (pending_.empty()) odometry.forgetBefore(latestTime_ - kMaxScanDelay);
   if (!odometry.ignoredKind().empty())
     warnOnce(
         reader.file() + ": poses are taken from " + odometry.kind() + ", not from " +
@@ -244,6 +246,7 @@ bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
   const double time = pending.frame.time();
   if (pending_.size() > kMaxPending || latestTime_ > time + options.maxOdometryGap) return true;
   if (latestTime_ <= time + options.maxBoxDelay) return false;
+  if (boxes.mayStillCome(pending.frame.scan->sensorLabel, time)) return false;
   const bool odometryKnown = odometry.countsActions() || odometry.track().reaches(time);
   return odometryKnown && (odometry.truth().empty() || odometry.truth().reaches(time));
 }
