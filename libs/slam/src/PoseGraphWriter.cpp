@@ -16,6 +16,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 namespace
 {
 constexpr double kUprightSigma = 0.035;  //!< Roll and pitch of a supported object, 2 deg [rad]
+constexpr double kUnknownYawSigma =
+    0.453;  //!< Anything within a quarter turn: pi/2 / sqrt(12) [rad]
 
 /** Where a graph's line has yaw, pitch and roll (MRPT's order of a pose: x y z yaw pitch roll). */
 constexpr int kTextOrder[] = {0, 1, 2, 5, 4, 3};
@@ -49,7 +51,7 @@ void writeEdge(
 
 /** A complete measurement numbers the axes of a cuboid as it likes; the map may have chosen another
  * of the four upright ways. \return The measured pose, turned to fit the map's. */
-CPose3D turnedLike(const CPose3D& T_map_measured, const CPose3D& T_map_obj, int& quarterTurns)
+CPose3D turnedLike(const CPose3D& T_map_measured, const CPose3D& T_map_obj)
 {
   CPose3D best = T_map_measured;
   double bestAngle = 2 * M_PI;
@@ -61,7 +63,6 @@ CPose3D turnedLike(const CPose3D& T_map_measured, const CPose3D& T_map_obj, int&
     if (angle >= bestAngle) continue;
     bestAngle = angle;
     best = turned;
-    quarterTurns = turns;
   }
   return best;
 }
@@ -79,17 +80,35 @@ double centreSigma(const CompleteMeasurement& m, int axis)
   return 0.5 * std::hypot(sigmaPlus, sigmaMinus);
 }
 
-/** Information of T_robot_obj, in MRPT's order, positions along the robot's axes. */
+/** How turns about the axes of the turned frame follow from (yaw, pitch, roll) of its pose. */
+Eigen::Matrix3d localTurnsPerAngle(const CPose3D& pose)
+{
+  const double sp = std::sin(pose.pitch()), cp = std::cos(pose.pitch());
+  const double sr = std::sin(pose.roll()), cr = std::cos(pose.roll());
+  Eigen::Matrix3d J;
+  J << -sp, 0, 1,      //
+      sr * cp, cr, 0,  //
+      cr * cp, -sr, 0;
+  return J;
+}
+
+/** Information of T_robot_obj, in MRPT's order, positions along the robot's axes.
+ *  \param R_robot_measured The axes the measurement's faces belong to. */
 Matrix6 measurementInformation(
-    const CompleteMeasurement& m, const Eigen::Matrix3d& R_robot_measured)
+    const CompleteMeasurement& m,
+    const Eigen::Matrix3d& R_robot_measured,
+    const CPose3D& T_robot_obj)
 {
   Eigen::Vector3d weights;
   for (int axis = 0; axis < 3; ++axis) weights[axis] = std::pow(centreSigma(m, axis), -2);
+  const double yawSigma = m.yawDefined ? m.yawSigma : kUnknownYawSigma;
+  const Eigen::Vector3d turnWeights(
+      std::pow(kUprightSigma, -2), std::pow(kUprightSigma, -2), std::pow(yawSigma, -2));
+  const Eigen::Matrix3d J = localTurnsPerAngle(T_robot_obj);
   Matrix6 information = Matrix6::Zero();
   information.topLeftCorner<3, 3>() =
       R_robot_measured * weights.asDiagonal() * R_robot_measured.transpose();
-  information(3, 3) = m.yawDefined ? std::pow(m.yawSigma, -2) : 0.0;
-  information(4, 4) = information(5, 5) = std::pow(kUprightSigma, -2);
+  information.bottomRightCorner<3, 3>() = J.transpose() * turnWeights.asDiagonal() * J;
   return information;
 }
 
@@ -140,13 +159,12 @@ class GraphText
     const CPose3D& T_map_robot = result_.keyframes[box.keyframe].T_map_robot;
     const CPose3D T_robot_measured =
         boxes_->sensorPose + measurement.complete->object_sensor.pose();
-    int quarterTurns = 0;
-    const CPose3D T_map_turned =
-        turnedLike(T_map_robot + T_robot_measured, object->object.pose(), quarterTurns);
+    const CPose3D T_robot_obj =
+        turnedLike(T_map_robot + T_robot_measured, object->object.pose()) - T_map_robot;
     writeEdge(
-        out_, box.keyframe, result_.keyframes.size() + object->id, T_map_turned - T_map_robot,
+        out_, box.keyframe, result_.keyframes.size() + object->id, T_robot_obj,
         measurementInformation(
-            *measurement.complete, T_robot_measured.getRotationMatrix().asEigen()));
+            *measurement.complete, T_robot_measured.getRotationMatrix().asEigen(), T_robot_obj));
   }
 
   void loadBoxes(std::size_t keyframe)

@@ -1,6 +1,5 @@
 #include "quadmap/slam/PoseUncertainty.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/poses/Lie/SO.h>
 
 #include "OptionText.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/config/CLoadableOptions.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <cstddef>
@@ -14,8 +15,8 @@ struct KeyframeOptions : public mrpt::config::CLoadableOptions
 {
   int every = 0;                 //!< Every n-th frame of a sensor; 0: by motion, as below
   double minTranslation = 0.05;  //!< A sensor that moved this far [m] gives a keyframe, >= 0
-  double minRotation = 0.0349;   //!< ... or turned this much [rad], >= 0; INI `minRotation_deg`
-  double maxInterval = 1.0;      //!< ... or was quiet for this long [s], >= 0
+  double minRotation = mrpt::DEG2RAD(2.0);  //!< ... or turned this much [rad], >= 0; INI in degrees
+  double maxInterval = 1.0;                 //!< ... or was quiet for this long [s], >= 0
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& config, const std::string& section) override;

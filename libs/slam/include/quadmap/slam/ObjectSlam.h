@@ -8,6 +8,7 @@
 #include <string>
 
 #include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/FloorTracker.h"
 #include "quadmap/perception/FramePerception.h"
 #include "quadmap/sensors/RgbdFrame.h"
 #include "quadmap/slam/KeyframeSelector.h"
@@ -60,6 +61,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   LabelTable labels_;
   KeyframeSpool& spool_;
   FramePerception perception_;
+  FloorTracker floor_;
   KeyframeSelector selector_;
   OdometryInput odometry_;
   SlamResult result_;

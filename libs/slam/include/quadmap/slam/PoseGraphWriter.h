@@ -13,7 +13,7 @@ namespace quadmap
  * Nodes: keyframe k has the id k (T_map_robot); object i has the id keyframes + i (T_map_obj).
  * Edges: odometry between consecutive keyframes, and T_robot_obj of every complete measurement the
  * map took for a confirmed object. What a measurement does not know (a hidden side, the yaw of a
- * round object) has little or no information. Partial measurements are planes: no edge can hold
+ * round object) has little information. Partial measurements are planes: no edge can hold
  * them.
  * \exception std::runtime_error If the file cannot be written. */
 void writePoseGraph(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/config/CLoadableOptions.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <optional>
@@ -16,11 +17,11 @@ namespace quadmap
  *   angles    sigmaAngle + sigmaAnglePerRadian * a + sigmaAnglePerMetre * d */
 struct PoseUncertaintyOptions : public mrpt::config::CLoadableOptions
 {
-  double sigmaPosition = 0.005;         //!< [m], > 0
-  double sigmaAngle = 0.00524;          //!< [rad], > 0; INI `sigmaAngle_deg`
-  double sigmaPositionPerMetre = 0.02;  //!< [m/m], >= 0
-  double sigmaAnglePerRadian = 0.02;    //!< [rad/rad], >= 0
-  double sigmaAnglePerMetre = 0.01;     //!< [rad/m], >= 0
+  double sigmaPosition = 0.005;            //!< [m], > 0
+  double sigmaAngle = mrpt::DEG2RAD(0.3);  //!< [rad], > 0; INI in degrees
+  double sigmaPositionPerMetre = 0.02;     //!< [m/m], >= 0
+  double sigmaAnglePerRadian = 0.02;       //!< [rad/rad], >= 0
+  double sigmaAnglePerMetre = 0.01;        //!< [rad/m], >= 0
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& config, const std::string& section) override;
