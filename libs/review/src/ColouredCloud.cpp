@@ -53,7 +53,7 @@ Eigen::Vector3f normalAt(const OrganizedPoints& frame, int row, int column, int 
   const Eigen::Vector3f p = frame.at(row, column);
   const Eigen::Vector3f right = frame.at(row, column + step) - p;
   const Eigen::Vector3f down = frame.at(row + step, column) - p;
-  constexpr float kLargestStep = 0.10F;  // [m]
+  constexpr float kLargestStep = 0.15F;  // [m]
   if (right.norm() > kLargestStep || down.norm() > kLargestStep) return zero;
   return right.cross(down).normalized();
 }
@@ -82,23 +82,22 @@ Eigen::Vector3i CloudCollector::keyOf(const Eigen::Vector3f& p_map) const
 void CloudCollector::add(
     mrpt::obs::CObservation3DRangeScan& scan,
     const mrpt::poses::CPose3D& T_map_robot,
-    double maxRange)
+    const Selection& selection)
 {
-  constexpr int kStride = 2;            // of the pixels that are used
-  constexpr float kLookWeight = 0.05F;  // the direction of view, where there is no normal
-  constexpr int kNormalStep = 4;        // [px], wide against the noise of the depth
+  constexpr float kLookWeight = 0.4F;  // the direction of view steadies noisy normals
+  constexpr int kNormalStep = 8;       // [px], wide against the noise of the depth
   const OrganizedPoints frame = unproject(scan);
   const Eigen::Matrix4f T =
       T_map_robot.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().cast<float>();
   const auto& o = scan.sensorPose;
   const Eigen::Vector3f eye = Eigen::Vector3d(o.x(), o.y(), o.z()).cast<float>();
-  for (int row = 0; row + kNormalStep < frame.height; row += kStride)
+  for (int row = 0; row + kNormalStep < frame.height; row += selection.stride)
   {
-    for (int column = 0; column + kNormalStep < frame.width; column += kStride)
+    for (int column = 0; column + kNormalStep < frame.width; column += selection.stride)
     {
       if (!frame.isValid(row, column)) continue;
       const Eigen::Vector3f p_robot = frame.at(row, column);
-      if ((p_robot - eye).norm() > static_cast<float>(maxRange)) continue;
+      if ((p_robot - eye).norm() > static_cast<float>(selection.maxRange)) continue;
       Eigen::Vector3f n_robot = normalAt(frame, row, column, kNormalStep);
       if (n_robot.dot(eye - p_robot) < 0) n_robot = -n_robot;
       n_robot += kLookWeight * (eye - p_robot).normalized();
@@ -120,7 +119,7 @@ void CloudCollector::add(
 
 void CloudCollector::growCells()
 {
-  cellSize_ *= 1.25;
+  cellSize_ *= 1.4;
   Cells coarse;
   for (const auto& entry : cells_)
   {

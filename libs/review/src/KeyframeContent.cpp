@@ -35,6 +35,10 @@ void addKeyframes(
   SimpleMapReader reader(simpleMapPath);
   CloudCollector collector(options.cellSize, options.maxPoints);
   const std::size_t step = (reader.size() + options.maxKeyframes - 1) / options.maxKeyframes;
+  CloudCollector::Selection selection;
+  selection.maxRange = options.maxRange;
+  constexpr std::size_t kMany = 30;  // then each place is seen often enough
+  selection.stride = reader.size() < kMany ? 2 : 3;
   for (std::size_t i = 0; const auto keyframe = reader.next(); ++i)
   {
     const mrpt::poses::CPose3D T_map_robot = keyframe->pose->getMeanVal();
@@ -47,7 +51,7 @@ void addKeyframes(
       try
       {
         scan->load();  // images that are kept in files of their own
-        if (scan->hasRangeImage) collector.add(*scan, T_map_robot, options.maxRange);
+        if (scan->hasRangeImage) collector.add(*scan, T_map_robot, selection);
       }
       catch (const std::exception&)  // its text speaks of the library's insides
       {

@@ -28,12 +28,19 @@ class CloudCollector
   /** \param cellSize Edge of a cell [m], > 0. \param maxPoints Most points kept, > 0. */
   CloudCollector(double cellSize, std::size_t maxPoints);
 
+  /** Which points of a frame are used. */
+  struct Selection
+  {
+    double maxRange = 4.5;  //!< Depth beyond this is left out [m], > 0
+    int stride = 2;         //!< Every n-th row and column of pixels, > 0
+  };
+
   /** Adds a frame whose robot stood at `T_map_robot`. The scan's images must be loaded; its
    *  points are computed and freed again. */
   void add(
       mrpt::obs::CObservation3DRangeScan& scan,
       const mrpt::poses::CPose3D& T_map_robot,
-      double maxRange);
+      const Selection& selection);
 
   Cloud points() const;
   double cellSize() const { return cellSize_; }  //!< Now [m]
