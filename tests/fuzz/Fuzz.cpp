@@ -57,7 +57,8 @@ void fuzz(
     ASSERT_LE(AllocationWatch::largest(), run.largestAllocation)
         << "mutation " << i << ": " << readable(input);
   }
-  EXPECT_GT(refused, run.count / 20) << "the damage hardly ever hits: this tests nothing";
+  const int fewest = run.mostlyHarmless ? 0 : run.count / 20;
+  EXPECT_GE(refused, fewest) << "the damage hardly ever hits: this tests nothing";
 }
 
 }  // namespace quadmap

@@ -15,6 +15,7 @@ struct FuzzRun
    *  largest object its format allows. */
   std::size_t largestAllocation = std::size_t{1} << 27;  // [bytes]
   std::vector<std::string> words;                        // added to the mutator's dictionary
+  bool mostlyHarmless = false;  // the parser is meant to put up with most damages
 };
 
 /** Gives `parse` the valid input, which it must accept, and then damaged versions of it. It may

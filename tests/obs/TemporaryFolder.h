@@ -33,6 +33,7 @@ class TemporaryFolder
   /** Writes a file of the folder. \return Its path. */
   std::string write(const std::string& name, const std::string& content) const
   {
+    std::filesystem::remove(path(name));  // file systems flush a file that is cut to nothing
     std::ofstream(path(name), std::ios::binary) << content;
     return path(name);
   }
