@@ -1,20 +1,13 @@
 #include "quadmap/sensors/RawlogSource.h"
 
 #include <mrpt/core/format.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
-#include <deque>
 #include <filesystem>
-#include <map>
-#include <set>
 #include <stdexcept>
 
-#include "BoxBuffer.h"
 #include "InputError.h"
-#include "OdometryReader.h"
-#include "RecordReader.h"
+#include "RawlogSourceImpl.h"
 #include "ScanCheck.h"
 #include "quadmap/sensors/RawlogNames.h"
 
@@ -23,21 +16,6 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kMaxPending = 32;  // frames waiting for later poses and boxes: up to 50 MB
-constexpr double kMaxScanDelay = 10;     // [s]; poses are kept so long for scans recorded late
-
-/** A scan that waits until everything that belongs to it has been read. */
-struct PendingFrame
-{
-  RgbdFrame frame;
-  mrpt::poses::CPose3D sumOfActions;
-};
-
-std::string bareClassName(const mrpt::rtti::CObject& object)
-{
-  const std::string name = object.GetRuntimeClass()->className;
-  const auto colon = name.rfind(':');
-  return colon == std::string::npos ? name : name.substr(colon + 1);
-}
 
 std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
 {
@@ -62,44 +40,6 @@ std::string InputProblem::text() const
   const std::string where = sensor.empty() ? "" : " (" + sensor + ")";
   return file + ": record " + std::to_string(record) + where + ": " + what;
 }
-
-struct RawlogSource::Impl
-{
-  Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o);
-
-  std::optional<RgbdFrame> next();
-  std::string summary() const;
-
-  RecordReader reader;
-  std::string imagesFolder;
-  RawlogSourceOptions options;
-  std::vector<InputProblem> problems;
-  std::size_t framesRead = 0;
-  BoxBuffer boxes;
-  OdometryReader odometry;
-
- private:
-  void report(const InputProblem& problem);
-  bool readRecord();
-  void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);
-  void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
-  void addScan(std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
-  bool isReady(const PendingFrame& pending) const;
-  std::optional<RgbdFrame> complete(PendingFrame pending);
-  void addPoses(PendingFrame& pending);
-  void addBoxes(RgbdFrame& frame);
-  void readSidecar(double time);
-  void finish();
-  void warnOnce(const std::string& text);
-
-  RawlogSource& log_;
-  std::deque<PendingFrame> pending_;
-  std::map<std::string, double> lastScanTime_;  // by sensor [s]
-  std::map<std::string, std::size_t> content_;  // records by class
-  std::set<std::string> warned_;
-  double latestTime_ = -1e300;  // of all records [s]
-  bool ended_ = false, finished_ = false;
-};
 
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
     reader(file),
@@ -148,96 +88,6 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
     else
       ended_ = !readRecord();
   }
-}
-
-/** One record of the file; false at its end, be it clean or not. */
-bool RawlogSource::Impl::readRecord()
-{
-  const std::size_t record = reader.recordsRead();
-  try
-  {
-    const auto object = reader.next();
-    if (object) readObject(record, object);
-    return object != nullptr;
-  }
-  catch (const InputError& e)
-  {
-    report(e.problem);
-    return false;
-  }
-}
-
-void RawlogSource::Impl::readObject(
-    std::size_t record, const mrpt::serialization::CSerializable::Ptr& object)
-{
-  using namespace mrpt::obs;
-  if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object))
-  {
-    for (const auto& observation : *frame) readObservation(record, observation);
-    return;
-  }
-  if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
-    return readObservation(record, observation);
-  ++content_[bareClassName(*object)];
-  const auto actions = std::dynamic_pointer_cast<CActionCollection>(object);
-  if (!actions) return;
-  try
-  {
-    odometry.read(*actions);
-  }
-  catch (const std::exception& e)
-  {
-    report({reader.file(), record, "", e.what()});
-  }
-}
-
-void RawlogSource::Impl::readObservation(
-    std::size_t record, const mrpt::obs::CObservation::Ptr& observation)
-{
-  const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
-  const auto found = std::dynamic_pointer_cast<CObservationObjects>(observation);
-  const std::string& label = observation->sensorLabel;
-  ++content_[bareClassName(*observation) + (scan ? " \"" + label + "\"" : "")];
-  try
-  {
-    if (scan)
-      addScan(record, scan);
-    else if (found && !boxes.hasSidecar())
-      boxes.add({record, found});
-    else if (found)
-      warnOnce(reader.file() + ": boxes in the rawlog itself are ignored, the sidecar has some");
-    else
-      odometry.read(*observation);
-  }
-  catch (const std::exception& e)
-  {
-    return report({reader.file(), record, label, rootMessage(e)});
-  }
-  if (observation->timestamp != INVALID_TIMESTAMP)
-    latestTime_ = std::max(latestTime_, mrpt::Clock::toDouble(observation->timestamp));
-  if (pending_.empty()) odometry.forgetBefore(latestTime_ - kMaxScanDelay);
-  if (!odometry.ignoredKind().empty())
-    warnOnce(
-        reader.file() + ": poses are taken from " + odometry.kind() + ", not from " +
-        odometry.ignoredKind());
-}
-
-void RawlogSource::Impl::addScan(
-    std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
-{
-  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return;
-  if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
-  PendingFrame pending{{}, odometry.sumOfActions()};
-  pending.frame.record = record;
-  pending.frame.scan = scan;
-  const double time = pending.frame.time();
-  const auto last = lastScanTime_.find(scan->sensorLabel);
-  if (last != lastScanTime_.end() && time <= last->second)
-    throw std::runtime_error(
-        mrpt::format("time goes backwards: %.6f s before the scan before", last->second - time));
-  lastScanTime_[scan->sensorLabel] = time;
-  if (scan->hasRangeImage && scan->hasPoints3D) scan->resizePoints3DVectors(0);
-  pending_.push_back(std::move(pending));
 }
 
 /** Has everything been read that can belong to the frame? */
@@ -332,18 +182,6 @@ void RawlogSource::Impl::finish()
     report({file, 0, "", text});
   else
     warnOnce(file + ": " + text);
-}
-
-std::string RawlogSource::Impl::summary() const
-{
-  std::vector<std::pair<std::size_t, std::string>> sorted;
-  for (const auto& [name, count] : content_) sorted.emplace_back(count, name);
-  std::stable_sort(
-      sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text;
-  for (const auto& [count, name] : sorted)
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-  return text.empty() ? "nothing" : text;
 }
 
 RawlogSource::RawlogSource(std::string file, RawlogSourceOptions options) :

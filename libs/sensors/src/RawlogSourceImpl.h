@@ -1,0 +1,65 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "BoxBuffer.h"
+#include "OdometryReader.h"
+#include "RecordReader.h"
+#include "quadmap/sensors/RawlogSource.h"
+
+namespace quadmap
+{
+/** A scan that waits until everything that belongs to it has been read. */
+struct PendingFrame
+{
+  RgbdFrame frame;
+  mrpt::poses::CPose3D sumOfActions;
+};
+
+struct RawlogSource::Impl
+{
+  Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o);
+
+  std::optional<RgbdFrame> next();
+  std::string summary() const;
+
+  RecordReader reader;
+  std::string imagesFolder;
+  RawlogSourceOptions options;
+  std::vector<InputProblem> problems;
+  std::size_t framesRead = 0;
+  BoxBuffer boxes;
+  OdometryReader odometry;
+
+ private:
+  void report(const InputProblem& problem);
+  bool readRecord();
+  void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);
+  void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
+  void addScan(std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
+  bool isReady(const PendingFrame& pending) const;
+  std::optional<RgbdFrame> complete(PendingFrame pending);
+  void addPoses(PendingFrame& pending);
+  void addBoxes(RgbdFrame& frame);
+  void readSidecar(double time);
+  void finish();
+  void warnOnce(const std::string& text);
+
+  RawlogSource& log_;
+  std::deque<PendingFrame> pending_;
+  std::map<std::string, double> lastScanTime_;  // by sensor [s]
+  std::map<std::string, std::size_t> content_;  // records by class
+  std::set<std::string> warned_;
+  double latestTime_ = -1e300;  // of all records [s]
+  bool ended_ = false, finished_ = false;
+};
+
+}  // namespace quadmap
