@@ -1,4 +1,4 @@
-#include "ArchiveFields.h"
+#include "quadmap/obs/ArchiveFields.h"
 
 #include <mrpt/poses/CPose3DQuat.h>
 
@@ -11,7 +11,7 @@ using mrpt::serialization::CArchive;
 
 void requireStored(bool condition, const std::string& what)
 {
-  if (!condition) throw std::runtime_error("CObservationObjects: " + what);
+  if (!condition) throw std::runtime_error("archive: " + what);
 }
 
 void readBytes(CArchive& in, void* to, std::size_t n)
@@ -23,6 +23,13 @@ void readBytes(CArchive& in, void* to, std::size_t n)
     next += got;
     n -= got;
   }
+}
+
+std::uint32_t readCount(CArchive& in, std::uint32_t most, const char* what)
+{
+  const auto count = readScalar<std::uint32_t>(in);
+  requireStored(count <= most, std::string("too many ") + what);
+  return count;
 }
 
 void writeText(CArchive& out, const std::string& text)
@@ -58,7 +65,7 @@ std::uint32_t readVarint(CArchive& in)
     requireStored(value <= 0xffffffffu, "a count is out of range");
     return static_cast<std::uint32_t>(value);
   }
-  throw std::runtime_error("CObservationObjects: a count is out of range");
+  throw std::runtime_error("archive: a count is out of range");
 }
 
 void writeVector(CArchive& out, const Eigen::Vector3d& v)

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "ArchiveFields.h"
 #include "ObjectsArchive.h"
+#include "quadmap/obs/ArchiveFields.h"
 
 using mrpt::obs::CObservation;
 IMPLEMENTS_SERIALIZABLE(CObservationObjects, CObservation, quadmap)
@@ -106,8 +106,7 @@ void CObservationObjects::serializeFrom(mrpt::serialization::CArchive& in, uint8
   sensorPose = readPose(in);
   cameraParams = readCamera(in);
   coarseDepth = readCoarseDepth(in);
-  const auto count = readScalar<std::uint32_t>(in);
-  requireStored(count <= kMaxObjects, "too many objects");
+  const auto count = readCount(in, kMaxObjects, "objects");
   objects.clear();
   for (std::uint32_t i = 0; i < count; ++i) objects.push_back(readDetectedObject(in));
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ArchiveFields.h"
+#include "quadmap/obs/ArchiveFields.h"
 
 namespace quadmap
 {
@@ -101,7 +101,7 @@ CompleteMeasurement readComplete(CArchive& in)
     face.kind = readEnum(in, FaceKind::AtLeast, "the kind of a face");
     face.sigma = readScalar<double>(in);
   }
-  c.yawDefined = readScalar<std::uint8_t>(in) != 0;
+  c.yawDefined = readBool(in);
   c.yawSigma = readScalar<double>(in);
   c.yawDominance = readScalar<double>(in);
   return c;

@@ -4,12 +4,16 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <Eigen/Dense>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 
 namespace quadmap
 {
-/** \exception std::runtime_error `what`, when the condition does not hold. */
+// What the serialization of our classes is made of. MRPT's own readers believe the sizes they read
+// (a damaged byte asks for gigabytes) and take half a number for a number; these throw.
+
+/** \exception std::runtime_error "archive: " and `what`, when the condition does not hold. */
 void requireStored(bool condition, const std::string& what);
 
 /** Reads exactly n bytes. CArchive::ReadBuffer is content with fewer. */
@@ -27,6 +31,15 @@ T readScalar(mrpt::serialization::CArchive& in)
 #endif
   return value;
 }
+
+/** One byte; anything but 0 is true. */
+inline bool readBool(mrpt::serialization::CArchive& in)
+{
+  return readScalar<std::uint8_t>(in) != 0;
+}
+
+/** Reads how many things follow. \exception std::runtime_error For more than `most`. */
+std::uint32_t readCount(mrpt::serialization::CArchive& in, std::uint32_t most, const char* what);
 
 /** An enumeration stored as one byte. \param last Its greatest value. */
 template <typename E>
