@@ -12,7 +12,9 @@
 // The base class's name must be visible to the macros.
 using mrpt::maps::CMetricMap;
 IMPLEMENTS_SERIALIZABLE(CQuadricObjectMap, CMetricMap, quadmap)
-MAP_DEFINITION_REGISTER("CQuadricObjectMap,quadricObjectMap", quadmap::CQuadricObjectMap)
+// INI files use one of the first two names; MRPT itself looks maps up by the class's full name.
+MAP_DEFINITION_REGISTER(
+    "CQuadricObjectMap,quadricObjectMap,quadmap::CQuadricObjectMap", quadmap::CQuadricObjectMap)
 
 MRPT_INITIALIZER(registerQuadmapMaps) { quadmap::registerMapClasses(); }
 
@@ -45,6 +47,7 @@ void CQuadricObjectMap::TMapDefinition::loadFromConfigFile_map_specific(
   insertionOpts.loadFromConfigFile(source, sectionNamePrefix + "_insertOpts");
   likelihoodOpts.loadFromConfigFile(source, sectionNamePrefix + "_likelihoodOpts");
   renderOpts.loadFromConfigFile(source, sectionNamePrefix + "_renderOpts");
+  perceptionOpts.loadFromConfigFile(source, sectionNamePrefix + "_perceptionOpts");
 }
 
 void CQuadricObjectMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
@@ -54,6 +57,7 @@ void CQuadricObjectMap::TMapDefinition::dumpToTextStream_map_specific(std::ostre
   insertionOpts.dumpToTextStream(out);
   likelihoodOpts.dumpToTextStream(out);
   renderOpts.dumpToTextStream(out);
+  perceptionOpts.dumpToTextStream(out);
 }
 
 mrpt::maps::CMetricMap* CQuadricObjectMap::internal_CreateFromMapDefinition(
@@ -65,6 +69,7 @@ mrpt::maps::CMetricMap* CQuadricObjectMap::internal_CreateFromMapDefinition(
   map->insertionOptions = definition.insertionOpts;
   map->likelihoodOptions = definition.likelihoodOpts;
   map->renderOptions = definition.renderOpts;
+  map->perceptionOptions = definition.perceptionOpts;
   return map.release();
 }
 
@@ -90,6 +95,7 @@ void CQuadricObjectMap::internal_clear()
   estimators_.clear();
   nextId_ = 1;
   waiting_.clear();
+  pairing_.clear();
   objectOfInstance_.clear();
   lastDecisions_.clear();
 }

@@ -4,6 +4,7 @@
 
 #include "InsertionFrame.h"
 #include "quadmap/geometry/Projection.h"
+#include "quadmap/perception/FramePerception.h"
 
 namespace quadmap
 {
@@ -44,14 +45,38 @@ double sizeDeviation(const Ellipsoid& object, const LabelProperties& label)
   return ratio.log().abs().maxCoeff() / label.sizeSpread;
 }
 
+/** Has boxes, and perception has looked at none of them. */
+bool needsMeasuring(const CObservationObjects& obs)
+{
+  return !obs.objects.empty() &&
+         std::all_of(
+             obs.objects.begin(), obs.objects.end(),
+             [](const DetectedObject& d) { return d.measurement.kind == MeasurementKind::None; });
+}
+
 }  // namespace
 
 bool CQuadricObjectMap::internal_insertObservation(
     const mrpt::obs::CObservation& obs, const std::optional<const mrpt::poses::CPose3D>& robotPose)
 {
-  const auto* objects = dynamic_cast<const CObservationObjects*>(&obs);
-  if (!objects) return false;
-  return insertObjects(*objects, robotPose.value_or(mrpt::poses::CPose3D()));
+  const auto T_map_robot = robotPose.value_or(mrpt::poses::CPose3D());
+  std::optional<FramePairing::Frame> frame;
+  if (const auto* boxes = dynamic_cast<const CObservationObjects*>(&obs); boxes)
+  {
+    if (!needsMeasuring(*boxes)) return insertObjects(*boxes, T_map_robot);
+    frame = pairing_.add(*boxes, T_map_robot);
+  }
+  else if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&obs); scan)
+    frame = pairing_.add(*scan);
+  return frame && insertFrame(std::move(*frame));
+}
+
+bool CQuadricObjectMap::insertFrame(FramePairing::Frame frame)
+{
+  const mrpt::poses::CPose3D T_map_sensor = frame.robotPose + frame.boxes.sensorPose;
+  const Eigen::Vector3d up_sensor = T_map_sensor.getRotationMatrix().asEigen().row(2);
+  FramePerception(perceptionOptions, *labels_).measure(*frame.scan, frame.boxes, up_sensor);
+  return insertObjects(frame.boxes, frame.robotPose);
 }
 
 bool CQuadricObjectMap::insertObjects(

@@ -1,11 +1,10 @@
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/serialization/CArchive.h>
-#include <mrpt/serialization/optional_serialization.h>
-#include <mrpt/serialization/stl_serialization.h>
 
-#include <stdexcept>
+#include <cmath>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/obs/ArchiveFields.h"
 
 namespace quadmap
 {
@@ -15,21 +14,20 @@ using mrpt::serialization::CArchive;
 
 /** More than this in a file is garbage, not a map. */
 constexpr std::uint32_t kMaxObjects = 1000000;
+constexpr std::uint32_t kMaxLabels = 10000;  // of one object
 
 template <typename Options>
 void writeOptions(CArchive& out, const Options& options)
 {
   mrpt::config::CConfigFileMemory config;
   options.saveToConfigFile(config, "options");
-  out << config.getContent();
+  writeText(out, config.getContent());
 }
 
 template <typename Options>
 void readOptions(CArchive& in, Options& options)
 {
-  std::string text;
-  in >> text;
-  options.loadFromConfigFile(mrpt::config::CConfigFileMemory(text), "options");
+  options.loadFromConfigFile(mrpt::config::CConfigFileMemory(readText(in)), "options");
 }
 
 template <typename Matrix>
@@ -41,9 +39,29 @@ void writeMatrix(CArchive& out, const Matrix& m)
 template <typename Matrix>
 void readMatrix(CArchive& in, Matrix& m)
 {
-  for (Eigen::Index i = 0; i < m.size(); ++i) in >> m.data()[i];
-  if (!m.allFinite())
-    throw std::runtime_error("CQuadricObjectMap: the archive has a value that is not a number");
+  for (Eigen::Index i = 0; i < m.size(); ++i) m.data()[i] = readScalar<double>(in);
+  requireStored(m.allFinite(), "a value of the object map is not a number");
+}
+
+void writeLabelCounts(CArchive& out, const std::map<std::string, unsigned>& counts)
+{
+  out.WriteAs<std::uint32_t>(counts.size());
+  for (const auto& [label, count] : counts)
+  {
+    writeText(out, label);
+    out.WriteAs<std::uint32_t>(count);
+  }
+}
+
+std::map<std::string, unsigned> readLabelCounts(CArchive& in)
+{
+  std::map<std::string, unsigned> counts;
+  for (auto n = readCount(in, kMaxLabels, "labels"); n > 0; --n)
+  {
+    const auto label = readText(in);
+    counts[label] = readScalar<std::uint32_t>(in);
+  }
+  return counts;
 }
 
 void writeObject(CArchive& out, const MapObject& o)
@@ -51,19 +69,25 @@ void writeObject(CArchive& out, const MapObject& o)
   out << o.id << o.completeCount << o.partialCount << o.missCount;
   writeMatrix(out, uprightStateOf(o.object));
   writeMatrix(out, o.covariance);
-  out << o.labelCounts << o.orientationDefined << o.existenceLogOdds << o.confirmed << o.firstSeen
-      << o.lastSeen;
+  writeLabelCounts(out, o.labelCounts);
+  out << o.orientationDefined << o.existenceLogOdds << o.confirmed << o.firstSeen << o.lastSeen;
 }
 
 MapObject readObject(CArchive& in)
 {
   MapObject o;
   UprightState state;
-  in >> o.id >> o.completeCount >> o.partialCount >> o.missCount;
+  o.id = readScalar<ObjectId>(in);
+  for (unsigned* count : {&o.completeCount, &o.partialCount, &o.missCount})
+    *count = readScalar<std::uint32_t>(in);
   readMatrix(in, state);
   readMatrix(in, o.covariance);
-  in >> o.labelCounts >> o.orientationDefined >> o.existenceLogOdds >> o.confirmed >> o.firstSeen >>
-      o.lastSeen;
+  o.labelCounts = readLabelCounts(in);
+  o.orientationDefined = readBool(in);
+  o.existenceLogOdds = readScalar<double>(in);
+  o.confirmed = readBool(in);
+  in >> o.firstSeen >> o.lastSeen;
+  requireStored(std::isfinite(o.existenceLogOdds), "an object's existence is not a number");
   o.object = ellipsoidOf(state);
   return o;
 }
@@ -80,7 +104,8 @@ InformationPrior readPrior(CArchive& in)
   InformationPrior prior;
   readMatrix(in, prior.L);
   readMatrix(in, prior.xi);
-  in >> prior.complete >> prior.yawDefined;
+  prior.complete = readBool(in);
+  prior.yawDefined = readBool(in);
   return prior;
 }
 
@@ -88,7 +113,7 @@ InformationPrior readPrior(CArchive& in)
 
 std::uint8_t CQuadricObjectMap::serializeGetVersion() const { return 0; }
 
-/** Version 0: generic parameters, the three groups of options as INI text, the objects with the
+/** Version 0: generic parameters, the groups of options as INI text, the objects with the
  * information their measurements gave, instances. Waiting partial measurements and the label table
  * are not kept. */
 void CQuadricObjectMap::serializeTo(CArchive& out) const
@@ -97,6 +122,7 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
   writeOptions(out, insertionOptions);
   writeOptions(out, likelihoodOptions);
   writeOptions(out, renderOptions);
+  writeOptions(out, perceptionOptions);
   out << nextId_ << static_cast<std::uint32_t>(objects_.size());
   for (const auto& [id, object] : objects_)
   {
@@ -106,7 +132,8 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
                  uprightStateOf(object.object), labels_->properties(object.label()),
                  insertionOptions.estimator));
   }
-  out << objectOfInstance_;
+  out.WriteAs<std::uint32_t>(objectOfInstance_.size());
+  for (const auto& [instance, object] : objectOfInstance_) out << instance << object;
 }
 
 void CQuadricObjectMap::serializeFrom(CArchive& in, std::uint8_t version)
@@ -117,17 +144,20 @@ void CQuadricObjectMap::serializeFrom(CArchive& in, std::uint8_t version)
   readOptions(in, insertionOptions);
   readOptions(in, likelihoodOptions);
   readOptions(in, renderOptions);
-  std::uint32_t count = 0;
-  in >> nextId_ >> count;
-  if (count > kMaxObjects)
-    throw std::runtime_error("CQuadricObjectMap: the archive is damaged (number of objects)");
-  for (std::uint32_t i = 0; i < count; ++i)
+  readOptions(in, perceptionOptions);
+  nextId_ = readScalar<ObjectId>(in);
+  for (auto n = readCount(in, kMaxObjects, "objects"); n > 0; --n)
   {
     const MapObject object = readObject(in);
+    requireStored(object.id < nextId_ && objects_.count(object.id) == 0, "an object's id is wrong");
     estimators_[object.id] = ObjectEstimator::fromSummary(readPrior(in));
     objects_[object.id] = object;
   }
-  in >> objectOfInstance_;
+  for (auto n = readCount(in, kMaxObjects, "instances"); n > 0; --n)
+  {
+    const auto instance = readScalar<std::uint32_t>(in);
+    objectOfInstance_[instance] = readScalar<ObjectId>(in);
+  }
 }
 
 }  // namespace quadmap

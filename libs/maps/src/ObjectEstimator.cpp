@@ -14,6 +14,8 @@ namespace
 {
 /** What is known of an undefined yaw: it is somewhere within 45 degrees [rad]. */
 constexpr double kFreeYawSigma = M_PI / 4;
+/** What is known of a position that only inequalities bound: it is in this part of a room [m]. */
+constexpr double kFreePositionSigma = 2.0;
 /** Huber threshold of terms that are not measurements. */
 constexpr double kQuadratic = std::numeric_limits<double>::infinity();
 /** Share of the complete measurements that must show a direction. */
@@ -192,6 +194,7 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   e.state = x;
   e.cost = best.cost;
   UprightCovariance information = best.H;
+  information.diagonal().head<3>().array() += 1.0 / (kFreePositionSigma * kFreePositionSigma);
   information(3, 3) += 1.0 / (kFreeYawSigma * kFreeYawSigma);
   e.covariance = information.ldlt().solve(UprightCovariance::Identity());
   double complete = prior_.complete, defined = prior_.yawDefined;

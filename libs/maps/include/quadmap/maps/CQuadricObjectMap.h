@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadmap/maps/Association.h"
+#include "quadmap/maps/FramePairing.h"
 #include "quadmap/maps/MapObject.h"
 #include "quadmap/maps/MapOptions.h"
 #include "quadmap/maps/ObjectEstimator.h"
@@ -18,6 +19,7 @@
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectList.h"
+#include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {
@@ -25,6 +27,10 @@ using mrpt::maps::CMetricMap;  // the serialization macros need it here
 
 /** Objects (ellipsoids with labels) as an MRPT metric map: insert observations, query, draw,
  * localise in it. The map frame is z-up.
+ *
+ * insertObservation() takes CObservationObjects with their measurements, and boxes without
+ * measurements together with the CObservation3DRangeScan of the same frame (equal sensor label and
+ * time stamp, one after the other in either order). It returns true when an object was touched.
  *
  * Threads: const methods may run concurrently; anything that changes the map needs the caller's
  * lock. */
@@ -43,6 +49,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   TInsertionOptions insertionOptions;
   TLikelihoodOptions likelihoodOptions;
   TRenderOptions renderOptions;
+  /** For boxes without measurements, inserted together with the range scan of their frame. */
+  PerceptionOptions perceptionOptions;
 
   const LabelTable& labels() const { return *labels_; }
   /** For the observations inserted from now on. */
@@ -113,6 +121,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::map<ObjectId, ObjectEstimator> estimators_;  // the measurements behind objects_
   ObjectId nextId_ = 1;
   WaitingList waiting_;
+  FramePairing pairing_;
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
   std::shared_ptr<const LabelTable> labels_;
@@ -125,6 +134,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
       const mrpt::obs::CObservation& obs, const mrpt::poses::CPose3D& takenFrom) const override;
   bool internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& obs) const override;
 
+  bool insertFrame(FramePairing::Frame frame);
   bool insertObjects(const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose);
   Frame frameOf(const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
   void associate(Frame& frame) const;
@@ -141,6 +151,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   quadmap::CQuadricObjectMap::TInsertionOptions insertionOpts;
   quadmap::CQuadricObjectMap::TLikelihoodOptions likelihoodOpts;
   quadmap::CQuadricObjectMap::TRenderOptions renderOpts;
+  quadmap::PerceptionOptions perceptionOpts;
   std::string labelTable;  //!< creationOpts: file of the label table; empty: the installed one
   MAP_DEFINITION_END(CQuadricObjectMap)
 };
