@@ -102,7 +102,7 @@ CSetOfObjects::Ptr truthOf(const SceneContent& content, double lineRadius)
   group->setName("truth");
   for (const ObjectRecord& record : content.truth)
   {
-    FlatMesh wires(nameOf(record), kTruthColor);
+    FlatMesh wires("true " + nameOf(record), kTruthColor);
     wires.addEdges(record.object, lineRadius);
     group->insert(wires.mesh());
   }

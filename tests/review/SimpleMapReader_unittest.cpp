@@ -1,0 +1,93 @@
+#include "quadmap/review/SimpleMapReader.h"
+
+#include <gtest/gtest.h>
+
+#include "../obs/TemporaryFolder.h"
+#include "SampleScene.h"
+#include "quadmap/review/KeyframeContent.h"
+
+using namespace quadmap;
+using namespace quadmap::testing;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+constexpr int kKeyframes = 5;
+
+class SimpleMapFile : public ::testing::Test
+{
+ protected:
+  SimpleMapFile() : path_(folder_.path("map.simplemap"))
+  {
+    mrpt::maps::CSimpleMap map;
+    for (int i = 0; i < kKeyframes; ++i) addKeyframe(map, CPose3D(i, 0, 0, 0, 0, 0), scanOfWall());
+    EXPECT_TRUE(map.saveToFile(path_));
+  }
+
+  TemporaryFolder folder_;
+  std::string path_;
+};
+}  // namespace
+
+TEST_F(SimpleMapFile, IsReadKeyframeByKeyframe)
+{
+  SimpleMapReader reader(path_);
+  EXPECT_EQ(reader.size(), static_cast<std::size_t>(kKeyframes));
+  for (int i = 0; i < kKeyframes; ++i)
+  {
+    const auto keyframe = reader.next();
+    ASSERT_TRUE(keyframe);
+    EXPECT_NEAR(keyframe->pose->getMeanVal().x(), i, 1e-12);
+    ASSERT_EQ(keyframe->observations->size(), 1u);
+  }
+  EXPECT_FALSE(reader.next());
+  EXPECT_FALSE(reader.next());
+}
+
+TEST_F(SimpleMapFile, GivesCamerasAndACloud)
+{
+  SceneContent content;
+  addKeyframes(path_, {}, content);
+  ASSERT_EQ(content.cameras.size(), static_cast<std::size_t>(kKeyframes));
+  EXPECT_NEAR(content.cameras[3].T_map_sensor.x(), 3, 1e-12);
+  EXPECT_NEAR(content.cameras[3].horizontalFov, 2 * std::atan(64.0 / 120.0), 1e-9);
+  EXPECT_GT(content.cloud.size(), 1000u);
+  for (const CloudPoint& p : content.cloud)
+    EXPECT_NEAR(p.position.x(), std::round(p.position.x()), 1e-3) << "walls 2 m before each robot";
+}
+
+TEST_F(SimpleMapFile, TakesOnlySomeKeyframesWhenThereAreMany)
+{
+  CloudOptions options;
+  options.maxKeyframes = 2;  // of 5: each third one
+  SceneContent content;
+  addKeyframes(path_, options, content);
+  EXPECT_EQ(content.cameras.size(), static_cast<std::size_t>(kKeyframes));
+  for (const CloudPoint& p : content.cloud)
+    EXPECT_TRUE(std::abs(p.position.x() - 2) < 0.01 || std::abs(p.position.x() - 5) < 0.01);
+}
+
+TEST_F(SimpleMapFile, TruncatedIsReportedWithItsKeyframe)
+{
+  const std::string whole = readFile(path_);
+  const std::string path = folder_.write("short.simplemap", whole.substr(0, whole.size() / 2));
+  SceneContent content;
+  const std::string error = errorOf([&] { addKeyframes(path, {}, content); });
+  EXPECT_NE(error.find("short.simplemap: keyframe"), std::string::npos) << error;
+  EXPECT_NE(error.find("of 5"), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos);
+}
+
+TEST_F(SimpleMapFile, OtherFilesAreReported)
+{
+  const std::string missing = folder_.path("nothing.simplemap");
+  EXPECT_NE(
+      errorOf([&] { SimpleMapReader reader(missing); }).find("cannot be read"), std::string::npos);
+  EXPECT_FALSE(errorOf([&] { SimpleMapReader reader(folder_.folder().string()); }).empty());
+  for (const char* content : {"", "x", "\x96mrpt::maps::CSimpleMaq\x01", "a long text of no use"})
+  {
+    const std::string path = folder_.write("other.simplemap", content);
+    const std::string error = errorOf([&] { SimpleMapReader reader(path); });
+    EXPECT_NE(error.find("other.simplemap: is not a simple map"), std::string::npos) << error;
+  }
+}
