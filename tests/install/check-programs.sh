@@ -2,8 +2,9 @@
 # check-programs.sh BIN: the installed programs start (they find their libraries), tell their version,
 # and know a wrong call.
 set -uo pipefail
+bin=$(cd "$1" && pwd)
 failed=0
-for program in "$1"/quadmap-*; do
+for program in "$bin"/quadmap-*; do
   name=$(basename "$program")
   version=$(cd / && "$program" --version) || { echo "$name --version: status $?"; failed=1; }
   [[ $version == "$name "[0-9]* ]] || { echo "$name --version says: $version"; failed=1; }
