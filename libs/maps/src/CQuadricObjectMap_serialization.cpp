@@ -104,8 +104,8 @@ InformationPrior readPrior(CArchive& in)
   InformationPrior prior;
   readMatrix(in, prior.L);
   readMatrix(in, prior.xi);
-  prior.complete = readBool(in);
-  prior.yawDefined = readBool(in);
+  prior.complete = readScalar<std::uint32_t>(in);
+  prior.yawDefined = readScalar<std::uint32_t>(in);
   return prior;
 }
 
