@@ -106,7 +106,8 @@ TEST(ViewResiduals, GradientIsThatOfTheCost)
         UprightState step = UprightState::Zero();
         step[i] = 1e-6;
         const double numeric = (cost(x + step) - cost(x - step)) / 2e-6;
-        EXPECT_NEAR(eq.g[i], numeric, 1e-4 * std::abs(numeric) + 1e-4) << "coordinate " << i << ", q " << q;
+        EXPECT_NEAR(eq.g[i], numeric, 1e-4 * std::abs(numeric) + 1e-4)
+            << "coordinate " << i << ", q " << q;
       }
     }
 }
@@ -118,7 +119,6 @@ TEST(ObjectEstimator, RecoversACabinetFromJitteringPoses)
   const auto result = e.estimate({}, boxy("suitcase"), {});
   // 58 views with 2 cm of noise each average to a few millimetres; h_2 of turned faces and loose
   // boxes leave a bias below a centimetre.
-  std::cerr << (result.state-uprightStateOf(kCabinet.object)).transpose() << ' ' << result.state.transpose() << std::endl;
   expectNear(result.state, kCabinet.object, 0.015, 1.0);
   EXPECT_GT(shapeIoU(result.state, kCabinet.object), 0.93);
   EXPECT_TRUE(result.orientationDefined);
