@@ -1,0 +1,210 @@
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+
+#include <algorithm>
+
+#include "../review/SampleScene.h"
+#include "RunProgram.h"
+#include "SampleMap.h"
+#include "quadmap/obs/Trajectory.h"
+
+using namespace quadmap;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+/** A folder as quadmap-slam leaves it, as far as the program looks at it. */
+class QuadmapExport : public ::testing::Test
+{
+ protected:
+  QuadmapExport()
+  {
+    writeMapFile(folder_.path("objects.quadmap"), sampleMap());
+    Trajectory trajectory, odometry;
+    mrpt::maps::CSimpleMap keyframes;
+    for (int i = 0; i < 8; ++i)
+    {
+      const CPose3D T_map_robot(0.1 * i, 0, 0.5, 0.7 * i, 0, 0);
+      trajectory.push_back({10.0 + i, T_map_robot});
+      odometry.push_back({10.0 + i, CPose3D(0.12 * i, 0, 0.5, 0.7 * i, 0, 0)});
+      quadmap::testing::addKeyframe(keyframes, T_map_robot, quadmap::testing::scanOfWall());
+    }
+    writeTumTrajectory(folder_.path("trajectory.tum"), trajectory);
+    writeTumTrajectory(folder_.path("trajectory_odometry.tum"), odometry);
+    EXPECT_TRUE(keyframes.saveToFile(folder_.path("map.simplemap")));
+  }
+
+  /** Arguments with DIR for the folder. No display. */
+  ProgramResult run(std::string arguments) const
+  {
+    for (auto at = arguments.find("DIR"); at != kNotFound; at = arguments.find("DIR"))
+      arguments.replace(at, 3, folder_.folder().string());
+    ::unsetenv("DISPLAY");
+    return runProgram("quadmap-export", arguments);
+  }
+
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path(name)); }
+
+  TemporaryFolder folder_;
+};
+
+bool isOneLine(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+/** Share of the pixels that are neither white nor grey. */
+double colouredShare(const mrpt::img::CImage& picture)
+{
+  std::size_t coloured = 0;
+  for (unsigned y = 0; y < picture.getHeight(); ++y)
+    for (unsigned x = 0; x < picture.getWidth(); ++x)
+    {
+      const std::uint8_t* c = picture.ptr<std::uint8_t>(x, y);
+      coloured += std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]}) > 60 ? 1 : 0;
+    }
+  return static_cast<double>(coloured) / static_cast<double>(picture.getWidth()) /
+         static_cast<double>(picture.getHeight());
+}
+
+std::size_t childrenOf(mrpt::opengl::COpenGLScene& scene, const std::string& group)
+{
+  const auto found = std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(scene.getByName(group));
+  return found ? found->size() : 0;
+}
+}  // namespace
+
+TEST_F(QuadmapExport, WritesEverythingOfAFolder)
+{
+  const auto result = run(
+      "DIR --scene DIR/s.3Dscene --png DIR/p.png --top DIR/t.png --ply DIR/m.ply --json DIR/o.json "
+      "--size 320x200");
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const char* file : {"s.3Dscene", "p.png", "t.png", "m.ply", "o.json"})
+  {
+    EXPECT_TRUE(exists(file)) << file;
+    EXPECT_NE(result.out.find("wrote " + folder_.path(file)), kNotFound) << result.out;
+  }
+  EXPECT_EQ(readObjectsJson(folder_.path("o.json")).size(), 3u);
+
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder_.path("s.3Dscene")));
+  EXPECT_EQ(childrenOf(scene, "labels"), 3u);
+  for (const char* part : {"trajectory", "odometry", "cameras"})
+    EXPECT_TRUE(scene.getByName(part)) << part;
+  const auto cloud =
+      std::dynamic_pointer_cast<mrpt::opengl::CPointCloudColoured>(scene.getByName("cloud"));
+  ASSERT_TRUE(cloud);
+  EXPECT_GT(cloud->size(), 100u);
+
+  for (const char* file : {"p.png", "t.png"})
+  {
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile(folder_.path(file)));
+    EXPECT_EQ(picture.getWidth(), 320u);
+    EXPECT_EQ(picture.getHeight(), 200u);
+    EXPECT_GT(colouredShare(picture), 0.05) << file << ": three coloured objects";
+  }
+}
+
+TEST_F(QuadmapExport, ShowsASingleMapAndTheTruth)
+{
+  writeObjectsJson(folder_.path("gt.json"), sampleMap().toRecords());
+  const auto result =
+      run("DIR/objects.quadmap --scene DIR/s.3Dscene --truth DIR/gt.json --json DIR/o.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder_.path("s.3Dscene")));
+  EXPECT_EQ(childrenOf(scene, "truth"), 3u);
+  EXPECT_EQ(childrenOf(scene, "labels"), 3u);
+}
+
+TEST_F(QuadmapExport, LeavesOutTheCloudWhenAsked)
+{
+  ASSERT_EQ(run("DIR --scene DIR/s.3Dscene --no-cloud").status, 0);
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder_.path("s.3Dscene")));
+  const auto cloud =
+      std::dynamic_pointer_cast<mrpt::opengl::CPointCloudColoured>(scene.getByName("cloud"));
+  EXPECT_TRUE(!cloud || cloud->size() == 0);
+  EXPECT_TRUE(scene.getByName("trajectory"));
+}
+
+TEST_F(QuadmapExport, NeedsNothingButTheMap)
+{
+  for (const char* file : {"map.simplemap", "trajectory.tum", "trajectory_odometry.tum"})
+    std::filesystem::remove(folder_.path(file));
+  const auto result = run("DIR --png DIR/p.png --size 160x100");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(exists("p.png"));
+}
+
+TEST_F(QuadmapExport, NamesTheFileItCannotRead)
+{
+  const auto expectError = [&](const std::string& arguments, const std::string& name)
+  {
+    const auto result = run(arguments + " --scene DIR/s.3Dscene");
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(name), kNotFound) << result.err;
+    EXPECT_FALSE(exists("s.3Dscene")) << arguments;
+  };
+  expectError("/nonexistent", "/nonexistent");
+  expectError("/usr", "/usr/objects.quadmap");
+  expectError("DIR/trajectory.tum", "trajectory.tum");
+  expectError("DIR --truth DIR/missing.json", "missing.json");
+  const auto cutInHalf = [&](const std::string& name)
+  {
+    const std::string whole = readFile(folder_.path(name));
+    folder_.write(name, whole.substr(0, whole.size() / 2));
+  };
+  cutInHalf("map.simplemap");
+  expectError("DIR", "map.simplemap");
+  folder_.write("trajectory.tum", "1 2 3\n");
+  expectError("DIR", "trajectory.tum");
+  cutInHalf("objects.quadmap");
+  expectError("DIR", "objects.quadmap");
+}
+
+TEST_F(QuadmapExport, NamesTheFileItCannotWrite)
+{
+  for (const char* option :
+       {"--scene /nonexistent/x.3Dscene", "--png /nonexistent/x.png", "--ply /nonexistent/x.ply",
+        "--json /nonexistent/x.json"})
+  {
+    const auto result = run("DIR --size 64x64 " + std::string(option));
+    EXPECT_EQ(result.status, 1) << option;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("/nonexistent/x"), kNotFound) << result.err;
+  }
+}
+
+TEST_F(QuadmapExport, AnswersWrongUsageWithStatus2AndOneLine)
+{
+  for (const char* arguments :
+       {"", "DIR", "--png DIR/p.png", "DIR --png", "DIR --png DIR/p.jpeg", "DIR --pgn DIR/p.png",
+        "DIR --png DIR/p.png --size big", "DIR --png DIR/p.png --size 10x10",
+        "DIR --png DIR/p.png --size 5000x100", "DIR DIR --png DIR/p.png", "DIR --no-cloud"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find("quadmap-export: "), 0u) << result.err;
+  }
+}
+
+TEST_F(QuadmapExport, SaysWhenOpenGLIsMissing)
+{
+  // No vendor of EGL: as on a machine without Mesa.
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
+  const auto result = run("DIR --png DIR/p.png");
+  ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("pictures cannot be rendered"), kNotFound) << result.err;
+  EXPECT_FALSE(exists("p.png"));
+}

@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "RunProgram.h"
+#include "SampleMap.h"
+
+using namespace quadmap;
+
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+class QuadmapMap : public ::testing::Test
+{
+ protected:
+  QuadmapMap() : map_(sampleMap()) { writeMapFile(folder_.path("objects.quadmap"), map_); }
+
+  /** Arguments with MAP for the file of the map and DIR for its folder. */
+  ProgramResult run(std::string arguments) const
+  {
+    const std::pair<std::string, std::string> words[] = {
+        {"MAP", folder_.path("objects.quadmap")},
+        {"DIR",       folder_.folder().string()}
+    };
+    for (const auto& [word, path] : words)
+      for (auto at = arguments.find(word); at != kNotFound; at = arguments.find(word))
+        arguments.replace(at, word.size(), path);
+    return runProgram("quadmap-map", arguments);
+  }
+
+  ObjectId idOf(const std::string& label) const
+  {
+    const auto found = map_.withLabel(label);
+    return found.empty() ? 0 : found.front()->id;
+  }
+
+  std::string option(const std::string& name, const std::string& label) const
+  {
+    return " --" + name + " " + std::to_string(idOf(label));
+  }
+
+  /** Labels of the answer to a query, in its order. */
+  std::vector<std::string> labelsOf(const std::string& conditions) const
+  {
+    const auto result = run("query MAP --json " + conditions);
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::vector<std::string> labels;
+    const auto json = nlohmann::json::parse(result.out);
+    for (const auto& object : json.at("objects")) labels.push_back(object.at("label"));
+    return labels;
+  }
+
+  TemporaryFolder folder_;
+  CQuadricObjectMap map_;
+};
+
+using Labels = std::vector<std::string>;
+
+bool isOneLine(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+}  // namespace
+
+TEST_F(QuadmapMap, InfoListsTheObjects)
+{
+  ASSERT_EQ(map_.confirmedObjects().size(), 3u);
+  const auto result = run("info MAP");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("3 objects"), kNotFound) << result.out;
+  EXPECT_NE(result.out.find("labels: 1 chair, 1 couch, 1 refrigerator"), kNotFound) << result.out;
+  EXPECT_TRUE(result.err.empty());
+}
+
+TEST_F(QuadmapMap, QueryFindsByLabelPlaceAndRegion)
+{
+  EXPECT_EQ(labelsOf("").size(), 3u);
+  EXPECT_EQ(labelsOf("--label couch"), Labels{"couch"});
+  EXPECT_EQ(labelsOf("--label Sofa"), Labels{"couch"}) << "another spelling";
+  EXPECT_EQ(labelsOf("--label cup"), Labels{});
+  EXPECT_EQ(labelsOf("--near -1.4,0.9,0"), (Labels{"couch", "chair", "refrigerator"}));
+  EXPECT_EQ(labelsOf("--near 0.5,-2,0"), (Labels{"refrigerator", "chair", "couch"}));
+  EXPECT_EQ(labelsOf("--region 0,-3,0,2,0,2"), Labels{"refrigerator"});
+  EXPECT_EQ(labelsOf("--region 2,0,2,0,-3,0"), Labels{"refrigerator"}) << "corners in any order";
+  EXPECT_EQ(labelsOf("--region 0,-3,0,2,0,2 --label chair"), Labels{});
+  EXPECT_EQ(labelsOf(option("id", "chair")), Labels{"chair"});
+}
+
+TEST_F(QuadmapMap, QueryPrintsTablesWithDistancesAndFootprints)
+{
+  const auto result = run("query MAP --label chair --near 1,0.5,5.45 --footprint");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("away [m]"), kNotFound) << result.out;
+  EXPECT_NE(result.out.find("footprint [m]: ("), kNotFound) << result.out;
+  const auto nothing = run("query MAP --label cup");
+  EXPECT_EQ(nothing.status, 0);
+  EXPECT_EQ(nothing.out, "no objects\n");
+}
+
+TEST_F(QuadmapMap, RelabelRemoveAndMergeWriteANewMap)
+{
+  ASSERT_EQ(
+      run("relabel MAP" + option("id", "chair") + " --label bench -o DIR/a.quadmap").status, 0);
+  const auto relabelled = readMapFile(folder_.path("a.quadmap"));
+  EXPECT_EQ(relabelled->withLabel("bench").size(), 1u);
+  EXPECT_TRUE(relabelled->withLabel("chair").empty());
+
+  const std::string two = option("id", "chair") + option("id", "couch");
+  ASSERT_EQ(run("remove MAP" + two + " -o DIR/b.quadmap").status, 0);
+  const auto removed = readMapFile(folder_.path("b.quadmap"));
+  ASSERT_EQ(removed->confirmedObjects().size(), 1u);
+  EXPECT_EQ(removed->confirmedObjects().front()->label(), "refrigerator");
+
+  const std::string pair = option("keep", "couch") + option("absorb", "chair");
+  ASSERT_EQ(run("merge MAP" + pair + " -o DIR/c.quadmap").status, 0);
+  const auto merged = readMapFile(folder_.path("c.quadmap"));
+  EXPECT_EQ(merged->objects().size(), map_.objects().size() - 1);
+  EXPECT_FALSE(merged->find(idOf("chair")));
+
+  EXPECT_EQ(readMapFile(folder_.path("objects.quadmap"))->confirmedObjects().size(), 3u)
+      << "the input is as it was";
+}
+
+TEST_F(QuadmapMap, ChangesAMapInPlace)
+{
+  ASSERT_EQ(run("remove MAP" + option("id", "couch") + " -o MAP").status, 0);
+  EXPECT_EQ(readMapFile(folder_.path("objects.quadmap"))->confirmedObjects().size(), 2u);
+  EXPECT_EQ(folder_.fileCount(), 1u);
+}
+
+TEST_F(QuadmapMap, NamesTheFileItCannotRead)
+{
+  const std::string whole = readFile(folder_.path("objects.quadmap"));
+  folder_.write("short.quadmap", whole.substr(0, whole.size() / 2));
+  folder_.write("empty.quadmap", "");
+  folder_.write("text.quadmap", "no map at all\n");
+  for (const char* name : {"short.quadmap", "empty.quadmap", "text.quadmap", "missing.quadmap", ""})
+  {
+    const auto result = run("info DIR/" + std::string(name));
+    EXPECT_EQ(result.status, 1) << name;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(folder_.path(name)), kNotFound) << result.err;
+    EXPECT_TRUE(result.out.empty());
+  }
+}
+
+TEST_F(QuadmapMap, NamesTheObjectThatIsNotThere)
+{
+  for (const char* arguments :
+       {"query MAP --id 4711", "relabel MAP --id 4711 --label cup -o DIR/x",
+        "remove MAP --id 4711 -o DIR/x", "merge MAP --keep 4711 --absorb 4712 -o DIR/x"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("no object with id 4711"), kNotFound) << result.err;
+  }
+  EXPECT_EQ(folder_.fileCount(), 1u) << "nothing was written";
+}
+
+TEST_F(QuadmapMap, NamesTheFileItCannotWrite)
+{
+  const auto result =
+      run("relabel MAP" + option("id", "chair") + " --label cup -o /nonexistent/out.quadmap");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("/nonexistent/out.quadmap"), kNotFound) << result.err;
+}
+
+TEST_F(QuadmapMap, AnswersWrongUsageWithStatus2AndOneLine)
+{
+  for (const char* arguments :
+       {"", "dance MAP", "info", "info MAP MAP", "query MAP --near 1,2", "query MAP --near 1,2,x",
+        "query MAP --near 1,2,3,4", "query MAP --near 1,2,nan", "query MAP --region 1,2,3",
+        "query MAP --json --footprint", "query MAP --id one", "query MAP --lable chair",
+        "relabel MAP --id 1 --label cup", "relabel MAP --id 1 -o DIR/x",
+        "relabel MAP --id 1 --label '' -o DIR/x", "remove MAP -o DIR/x",
+        "merge MAP --keep 1 --absorb 1 -o DIR/x"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find("quadmap-map"), 0u) << result.err;
+  }
+}
+
+TEST_F(QuadmapMap, ShowsHelpAndVersion)
+{
+  for (const char* arguments :
+       {"--help", "info --help", "query --help", "relabel --help", "remove --help", "merge --help"})
+  {
+    const auto help = run(arguments);
+    EXPECT_EQ(help.status, 0) << arguments;
+    EXPECT_NE(help.out.find("USAGE"), kNotFound) << arguments;
+  }
+  EXPECT_EQ(run("--version").out.find("quadmap-map "), 0u);
+}
