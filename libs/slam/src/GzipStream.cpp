@@ -97,11 +97,10 @@ void GzipFileWriter::appendMember(const std::vector<std::uint8_t>& member)
 void GzipFileWriter::commit()
 {
   flushPending();
-  const bool closed = std::fclose(out_) == 0;
-  const int error = errno;
+  if (std::fclose(out_) != 0 && error_ == 0) error_ = errno;
   out_ = nullptr;
-  if (!closed)
-    throw std::runtime_error(file_.finalPath() + ": cannot be written: " + std::strerror(error));
+  if (error_ != 0)
+    throw std::runtime_error(file_.finalPath() + ": cannot be written: " + std::strerror(error_));
   file_.commit();
 }
 
@@ -114,8 +113,8 @@ void GzipFileWriter::flushPending()
 
 void GzipFileWriter::writeRaw(const std::vector<std::uint8_t>& bytes)
 {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), out_) != bytes.size())
-    throw std::runtime_error(file_.finalPath() + ": cannot be written: " + std::strerror(errno));
+  if (error_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), out_) != bytes.size())
+    error_ = errno;
 }
 
 size_t GzipFileWriter::Read(void*, size_t)

@@ -4,6 +4,7 @@
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,7 +33,10 @@ class GzipFileWriter : public mrpt::io::CStream
   ~GzipFileWriter() override;
 
   void appendMember(const std::vector<std::uint8_t>& member);
-  void commit();  //!< \exception std::runtime_error
+
+  /** \exception std::runtime_error If this or an earlier write failed. Archives would wrap an
+   *  exception of Write() in a call stack, so that it waits until here. */
+  void commit();
 
   size_t Write(const void* buffer, size_t count) override;
   std::string getStreamDescription() const override { return file_.finalPath(); }
@@ -49,6 +53,7 @@ class GzipFileWriter : public mrpt::io::CStream
 
   OutputFile file_;
   std::FILE* out_ = nullptr;
+  int error_ = 0;                      //!< errno of the first write that failed
   std::vector<std::uint8_t> pending_;  //!< Not compressed yet
 };
 

@@ -1,0 +1,158 @@
+#include "quadmap/slam/PoseGraphWriter.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/graphs/CNetworkOfPoses.h>
+#include <mrpt/poses/Lie/SO.h>
+
+#include <Eigen/Dense>
+#include <fstream>
+#include <sstream>
+
+#include "SyntheticRoom.h"
+#include "quadmap/slam/ObjectSlam.h"
+
+using namespace quadmap;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+constexpr double kUprightSigma = 0.035;  // roll and pitch of an object in the graph [rad]
+
+/** A run over six keyframes of one box, written as a graph and read by MRPT. */
+class PoseGraphWriter : public testing::Test
+{
+ protected:
+  PoseGraphWriter() :
+      spool_(folder_.folder().string()), slam_(configuration(), LabelTable::installed(), spool_)
+  {
+    for (int i = 0; i < kFrames; ++i)
+    {
+      const auto pose = room_.robotAt(0.25 * i) + CPose3D(0, 0, 0, 0, 0.1, 0.2);  // tilted
+      RgbdFrame frame;
+      frame.scan = room_.scanFrom(pose, kStart + i);
+      frame.objects = room_.boxesOf(*frame.scan, pose);
+      frame.T_odom_robot = pose;
+      slam_.addFrame(frame);
+    }
+    slam_.finish();
+    writePoseGraph(folder_.path("x.graph"), slam_.result(), spool_, configuration().poses);
+    graph_.loadFromTextFile(folder_.path("x.graph"));
+  }
+
+  static SlamConfiguration configuration()
+  {
+    SlamConfiguration c;
+    c.keyframes.every = 1;
+    return c;
+  }
+
+  /** Of (yaw, pitch, roll) as the file has it: MRPT 2.5 forgets their correlations on reading. */
+  Eigen::Matrix3d angleInformation(unsigned from, unsigned to) const
+  {
+    std::ifstream file(folder_.path("x.graph"));
+    const std::string start = "EDGE3 " + std::to_string(from) + " " + std::to_string(to) + " ";
+    Eigen::Matrix3d rollPitchYaw = Eigen::Matrix3d::Zero();
+    for (std::string line; std::getline(file, line);)
+    {
+      if (line.compare(0, start.size(), start) != 0) continue;
+      std::istringstream numbers(line.substr(start.size()));
+      double number = 0;
+      for (int i = 0; i < 6 + 15; ++i) numbers >> number;  // the pose, and rows x, y, z
+      for (int row = 0; row < 3; ++row)
+        for (int col = row; col < 3; ++col)
+        {
+          numbers >> number;
+          rollPitchYaw(row, col) = rollPitchYaw(col, row) = number;
+        }
+    }
+    return rollPitchYaw.reverse();
+  }
+
+  static constexpr int kFrames = 6;
+  SyntheticRoom room_;
+  TemporaryFolder folder_;
+  KeyframeSpool spool_;
+  ObjectSlam slam_;
+  mrpt::graphs::CNetworkOfPoses3DInf graph_;
+};
+}  // namespace
+
+TEST_F(PoseGraphWriter, HasKeyframesAndObjectsAsNodes)
+{
+  const auto objects = slam_.result().map.confirmedObjects();
+  ASSERT_EQ(objects.size(), 1u);
+  ASSERT_EQ(graph_.nodeCount(), kFrames + 1u);
+  EXPECT_EQ(graph_.root, 0u);
+  for (unsigned k = 0; k < kFrames; ++k)
+    EXPECT_LT((graph_.nodes.at(k) - slam_.result().keyframes[k].T_map_robot).norm(), 1e-8);
+  EXPECT_LT((graph_.nodes.at(kFrames + objects[0]->id) - objects[0]->object.pose()).norm(), 1e-8);
+}
+
+TEST_F(PoseGraphWriter, OdometryEdgesAreTheSteps)
+{
+  for (unsigned k = 1; k < kFrames; ++k)
+  {
+    ASSERT_TRUE(graph_.edgeExists(k - 1, k));
+    const auto& edge = graph_.getEdge(k - 1, k);
+    const auto step = odometryStep(
+        configuration().poses, slam_.result().keyframes[k - 1].T_map_robot,
+        slam_.result().keyframes[k].T_map_robot);
+    EXPECT_LT((edge.mean - step.mean).norm(), 1e-8);
+    const Eigen::Matrix<double, 6, 6> product = edge.cov_inv.asEigen() * step.cov.asEigen();
+    EXPECT_LT((product - Eigen::Matrix<double, 6, 6>::Identity()).norm(), 1e-6);
+  }
+}
+
+TEST_F(PoseGraphWriter, MeasurementEdgesPointFromTheRobotToTheObject)
+{
+  const auto id = kFrames + slam_.result().map.confirmedObjects().at(0)->id;
+  for (unsigned k = 0; k < kFrames; ++k)
+  {
+    ASSERT_TRUE(graph_.edgeExists(k, id)) << "keyframe " << k;
+    const CPose3D T_map_measured =
+        slam_.result().keyframes[k].T_map_robot + graph_.getEdge(k, id).mean;
+    const CPose3D error = graph_.nodes.at(id) - T_map_measured;
+    EXPECT_LT(error.norm(), 0.1) << "one view sees at most three sides of the box [m]";
+    const double turned = mrpt::poses::Lie::SO<3>::log(error.getRotationMatrix()).norm();
+    EXPECT_LT(turned, mrpt::DEG2RAD(5.0)) << "axes must be numbered as in the map";
+  }
+}
+
+TEST_F(PoseGraphWriter, AnglesCarryTheInformationOfUprightAndYaw)
+{
+  const auto id = kFrames + slam_.result().map.confirmedObjects().at(0)->id;
+  for (unsigned k = 0; k < kFrames; ++k)
+  {
+    const auto& measurement = spool_.objects(k)->objects.at(0).measurement;
+    ASSERT_TRUE(measurement.complete && measurement.complete->yawDefined);
+    const auto& edge = graph_.getEdge(k, id);
+    // Oracle: numeric derivative of the turn in the object's frame by yaw, pitch and roll
+    constexpr double kStep = 1e-6;
+    Eigen::Matrix3d J;
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      auto v = edge.mean.asVectorVal();
+      v[static_cast<int>(3 + i)] += kStep;
+      const CPose3D moved(v[0], v[1], v[2], v[3], v[4], v[5]);
+      const auto turn = mrpt::poses::Lie::SO<3>::log((moved - edge.mean).getRotationMatrix());
+      for (int row = 0; row < 3; ++row) J(row, static_cast<int>(i)) = turn[row] / kStep;
+    }
+    const Eigen::Vector3d sigmas(kUprightSigma, kUprightSigma, measurement.complete->yawSigma);
+    const Eigen::Vector3d weights = sigmas.cwiseAbs2().cwiseInverse();
+    const Eigen::Matrix3d expected = J.transpose() * weights.asDiagonal() * J;
+    const Eigen::Matrix3d got = angleInformation(k, id);
+    EXPECT_LT((got - expected).norm(), 1e-4 * expected.norm());
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(edge.cov_inv(3 + i, 3 + i), got(i, i), 1e-3);
+  }
+}
+
+TEST_F(PoseGraphWriter, FullDiskIsAnErrorAndLeavesNothing)
+{
+  const auto before = folder_.fileCount();
+  const FileSizeLimit limit(100);
+  const auto path = folder_.path("y.graph");
+  const std::string error =
+      errorOf([&] { writePoseGraph(path, slam_.result(), spool_, configuration().poses); });
+  EXPECT_EQ(error.find(path + ": cannot be written"), 0u) << error;
+  EXPECT_EQ(folder_.fileCount(), before);
+}
