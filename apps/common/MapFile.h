@@ -27,7 +27,8 @@ inline CQuadricObjectMap::Ptr readMapFile(const std::string& path)
   }
   catch (const std::exception&)  // its text speaks of the archive's insides
   {
-    throw std::runtime_error(path + ": is no object map, or it is truncated or damaged");
+    throw std::runtime_error(
+        path + ": is no object map, or it is truncated, damaged or of a newer version");
   }
   auto map = std::dynamic_pointer_cast<CQuadricObjectMap>(object);
   if (!map)
