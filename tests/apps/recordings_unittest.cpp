@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "../obs/TestData.h"
+#include "RunProgram.h"
+#include "quadmap/obs/ObjectList.h"
+
+using namespace quadmap;
+using nlohmann::json;
+
+// The whole chain of programs on whole recordings, with the figures of doc/benchmarks.md.
+namespace
+{
+std::string quoted(const std::string& path) { return "'" + path + "'"; }
+
+void expectSuccess(const std::string& program, const std::string& arguments)
+{
+  const auto result = runProgram(program, arguments);
+  ASSERT_EQ(result.status, 0) << program << " " << arguments << "\n" << result.err;
+}
+
+/** Imports a recording with its poses as odometry and maps it. */
+void importAndMap(const std::string& recording, const TemporaryFolder& folder)
+{
+  const auto rawlog = quoted(folder.path("x.rawlog"));
+  ASSERT_NO_FATAL_FAILURE(
+      expectSuccess("quadmap-import", "tum " + quoted(recording) + " -o " + rawlog));
+  ASSERT_NO_FATAL_FAILURE(
+      expectSuccess("quadmap-slam", rawlog + " -o " + quoted(folder.path("out"))));
+}
+
+json figures(const TemporaryFolder& folder, const std::string& arguments)
+{
+  const auto file = folder.path("figures.json");
+  expectSuccess(
+      "quadmap-evaluate", quoted(folder.path("out")) + " --json " + quoted(file) + " " + arguments);
+  return json::parse(readFile(file));
+}
+
+json report(const TemporaryFolder& folder)
+{
+  return json::parse(readFile(folder.path("out/report.json")));
+}
+}  // namespace
+
+TEST(Recordings, BundledHome)
+{
+  const std::string home = QUADMAP_SOURCE_DIR "/rawlogs/home";
+  const TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(expectSuccess(
+      "quadmap-slam",
+      quoted(home + ".rawlog") + " --odometry ground-truth -o " + quoted(folder.path("out"))));
+  const json f = figures(
+      folder, "--objects " + quoted(home + ".objects.gt.json") + " --trajectory " +
+                  quoted(home + ".groundtruth.tum"));
+  EXPECT_LT(f["trajectory"]["ate_rmse_m"], 1e-3) << "the true poses were given";
+  EXPECT_GE(f["objects"]["f1"], 0.9);
+  EXPECT_LE(f["objects"]["trans_m"], 0.06);
+  EXPECT_LE(f["objects"]["rot_deg"], 4.0);
+  EXPECT_GE(f["objects"]["shape_iou"], 0.70);
+}
+
+TEST(Recordings, CabinetOfTumFr3)
+{
+  const auto recording = testData("tum_fr3_cabinet");
+  if (recording.empty()) GTEST_SKIP() << "recording tum_fr3_cabinet is not there";
+  const TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(importAndMap(recording, folder));
+  const json f = figures(folder, "--in-place --objects " + quoted(recording + "/objects_gt.json"));
+  EXPECT_EQ(f["objects"]["estimated"], 1);
+  EXPECT_EQ(f["objects"]["matched"], 1);
+  EXPECT_LE(f["objects"]["trans_m"], 0.03);
+  EXPECT_LE(f["objects"]["rot_deg"], 2.0);
+  EXPECT_GE(f["objects"]["shape_iou"], 0.80);
+}
+
+TEST(Recordings, Kitchen)
+{
+  const auto recording = testData("kitchen_a");
+  if (recording.empty()) GTEST_SKIP() << "recording kitchen_a is not there";
+  const TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(importAndMap(recording, folder));
+  std::map<std::string, int> counts;
+  const auto objects = readObjectsJson(folder.path("out/objects.json"));
+  for (const auto& object : objects) ++counts[object.label];
+  EXPECT_EQ(counts["dining table"], 1);
+  EXPECT_EQ(counts["cup"], 2);
+  EXPECT_GE(counts["chair"], 3);
+  EXPECT_GE(counts["tv"], 1);
+  EXPECT_LE(objects.size(), 16u) << "the scene has about a dozen things a detector knows";
+  // Twice the limit for one core of the reference machine: builders differ, and share their cores
+  EXPECT_LE(report(folder)["timing"]["modules"]["perception"]["cpu_mean_ms"], 60.0);
+}
+
+TEST(Recordings, SampleRawlogsOfMrpt)
+{
+  const auto samples = testData("mrpt");
+  if (samples.empty()) GTEST_SKIP() << "the rawlogs of MRPT are not there";
+  const TemporaryFolder folder;
+  unsigned withoutImages = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(samples))
+  {
+    if (entry.path().extension() != ".rawlog") continue;
+    const auto out = quoted(folder.path("out"));
+    const auto result = runProgram("quadmap-slam", quoted(entry.path().string()) + " -o " + out);
+    EXPECT_EQ(result.status, 1) << entry.path();
+    EXPECT_EQ(result.err.find("quadmap-slam: " + entry.path().string() + ": no "), 0u)
+        << result.err;
+    if (entry.path().filename() == "tests_rgbd.rawlog")
+      EXPECT_NE(result.err.find("no object boxes"), std::string::npos) << result.err;
+    else
+      withoutImages += result.err.find("no usable RGB-D images; it has ") != std::string::npos;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("out"))) << "nothing is left behind";
+  }
+  EXPECT_GE(withoutImages, 3u);
+}
