@@ -75,12 +75,12 @@ demo() {
   install_packages build
   build_targets programs
   say "mapping $in.rawlog"
-  "$build/bin/quadmap-slam" "$in.rawlog" -o "$out" --odometry ground-truth -v warn
+  "$build/bin/quadmap-slam" "$in.rawlog" -o "$out" --odometry ground-truth -v warn >"$logs/slam.log"
   say "comparing with the truth"
   "$build/bin/quadmap-evaluate" "$out" --objects "$in.objects.gt.json" \
     --trajectory "$in.groundtruth.tum" --json "$out/evaluation.json"
   say "drawing the map"
-  "$build/bin/quadmap-export" "$out" --png "$out/map.png"
+  "$build/bin/quadmap-export" "$out" --png "$out/map.png" >"$logs/export.log"
   say "done; picture: $out/map.png; files in $out:"
   find "$out" -maxdepth 1 -type f -printf '     %f\n' | sort
 }
