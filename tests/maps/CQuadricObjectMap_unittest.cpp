@@ -111,7 +111,7 @@ TEST(CQuadricObjectMap, InstanceIdsAreBelievedWhenAsked)
     map.insertionOptions.useInstanceIds = believe;
     map.insertionOptions.merging.anyLabelIoU = 1.0;
     map.insertionOptions.merging.overlap = 1.0;
-    map.insertionOptions.merging.concentricShare = 0;
+    map.insertionOptions.merging.penetration = 0;
     SyntheticCamera camera(6);
     for (int i = 0; i < 10; ++i)
     {

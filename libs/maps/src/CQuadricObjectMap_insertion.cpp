@@ -10,6 +10,9 @@ namespace quadmap
 {
 namespace
 {
+/** A position this unlikely is not made up for by anything else; saves looking. */
+constexpr double kHopeless = -60;
+
 /** Another box of the same frame around nearly the same pixels, which the detector is surer of. */
 bool hasBetterTwin(
     const std::vector<DetectedObject>& objects, std::size_t k, const AgreementOptions& options)
@@ -135,10 +138,11 @@ void CQuadricObjectMap::associate(Frame& frame) const
     {
       double& value = likelihood(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i));
       const MapObject& object = objects_.at(ids[i]);
-      value = positionLogLikelihood(view, object, options.agreement) +
-              agreementLogLikelihood(
-                  view, frame.allBoxes[frame.boxes[k]], object, frame.geometry, *labels_,
-                  options.agreement);
+      value = positionLogLikelihood(view, object, options.agreement);
+      if (value > kHopeless)
+        value += agreementLogLikelihood(
+            view, frame.allBoxes[frame.boxes[k]], object, frame.geometry, *labels_,
+            options.agreement);
       if (!options.useInstanceIds || !frame.instances[k]) continue;
       const auto known = objectOfInstance_.find(*frame.instances[k]);
       const bool isIt = known != objectOfInstance_.end() && known->second == ids[i];
@@ -251,6 +255,7 @@ bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
                                .cwiseProduct(object.object.semiAxes())
                                .maxCoeff();
   return object.existenceLogOdds > existence.confirmLogOdds && (manyComplete || manyPartial) &&
+         labelAgreement(object, object.label(), *labels_) >= existence.minLabelShare &&
          centerSigma < existence.maxCenterSigma && sizeSigma < existence.maxSizeSigma;
 }
 

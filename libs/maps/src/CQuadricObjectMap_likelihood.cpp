@@ -67,7 +67,7 @@ bool CQuadricObjectMap::internal_canComputeObservationLikelihood(
 }
 
 /** sum over boxes of log( e + (1-e) min(1, sum_i exp(term_i)) ), the inner sum over objects with
- * compatible labels, e the share of boxes that show nothing of the map. */
+ * weighted with how far the labels agree; e is the share of boxes that show nothing of the map. */
 double CQuadricObjectMap::internal_computeObservationLikelihood(
     const mrpt::obs::CObservation& obs, const mrpt::poses::CPose3D& takenFrom) const
 {
@@ -83,13 +83,14 @@ double CQuadricObjectMap::internal_computeObservationLikelihood(
     for (const auto& [id, object] : objects_)
     {
       if (likelihoodOptions.onlyConfirmed && !object.confirmed) continue;
-      if (!labelFits(object, view.label, *labels_, insertionOptions.merging.labelShare)) continue;
+      const double agreement = labelAgreement(object, view.label, *labels_);
+      if (agreement == 0) continue;
       const double term = view.complete
                               ? completeTerm(view, object, likelihoodOptions)
                               : edgesTerm(
                                     view, object, labels_->properties(object.label()).shapeExponent,
                                     likelihoodOptions);
-      explained += std::exp(term);
+      explained += agreement * std::exp(term);
     }
     logLikelihood += std::log(outliers + (1 - outliers) * std::min(explained, 1.0));
   }

@@ -48,6 +48,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.integer("minComplete", o.existence.minComplete, 1, 1000000);
   v.integer("minPartial", o.existence.minPartial, 1, 1000000);
   v.number("maxCenterSigma", o.existence.maxCenterSigma, kSmall, 1000);
+  v.number("minLabelShare", o.existence.minLabelShare, 0, 1);
   v.number("maxSizeDeviation", o.existence.maxSizeDeviation, kSmall, 1000);
   v.number("maxSizeSigma", o.existence.maxSizeSigma, kSmall, 1000);
   v.number("missMinRange", o.existence.minRange, 0, 1000);
@@ -58,8 +59,8 @@ void visitInsertion(Visitor& v, Options& o)
   v.number("missMaxHiddenShare", o.existence.maxHiddenShare, 0, 1);
   v.number("mergeOverlap", o.merging.overlap, kSmall, 1);
   v.number("mergeAnyLabelIoU", o.merging.anyLabelIoU, kSmall, 1);
-  v.number("mergeConcentricShare", o.merging.concentricShare, 0, 10);
-  v.number("mergeLabelShare", o.merging.labelShare, 0, 1);
+  v.number("mergePenetration", o.merging.penetration, 0, 10);
+  v.number("mergeMinLabelAgreement", o.merging.minLabelAgreement, 0, 1);
   v.integer("waitingCapacity", o.waiting.capacity, 1, 1000000);
   v.integer("waitingMinViews", o.waiting.minViews, 2, 1000);
   v.degrees("waitingMinParallax_deg", o.waiting.minParallax, 0, 180);

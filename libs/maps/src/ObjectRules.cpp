@@ -74,24 +74,33 @@ double axisLogLikelihood(
   return -0.5 * outside * outside / v - std::log(2 * inside + std::sqrt(2 * M_PI * v));
 }
 
-}  // namespace
-
-std::vector<std::string> frequentLabels(const MapObject& object, double share)
+double halfWidthAlong(const Ellipsoid& object, const Eigen::Vector3d& n)
 {
-  double total = 0;
-  for (const auto& [name, count] : object.labelCounts) total += count;
-  std::vector<std::string> names;
-  for (const auto& [name, count] : object.labelCounts)
-    if (count >= share * total) names.push_back(name);
-  return names;
+  return supportFunction<double>(object.rotation().transpose() * n, object.semiAxes(), 2.0);
 }
 
-bool labelFits(
-    const MapObject& object, const std::string& label, const LabelTable& labels, double share)
+}  // namespace
+
+double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels)
 {
-  for (const auto& name : frequentLabels(object, share))
-    if (labels.compatible(name, label)) return true;
-  return false;
+  double fitting = 0, total = 0;
+  for (const auto& [name, count] : object.labelCounts)
+  {
+    total += count;
+    if (labels.compatible(name, label)) fitting += count;
+  }
+  return total > 0 ? fitting / total : 0.0;
+}
+
+double labelAgreement(const MapObject& a, const MapObject& b, const LabelTable& labels)
+{
+  double fitting = 0, total = 0;
+  for (const auto& [name, count] : a.labelCounts)
+  {
+    total += count;
+    fitting += count * labelAgreement(b, name, labels);
+  }
+  return total > 0 ? fitting / total : 0.0;
 }
 
 bool areOneObject(
@@ -103,16 +112,13 @@ bool areOneObject(
   const double shared = cuboidIntersectionVolume(a.object, b.object);
   if (shared > options.anyLabelIoU * (volumeA + volumeB - shared)) return true;
 
-  // Without a known orientation (a TV seen as boxes only) the overlap says little.
-  const double width =
-      std::max(a.object.semiAxes().head<2>().maxCoeff(), b.object.semiAxes().head<2>().maxCoeff());
-  const bool concentric =
-      !(a.orientationDefined && b.orientationDefined) && distance < options.concentricShare * width;
-  if (!concentric && shared <= options.overlap * std::min(volumeA, volumeB)) return false;
-
-  for (const auto& name : frequentLabels(a, options.labelShare))
-    if (labelFits(b, name, labels, options.labelShare)) return true;
-  return false;
+  // Thin things whose yaw is uncertain (a TV seen as boxes only) hardly overlap: how far the
+  // ellipsoids penetrate along the line between the centres tells more.
+  const Eigen::Vector3d n = (a.object.center() - b.object.center()) / std::max(distance, 1e-9);
+  const bool penetrating =
+      distance < options.penetration * (halfWidthAlong(a.object, n) + halfWidthAlong(b.object, n));
+  if (!penetrating && shared <= options.overlap * std::min(volumeA, volumeB)) return false;
+  return labelAgreement(a, b, labels) >= options.minLabelAgreement;
 }
 
 double agreementLogLikelihood(
@@ -124,7 +130,8 @@ double agreementLogLikelihood(
     const AgreementOptions& options)
 {
   const double shapeExponent = labels.properties(object.label()).shapeExponent;
-  const double labelTerm = labelFits(object, view.label, labels, 0.2) ? 0.0 : -options.labelPenalty;
+  const double labelTerm =
+      -options.labelPenalty * (1.0 - labelAgreement(object, view.label, labels));
   return sizeTerm(view, object, options) +
          imageTerm(box, object.object, frame, shapeExponent, options) + labelTerm;
 }
@@ -143,8 +150,7 @@ double positionLogLikelihood(
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const Eigen::Vector3d n = view.faceNormal(2 * axis);
-    const double objectHalf =
-        supportFunction<double>(R.transpose() * n, object.object.semiAxes(), 2.0);
+    const double objectHalf = halfWidthAlong(object.object, n);
     log += axisLogLikelihood(view, axis, n.dot(off), objectHalf, n.dot(S_object * n));
   }
   return log;

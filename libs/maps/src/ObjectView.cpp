@@ -141,18 +141,11 @@ void setPartialPosition(
 
 }  // namespace
 
-Eigen::Vector3d ObjectView::faceNormal(std::size_t face) const
+std::array<Eigen::Vector3d, kFaces> ObjectView::faceNormals() const
 {
-  const double sign = face % 2 == 0 ? 1.0 : -1.0;
   const double c = std::cos(yaw), s = std::sin(yaw);
-  if (face < 2) return {sign * c, sign * s, 0};
-  if (face < 4) return {-sign * s, sign * c, 0};
-  return {0, 0, sign};
-}
-
-double ObjectView::faceOffset(std::size_t face) const
-{
-  return faceNormal(face).dot(center) + halfSizes[static_cast<Eigen::Index>(face / 2)];
+  const Eigen::Vector3d x(c, s, 0), y(-s, c, 0), z(0, 0, 1);
+  return {x, -x, y, -y, z, -z};
 }
 
 bool ObjectView::axisKnown(std::size_t axis) const

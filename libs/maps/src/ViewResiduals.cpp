@@ -10,6 +10,21 @@ namespace quadmap
 {
 namespace
 {
+/** What all residuals need of a state. */
+struct UprightShape
+{
+  explicit UprightShape(const UprightState& x) :
+      center(x.head<3>()),
+      cosine(std::cos(x[3])),
+      sine(std::sin(x[3])),
+      semiAxes(x.tail<3>().array().exp())
+  {
+  }
+  Eigen::Vector3d center;
+  double cosine, sine;  // of the yaw
+  Eigen::Vector3d semiAxes;
+};
+
 /** Half width of the upright object along n, with its derivatives by (yaw, ln a, ln b, ln c). */
 struct HalfWidth
 {
@@ -17,44 +32,49 @@ struct HalfWidth
   Eigen::Vector4d d = Eigen::Vector4d::Zero();
 };
 
-HalfWidth halfWidth(const UprightState& x, const Eigen::Vector3d& n, double q)
+HalfWidth halfWidth(const UprightShape& object, const Eigen::Vector3d& n, double q)
 {
-  const double c = std::cos(x[3]), s = std::sin(x[3]);
+  const double c = object.cosine, s = object.sine;
   const Eigen::Vector3d n_obj(c * n.x() + s * n.y(), -s * n.x() + c * n.y(), n.z());
-  const Eigen::Vector3d axes = x.tail<3>().array().exp();
-  const auto support = supportWithDerivatives(n_obj, axes, q);
+  const auto support = supportWithDerivatives(n_obj, object.semiAxes, q);
 
   HalfWidth w;
   w.h = support.h;
   w.d[0] = support.d_n.x() * n_obj.y() - support.d_n.y() * n_obj.x();
-  w.d.tail<3>() = support.d_s.cwiseProduct(axes);
+  w.d.tail<3>() = support.d_s.cwiseProduct(object.semiAxes);
   return w;
 }
 
-/** r = n.(c_face - t) - h_2(n): positive when the object is smaller than the face says [m]. */
-double faceGap(const ObjectView& view, std::size_t face, const UprightState& x, HalfWidth& width)
+/** r = n.(c_face - t) - h_2(n): positive when the object is smaller than the face says [m].
+ * \param n The face's outward normal. */
+double faceGap(
+    const ObjectView& view,
+    std::size_t face,
+    const Eigen::Vector3d& n,
+    const UprightShape& object,
+    HalfWidth& width)
 {
-  const Eigen::Vector3d n = view.faceNormal(face);
-  width = halfWidth(x, n, 2.0);
-  return view.faceOffset(face) - n.dot(x.head<3>()) - width.h;
+  width = halfWidth(object, n, 2.0);
+  return view.faceOffset(face, n) - n.dot(object.center) - width.h;
 }
 
 void addFaces(
     const ObjectView& view,
-    const UprightState& x,
+    const UprightShape& object,
     const EstimatorOptions& options,
     double weight,
     NormalEquations& eq)
 {
+  const auto normals = view.faceNormals();
   for (std::size_t f = 0; f < kFaces; ++f)
   {
     const auto& face = view.faces[f];
     if (face.kind == FaceKind::Unknown) continue;
     HalfWidth width;
-    const double gap = faceGap(view, f, x, width);
+    const double gap = faceGap(view, f, normals[f], object, width);
     if (face.kind == FaceKind::AtLeast && gap <= 0) continue;  // large enough: nothing to say
     UprightState J;
-    J << -view.faceNormal(f), -width.d;
+    J << -normals[f], -width.d;
     eq.add(gap / face.sigma, J / face.sigma, options.huber, weight);
   }
 }
@@ -62,7 +82,7 @@ void addFaces(
 /** r = (n.t + d) - h_q(n), sigma = range * angle + floor. */
 void addEdges(
     const ObjectView& view,
-    const UprightState& x,
+    const UprightShape& object,
     double shapeExponent,
     const EstimatorOptions& options,
     double weight,
@@ -71,11 +91,11 @@ void addEdges(
   const double range = (view.center - view.camera).norm();
   for (const auto& edge : view.edges)
   {
-    const HalfWidth width = halfWidth(x, edge.plane.n, shapeExponent);
+    const HalfWidth width = halfWidth(object, edge.plane.n, shapeExponent);
     const double sigma = range * edge.angle + view.positionSigma + options.edgeFloor;
     UprightState J;
     J << edge.plane.n, -width.d;
-    const double gap = edge.plane.signedDistance(x.head<3>()) - width.h;
+    const double gap = edge.plane.signedDistance(object.center) - width.h;
     eq.add(gap / sigma, J / sigma, options.huber, weight);
   }
 }
@@ -100,7 +120,8 @@ void addViewResiduals(
     double weight,
     NormalEquations& eq)
 {
-  if (view.complete) addFaces(view, x, options, weight, eq);
+  const UprightShape object(x);
+  if (view.complete) addFaces(view, object, options, weight, eq);
   if (view.complete && view.yawDefined)
   {
     UprightState J = UprightState::Zero();
@@ -109,7 +130,7 @@ void addViewResiduals(
     eq.add((x[3] - yaw) / view.yawSigma, J, options.huber, weight);
   }
   if (!view.complete || options.edgesOfComplete)
-    addEdges(view, x, shapeExponent, options, weight, eq);
+    addEdges(view, object, shapeExponent, options, weight, eq);
   if (!view.complete)
   {
     // Where the depth says the object is: keeps it on the ray's right stretch until there is
@@ -133,11 +154,13 @@ double viewWeight(const ObjectView& view, const UprightState& reference)
   double squares = 0, count = 0;
   if (view.complete)
   {
+    const UprightShape object(reference);
+    const auto normals = view.faceNormals();
     for (std::size_t f = 0; f < kFaces; ++f)
     {
       if (view.faces[f].kind == FaceKind::Unknown) continue;
       HalfWidth width;
-      const double gap = faceGap(view, f, reference, width);
+      const double gap = faceGap(view, f, normals[f], object, width);
       if (view.faces[f].kind == FaceKind::AtLeast && gap <= 0) continue;
       squares += gap * gap;
       count += 1;

@@ -22,20 +22,18 @@ struct AgreementOptions
 
 struct MergeOptions
 {
-  double overlap = 0.4;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
+  double overlap = 0.5;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
   double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
-  /** Centres this near, as a share of the larger half width, when an orientation is unknown, >= 0.
-   */
-  double concentricShare = 0.6;
-  double labelShare = 0.2;  //!< A label counts with this share of an object's measurements
+  double penetration = 0.6;  //!< Or: centres nearer than this share of both half widths, >= 0
+  double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
 };
 
-/** Labels with at least `share` of the object's measurements. */
-std::vector<std::string> frequentLabels(const MapObject& object, double share);
+/** Share of the object's measurements whose label a detector takes for this one, in [0, 1]. */
+double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels);
 
-/** Can the label be another name for the object? */
-bool labelFits(
-    const MapObject& object, const std::string& label, const LabelTable& labels, double share);
+/** The same between two objects: probability that two of their labels, drawn at random, can be
+ * taken for each other. */
+double labelAgreement(const MapObject& a, const MapObject& b, const LabelTable& labels);
 
 /** Do two map objects overlap so that they must be one? Two things cannot share their space, but a
  * cup stands within the cuboid of a table with its chairs: only labels a detector takes for each

@@ -49,9 +49,14 @@ struct ObjectView
   std::vector<Edge> edges;  //!< The usable box edges
 
   /** Outward normal of face 0..5 (+x, -x, +y, -y, +z, -z) in the map. */
-  Eigen::Vector3d faceNormal(std::size_t face) const;
+  Eigen::Vector3d faceNormal(std::size_t face) const { return faceNormals()[face]; }
+  std::array<Eigen::Vector3d, kFaces> faceNormals() const;
   /** n . x of the points of that face, n the outward normal [m]. */
-  double faceOffset(std::size_t face) const;
+  double faceOffset(std::size_t face) const { return faceOffset(face, faceNormal(face)); }
+  double faceOffset(std::size_t face, const Eigen::Vector3d& normal) const
+  {
+    return normal.dot(center) + halfSizes[static_cast<Eigen::Index>(face / 2)];
+  }
   /** Both sides of axis 0..2 were measured. */
   bool axisKnown(std::size_t axis) const;
 };

@@ -23,6 +23,7 @@ struct ExistenceOptions
   int minPartial = 8;                  //!< ... or with this many measurements of any kind, >= 1
   double maxCenterSigma = 0.2;         //!< Reported below this uncertainty per axis [m], > 0
 
+  double minLabelShare = 0.5;   //!< ... when this share of the labels agrees with its own, [0, 1]
   double maxSizeDeviation = 3;  //!< Sizes from partial measurements: spreads off the label's, > 0
   double maxSizeSigma = 0.5;    //!< ... and of the logarithm of its sizes below this [-], > 0
 
