@@ -10,6 +10,8 @@ namespace quadmap
 {
 namespace
 {
+constexpr double kGrowth = 1.25;  // of the cells' edge, at a time
+
 /** The points of a frame in the order of its pixels; (0, 0, 0) where there is no depth. */
 struct OrganizedPoints
 {
@@ -117,9 +119,18 @@ void CloudCollector::add(
   while (cells_.size() > maxPoints_) growCells();
 }
 
+void CloudCollector::closeGaps(double largest)
+{
+  constexpr double kSeveral = 8;  // hits of a cell, on average
+  double hits = 0;
+  for (const auto& entry : cells_) hits += static_cast<double>(entry.second.count);
+  while (hits < kSeveral * static_cast<double>(cells_.size()) && cellSize_ * kGrowth <= largest)
+    growCells();
+}
+
 void CloudCollector::growCells()
 {
-  cellSize_ *= 1.4;
+  cellSize_ *= kGrowth;
   Cells coarse;
   for (const auto& entry : cells_)
   {

@@ -3,6 +3,7 @@
 #include <mrpt/core/format.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,6 +28,19 @@ CameraPose cameraOf(const CObservation3DRangeScan& scan, const mrpt::poses::CPos
   return camera;
 }
 
+/** As many pixels of each frame as are worth the time. */
+CloudCollector::Selection selectionOf(
+    const CObservation3DRangeScan& scan, const CloudOptions& options, std::size_t keyframes)
+{
+  constexpr std::size_t kMany = 30;  // then each place is seen often enough
+  const double usefulPixels = keyframes < kMany ? 80e3 : 40e3;
+  const auto pixels = static_cast<double>(scan.rangeImage.rows() * scan.rangeImage.cols());
+  CloudCollector::Selection selection;
+  selection.maxRange = options.maxRange;
+  selection.stride = std::max(1, static_cast<int>(std::lround(std::sqrt(pixels / usefulPixels))));
+  return selection;
+}
+
 }  // namespace
 
 void addKeyframes(
@@ -35,10 +49,6 @@ void addKeyframes(
   SimpleMapReader reader(simpleMapPath);
   CloudCollector collector(options.cellSize, options.maxPoints);
   const std::size_t step = (reader.size() + options.maxKeyframes - 1) / options.maxKeyframes;
-  CloudCollector::Selection selection;
-  selection.maxRange = options.maxRange;
-  constexpr std::size_t kMany = 30;  // then each place is seen often enough
-  selection.stride = reader.size() < kMany ? 2 : 3;
   for (std::size_t i = 0; const auto keyframe = reader.next(); ++i)
   {
     const mrpt::poses::CPose3D T_map_robot = keyframe->pose->getMeanVal();
@@ -51,7 +61,8 @@ void addKeyframes(
       try
       {
         scan->load();  // images that are kept in files of their own
-        if (scan->hasRangeImage) collector.add(*scan, T_map_robot, selection);
+        if (scan->hasRangeImage)
+          collector.add(*scan, T_map_robot, selectionOf(*scan, options, reader.size()));
       }
       catch (const std::exception&)  // its text speaks of the library's insides
       {
@@ -61,6 +72,7 @@ void addKeyframes(
       }
     }
   }
+  collector.closeGaps(options.maxCellSize);
   content.cloud = collector.points();
   content.cloudCellSize = collector.cellSize();
 }

@@ -274,8 +274,8 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::picture(
   constexpr double kOverlap = 1.3;  // a little larger than the gaps: no holes
   const double pixelsPerMetre = PictureSize::kOversampling * size.height / metresPerHeight;
   const double gap = content.cloudCellSize * pixelsPerMetre;  // [px]
-  cloud.around->setPointSize(static_cast<float>(std::clamp(kOverlap * gap, 1.0, 12.0)));
-  cloud.inside->setPointSize(static_cast<float>(std::clamp(0.5 * gap, 1.0, 4.0)));
+  cloud.around->setPointSize(static_cast<float>(std::clamp(kOverlap * gap, 1.0, 40.0)));
+  cloud.inside->setPointSize(static_cast<float>(std::clamp(0.5 * gap, 1.0, 6.0)));
   scene->insert(cloud.around);
   scene->insert(cloud.inside);
 

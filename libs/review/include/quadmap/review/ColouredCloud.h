@@ -32,7 +32,7 @@ class CloudCollector
   struct Selection
   {
     double maxRange = 4.5;  //!< Depth beyond this is left out [m], > 0
-    int stride = 2;         //!< Every n-th row and column of pixels, > 0
+    int stride = 1;         //!< Every n-th row and column of pixels, > 0
   };
 
   /** Adds a frame whose robot stood at `T_map_robot`. The scan's images must be loaded; its
@@ -41,6 +41,10 @@ class CloudCollector
       mrpt::obs::CObservation3DRangeScan& scan,
       const mrpt::poses::CPose3D& T_map_robot,
       const Selection& selection);
+
+  /** Grows the cells until they were hit several times on average, so that surfaces look closed.
+   *  \param largest Cells do not get larger than this [m]. */
+  void closeGaps(double largest);
 
   Cloud points() const;
   double cellSize() const { return cellSize_; }  //!< Now [m]
