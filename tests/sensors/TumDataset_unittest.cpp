@@ -183,6 +183,9 @@ TEST(TumDataset, RejectsBadCalibrations)
   expect(up, "'world_up' must be a finite direction");
   expect("world_up: 3\n" + up.substr(0, up.find("world_up")), "'world_up' must be a matrix");
   expect("fx: [ 1, 2\n\tfoo: }", "is not YAML");
+  expect("fx: 1\nfy\n", "is not YAML as OpenCV writes it (line 4)");
+  expect(" fx: 1\nfy: 1\n", "is not YAML as OpenCV writes it (line 3)");
+  expect("fx: 1\nfx: 1\n", "the key 'fx' stands there twice");
 }
 
 TEST(TumDataset, RejectsMissingAndMalformedLists)

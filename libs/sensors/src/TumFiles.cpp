@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/core.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -122,90 +121,7 @@ std::vector<TumFrame> associate(
   return frames;
 }
 
-/** \exception std::runtime_error If a required key is missing or the value is no finite number. */
-double numberAt(
-    const cv::FileStorage& file,
-    const std::string& path,
-    const std::string& key,
-    std::optional<double> fallback = std::nullopt)
-{
-  const cv::FileNode node = file[key];
-  if (node.empty() && fallback) return *fallback;
-  if (node.empty()) throw std::runtime_error(path + ": the key '" + key + "' is missing");
-  if (!node.isInt() && !node.isReal())
-    throw std::runtime_error(path + ": '" + key + "' is not a number");
-  const double value = static_cast<double>(node);
-  if (!std::isfinite(value)) throw std::runtime_error(path + ": '" + key + "' is not finite");
-  return value;
-}
-
-unsigned pixelsAt(const cv::FileStorage& file, const std::string& path, const std::string& key)
-{
-  constexpr double kMaxPixels = 20000;
-  const double value = numberAt(file, path, key);
-  if (value < 1 || value > kMaxPixels || value != std::floor(value))
-    throw std::runtime_error(mrpt::format(
-        "%s: '%s' is %g: must be a whole number in 1..%g", path.c_str(), key.c_str(), value,
-        kMaxPixels));
-  return static_cast<unsigned>(value);
-}
-
-std::optional<Eigen::Vector3d> upAt(const cv::FileStorage& file, const std::string& path)
-{
-  const cv::FileNode node = file["world_up"];
-  if (node.empty()) return std::nullopt;
-  cv::Mat matrix;
-  if (node.isMap()) node >> matrix;
-  if (matrix.total() != 3 || matrix.channels() != 1)
-    throw std::runtime_error(path + ": 'world_up' must be a matrix of three numbers");
-  matrix.convertTo(matrix, CV_64F);
-  const Eigen::Vector3d up(matrix.ptr<double>()[0], matrix.at<double>(1), matrix.at<double>(2));
-  if (!up.allFinite() || up.norm() < 1e-6)
-    throw std::runtime_error(path + ": 'world_up' must be a finite direction");
-  return up.normalized();
-}
-
-TumCalibration calibrationIn(const cv::FileStorage& file, const std::string& path)
-{
-  TumCalibration calibration;
-  auto& camera = calibration.camera;
-  const double fx = numberAt(file, path, "fx"), fy = numberAt(file, path, "fy");
-  if (fx <= 0) throw std::runtime_error(mrpt::format("%s: fx=%g: must be > 0", path.c_str(), fx));
-  if (fy == 0) throw std::runtime_error(path + ": fy=0: must not be 0");
-  camera.setIntrinsicParamsFromValues(
-      fx, fy, numberAt(file, path, "cx"), numberAt(file, path, "cy"));
-  camera.ncols = pixelsAt(file, path, "width");
-  camera.nrows = pixelsAt(file, path, "height");
-  calibration.depthFactor = numberAt(file, path, "depth_factor");
-  if (calibration.depthFactor <= 0)
-    throw std::runtime_error(
-        mrpt::format("%s: depth_factor=%g: must be > 0", path.c_str(), calibration.depthFactor));
-  const char* const coefficients[] = {"k1", "k2", "p1", "p2", "k3"};  // plumb_bob's order in MRPT
-  for (std::size_t i = 0; i < std::size(coefficients); ++i)
-    camera.dist[i] = numberAt(file, path, coefficients[i], 0.0);
-  const bool distorted =
-      std::any_of(camera.dist.begin(), camera.dist.end(), [](double k) { return k != 0; });
-  camera.distortion =
-      distorted ? mrpt::img::DistortionModel::plumb_bob : mrpt::img::DistortionModel::none;
-  calibration.worldUp = upAt(file, path);
-  return calibration;
-}
 }  // namespace
-
-TumCalibration readTumCalibration(const std::string& path)
-{
-  if (!fs::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
-  try
-  {
-    const cv::FileStorage file(path, cv::FileStorage::READ);
-    if (!file.isOpened()) throw std::runtime_error(path + ": cannot be read");
-    return calibrationIn(file, path);
-  }
-  catch (const cv::Exception& e)
-  {
-    throw std::runtime_error(path + ": is not YAML as OpenCV writes it: " + e.err);
-  }
-}
 
 std::vector<TumFrame> readTumFrames(const std::string& folder, double maxDelay)
 {
