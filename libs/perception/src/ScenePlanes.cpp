@@ -3,6 +3,7 @@
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
+#include <pcl/segmentation/edge_aware_plane_comparator.h>
 #include <pcl/segmentation/organized_multi_plane_segmentation.h>
 
 #include <algorithm>
@@ -41,16 +42,26 @@ PclCloud::Ptr reducedCloud(const DepthCloud& cloud)
   return out;
 }
 
-PclNormals::Ptr normalsOf(const PclCloud::Ptr& cloud)
+using NormalEstimation = pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal>;
+
+void configure(NormalEstimation& estimation, const PclCloud::Ptr& cloud)
 {
-  auto normals = std::make_shared<PclNormals>();
-  pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
   estimation.setNormalEstimationMethod(estimation.COVARIANCE_MATRIX);
   estimation.setMaxDepthChangeFactor(0.03f);
   estimation.setNormalSmoothingSize(8.0f);
   estimation.setInputCloud(cloud);
-  estimation.compute(*normals);
-  return normals;
+}
+
+/** Connects cells of one plane, but not around the edges of objects: smoothed normals turn there
+ * step by step, and planes that leak into each other are lost. */
+pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>::Ptr edgeAwareComparator(
+    NormalEstimation& estimation)
+{
+  auto comparator = pcl::make_shared<pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>>(
+      estimation.getDistanceMap());
+  comparator->setCurvatureThreshold(0.05f);   // a plane at 3 m shows 0.04 by its noise
+  comparator->setDistanceMapThreshold(2.0f);  // cells between a plane and a depth edge
+  return comparator;
 }
 
 /** Share of the cloud's points that lie more than `margin` behind (below) the plane. */
@@ -112,11 +123,15 @@ std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange&
 PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options)
 {
   const auto points = reducedCloud(cloud);
-  const auto normals = normalsOf(points);
+  NormalEstimation estimation;
+  configure(estimation, points);
+  const auto normals = pcl::make_shared<PclNormals>();
+  estimation.compute(*normals);
   const double cells = static_cast<double>(points->size());
 
   pcl::OrganizedMultiPlaneSegmentation<pcl::PointXYZ, pcl::Normal, pcl::Label> segmentation;
   segmentation.setMinInliers(static_cast<unsigned>(std::max(30.0, options.planeMinArea * cells)));
+  segmentation.setComparator(edgeAwareComparator(estimation));
   segmentation.setAngularThreshold(0.10);
   segmentation.setDistanceThreshold(0.03);
   segmentation.setMaximumCurvature(0.02);
