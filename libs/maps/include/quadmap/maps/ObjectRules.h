@@ -22,7 +22,7 @@ struct AgreementOptions
 
 struct MergeOptions
 {
-  double overlap = 0.5;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
+  double overlap = 0.4;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
   double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
   double penetration = 0.6;  //!< Or: centres nearer than this share of both half widths, >= 0
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]

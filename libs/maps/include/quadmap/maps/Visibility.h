@@ -18,7 +18,7 @@ struct ExistenceOptions
   double detectionProbability = 0.5;   //!< pD: of a visible object, per frame, in (0, 1)
   double falseAlarmProbability = 0.1;  //!< pFA: a box where nothing is, in (0, pD)
   double maxLogOdds = 10;              //!< Bound, so that evidence can turn, > 0
-  double confirmLogOdds = 2;           //!< Reported above this
+  double confirmLogOdds = 3;           //!< Reported above this
   int minComplete = 3;                 //!< Reported with this many complete measurements, >= 1
   int minPartial = 8;                  //!< ... or with this many measurements of any kind, >= 1
   double maxCenterSigma = 0.2;         //!< Reported below this uncertainty per axis [m], > 0
