@@ -140,7 +140,13 @@ int run(Cli& cli)
   request.keepGoing = cli.keepGoing.getValue();
   request.configuration = configurationOf(cli);
   request.version = QUADMAP_VERSION;
-  request.verbosity = cli.line.verbosity();
+  const auto verbosity = cli.line.verbosity();
+  request.onMessage = [verbosity](mrpt::system::VerbosityLevel level, const std::string& text)
+  {
+    if (level < verbosity) return;
+    std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "") << text
+              << "\n";
+  };
   request.onProgress = showProgress;
   request.shouldStop = [] { return stopRequested != 0; };
   std::signal(SIGINT, requestStop);

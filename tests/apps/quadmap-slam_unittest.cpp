@@ -56,6 +56,22 @@ class QuadmapSlam : public testing::Test
     return dynamic_cast<CObservationObjects&>(*r.at(3 * frame + 2)).objects.at(0).box;
   }
 
+  /** A robot that stands still for so many frames, 0.1 s apart. */
+  void writeLong(int frames) const
+  {
+    const SyntheticRoom room;
+    const auto pose = room.robotAt(0);
+    const auto scan = room.scanFrom(pose, kStart);
+    const auto boxes = room.boxesOf(*scan, pose);
+    mrpt::io::CFileGZOutputStream stream(folder_.path("x.rawlog"));
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    for (int i = 0; i < frames; ++i)
+    {
+      scan->timestamp = boxes->timestamp = stamp(kStart + 0.1 * i);
+      archive << *samplePose(kStart + 0.1 * i, pose) << *scan << *boxes;
+    }
+  }
+
   /** Fails with one line that has all of `parts`, and writes nothing; with --keep-going it
    * succeeds, says what it left out, and has that many keyframes. */
   void expectProblem(const std::vector<std::string>& parts, std::size_t keyframesLeft) const
@@ -131,6 +147,24 @@ TEST_F(QuadmapSlam, BoxesOfASidecarAndOfANamedFile)
   const auto missing = run("IN -o DIR/c --objects DIR/none.rawlog");
   EXPECT_EQ(missing.status, 1);
   EXPECT_NE(missing.err.find("none.rawlog"), kNotFound) << missing.err;
+}
+
+TEST_F(QuadmapSlam, TellsAsMuchAsAsked)
+{
+  SyntheticRoom room;
+  room.label = "strange thing";
+  write(recordsOf(room, {}));
+  const auto debug = run("IN -o DIR/out -v debug"), info = run("IN -o DIR/out");
+  const auto warn = run("IN -o DIR/out -v warn"), error = run("IN -o DIR/out -v error");
+  EXPECT_NE(debug.err.find("keyframe 5: record 16 (camera), 1 boxes"), kNotFound) << debug.err;
+  EXPECT_FALSE(info.out.empty());
+  for (const auto* r : {&info, &warn})
+  {
+    EXPECT_TRUE(isOneLine(r->err)) << r->err;
+    EXPECT_EQ(r->err.find("quadmap-slam: warning: label \"strange thing\""), 0u) << r->err;
+  }
+  EXPECT_TRUE(warn.out.empty()) << warn.out;
+  EXPECT_TRUE(error.out.empty() && error.err.empty()) << error.out << error.err;
 }
 
 TEST_F(QuadmapSlam, WrongUsage)
@@ -263,22 +297,23 @@ TEST_F(QuadmapSlam, FullDisk)
   EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
 }
 
+TEST_F(QuadmapSlam, MemoryDoesNotGrowWithTheRecording)
+{
+  const auto peak_mb = [&](int frames) -> double
+  {
+    writeLong(frames);
+    EXPECT_EQ(run("IN -o DIR/out --every 1").status, 0);
+    return json::parse(readFile(folder_.path("out/report.json")))["timing"]["peak_memory_mb"];
+  };
+  const double ofShort = peak_mb(50);  // more than the frames that wait for poses
+  // The images of the 200 further frames have 77 MB, compressed 5 MB
+  EXPECT_LT(peak_mb(250), ofShort + 4.0);
+}
+
 TEST_F(QuadmapSlam, CtrlCLeavesValidFilesOfWhatWasDone)
 {
   constexpr int kFrames = 300;  // some seconds of work
-  const SyntheticRoom room;
-  const auto pose = room.robotAt(0);
-  const auto scan = room.scanFrom(pose, kStart);
-  const auto boxes = room.boxesOf(*scan, pose);
-  {
-    mrpt::io::CFileGZOutputStream stream(folder_.path("x.rawlog"));
-    auto archive = mrpt::serialization::archiveFrom(stream);
-    for (int i = 0; i < kFrames; ++i)
-    {
-      scan->timestamp = boxes->timestamp = stamp(kStart + 0.1 * i);
-      archive << *samplePose(kStart + 0.1 * i, pose) << *scan << *boxes;
-    }
-  }
+  writeLong(kFrames);
   const std::string program = std::string(QUADMAP_BIN_DIR) + "/quadmap-slam";
   const std::string in = folder_.path("x.rawlog"), out = folder_.path("out");
   std::vector<const char*> arguments{program.c_str(), in.c_str(), "-o",   out.c_str(),

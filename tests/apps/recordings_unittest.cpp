@@ -104,7 +104,8 @@ TEST(Recordings, SampleRawlogsOfMrpt)
   {
     if (entry.path().extension() != ".rawlog") continue;
     const auto out = quoted(folder.path("out"));
-    const auto result = runProgram("quadmap-slam", quoted(entry.path().string()) + " -o " + out);
+    const auto result =
+        runProgram("quadmap-slam", quoted(entry.path().string()) + " -v error -o " + out);
     EXPECT_EQ(result.status, 1) << entry.path();
     EXPECT_EQ(result.err.find("quadmap-slam: " + entry.path().string() + ": no "), 0u)
         << result.err;

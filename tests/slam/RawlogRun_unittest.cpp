@@ -29,7 +29,6 @@ class RawlogRun : public testing::Test
     request.rawlog = rawlog;
     request.outputDirectory = folder_.path(out);
     request.configuration.keyframes.every = 1;
-    request.verbosity = mrpt::system::LVL_ERROR;
     return request;
   }
   std::string recording(const SyntheticRecording& r = {}, const SyntheticRoom& room = {}) const
@@ -112,7 +111,11 @@ TEST_F(RawlogRun, ReportSaysWhatHappened)
   room.label = "strange thing";
   auto request = requestFor(recording({}, room));
   request.version = "1.2.3";
+  std::map<mrpt::system::VerbosityLevel, unsigned> messages;
+  request.onMessage = [&](auto level, const std::string&) { ++messages[level]; };
   runOnRawlog(request);
+  EXPECT_EQ(messages[mrpt::system::LVL_DEBUG], 6u) << "one for each keyframe";
+  EXPECT_EQ(messages[mrpt::system::LVL_WARN], 1u);
   const json r = report();
   EXPECT_EQ(r["version"], "1.2.3");
   EXPECT_EQ(r["input"]["frames"], 6);

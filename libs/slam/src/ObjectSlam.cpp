@@ -108,6 +108,10 @@ bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robo
   if (boxes) insertIntoMap(*boxes, T_map_robot);
   if (!frame.objects) ++result_.counts.keyframesWithoutBoxes;
   if (!hasDepth(*frame.scan)) ++result_.counts.keyframesWithoutDepth;
+  MRPT_LOG_DEBUG_FMT(
+      "keyframe %zu: record %zu (%s), %zu boxes, %zu objects in the map", result_.keyframes.size(),
+      frame.record, frame.scan->sensorLabel.c_str(), boxes ? boxes->objects.size() : 0,
+      result_.map.objects().size());
   result_.keyframes.push_back({frame.record, frame.time(), T_map_robot, T_map_robot});
   return true;
 }

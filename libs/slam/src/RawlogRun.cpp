@@ -1,6 +1,7 @@
 #include "quadmap/slam/RawlogRun.h"
 
 #include <filesystem>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "quadmap/obs/LabelTable.h"
@@ -50,10 +51,18 @@ class RawlogRun
       spool_(request.outputDirectory),
       slam_(request.configuration, LabelTable::installed(), spool_)
   {
-    slam_.setMinLoggingLevel(request.verbosity);
-    source_.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    using mrpt::system::VerbosityLevel;
+    for (mrpt::system::COutputLogger* logger :
+         std::initializer_list<mrpt::system::COutputLogger*>{&slam_, &source_})
+    {
+      logger->logging_enable_console_output = false;
+      logger->setMinLoggingLevel(mrpt::system::LVL_DEBUG);
+    }
+    slam_.logRegisterCallback(
+        [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
+        { request_.onMessage(level, std::string(text)); });
     source_.logRegisterCallback(
-        [this](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
+        [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
         {
           if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
         });

@@ -21,8 +21,10 @@ struct RawlogRunRequest
   bool keepGoing = false;       //!< Leave out what is broken instead of failing
   SlamConfiguration configuration;
   std::string version;  //!< Of the program, for the report
-  mrpt::system::VerbosityLevel verbosity = mrpt::system::LVL_INFO;
 
+  /** What is worth telling while it runs: warnings, and each keyframe as LVL_DEBUG. */
+  std::function<void(mrpt::system::VerbosityLevel, const std::string&)> onMessage =
+      [](mrpt::system::VerbosityLevel, const std::string&) {};
   std::function<void(double)> onProgress = [](double) {};   //!< Share of the rawlog, in [0, 1]
   std::function<bool()> shouldStop = [] { return false; };  //!< Asked before every frame
 };
