@@ -137,6 +137,7 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
 }
 
 void CQuadricObjectMap::serializeFrom(CArchive& in, std::uint8_t version)
+try
 {
   if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   internal_clear();
@@ -158,6 +159,11 @@ void CQuadricObjectMap::serializeFrom(CArchive& in, std::uint8_t version)
     const auto instance = readScalar<std::uint32_t>(in);
     objectOfInstance_[instance] = readScalar<ObjectId>(in);
   }
+}
+catch (...)
+{
+  internal_clear();  // half a map is none
+  throw;
 }
 
 }  // namespace quadmap
