@@ -3,34 +3,23 @@
 include(CMakePackageConfigHelpers)
 set(configDir ${CMAKE_INSTALL_LIBDIR}/cmake/quadmap)
 
-# quadmap_package_of(<link item> <output variable>): the find_dependency() arguments that define the
-# target; empty for plain libraries.
+# quadmap_package_of(<target> <output variable>): the package that defines the target.
 function(quadmap_package_of item output)
-  set(package "")
   if(item MATCHES "^mrpt::(.+)$")
     set(package mrpt-${CMAKE_MATCH_1})
-  elseif(item MATCHES "^(Eigen3|nlohmann_json|Threads|ZLIB)::")
+  elseif(item MATCHES "^([^:]+)::")
     set(package ${CMAKE_MATCH_1})
-  elseif(item MATCHES "^[Cc]eres")
-    set(package Ceres)
-  elseif(item MATCHES "^opencv_")
-    set(package OpenCV)
-  elseif(item MATCHES "^pcl_(.+)$")
-    set(package "PCL COMPONENTS ${CMAKE_MATCH_1}")
+  else()
+    message(FATAL_ERROR "${item} in the interface of a library: which package has it?")
   endif()
   set(${output} ${package} PARENT_SCOPE)
 endfunction()
 
-# What users of each component need: the dependencies that its headers name, and, where there is no
-# shared library to bring them along, the others too.
+# What users of each component need: the dependencies that its headers name.
 set(QUADMAP_COMPONENT_DEPENDENCIES "")
 get_property(components GLOBAL PROPERTY QUADMAP_COMPONENTS)
 foreach(component IN LISTS components)
   get_property(items GLOBAL PROPERTY QUADMAP_PUBLIC_${component})
-  if(NOT BUILD_SHARED_LIBS)
-    get_property(private GLOBAL PROPERTY QUADMAP_PRIVATE_${component})
-    list(APPEND items ${private})
-  endif()
   set(below "")
   set(packages "")
   foreach(item IN LISTS items)

@@ -39,10 +39,11 @@ function(quadmap_precompile target)
 endfunction()
 
 # quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILE ...): target quadmap::<name>,
-# file libquadmap-<name>.so, headers in include/quadmap/<name>, component <name> of the package.
+# file libquadmap-<name>.so (shared: programs of MRPT load them as plug-ins), headers in
+# include/quadmap/<name>, component <name> of the package.
 function(quadmap_add_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
-  add_library(quadmap_${name} ${arg_SOURCES})
+  add_library(quadmap_${name} SHARED ${arg_SOURCES})
   add_library(quadmap::${name} ALIAS quadmap_${name})
   set_target_properties(quadmap_${name} PROPERTIES
     OUTPUT_NAME quadmap-${name} EXPORT_NAME ${name}
@@ -56,12 +57,11 @@ function(quadmap_add_library name)
   endif()
   quadmap_target_options(quadmap_${name})
   install(TARGETS quadmap_${name} EXPORT quadmap-${name}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
   set_property(GLOBAL APPEND PROPERTY QUADMAP_COMPONENTS ${name})
   set_property(GLOBAL PROPERTY QUADMAP_PUBLIC_${name} ${arg_PUBLIC})
-  set_property(GLOBAL PROPERTY QUADMAP_PRIVATE_${name} ${arg_PRIVATE})
 endfunction()
 
 add_custom_target(programs)  # all of them, without the tests
