@@ -160,7 +160,7 @@ float paleColor(std::uint8_t value, double paleness)
  * stands on does not. */
 bool isInside(const Eigen::Vector3d& p_map, const std::vector<ObjectRecord>& objects)
 {
-  constexpr double kNoise = 0.04;  // [m]
+  constexpr double kNoise = 0.06;  // [m]
   return std::any_of(
       objects.begin(), objects.end(),
       [&](const ObjectRecord& record)

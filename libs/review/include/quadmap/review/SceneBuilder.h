@@ -17,7 +17,7 @@ struct SceneOptions
   double lineRadius = 0.008;          //!< Half the width of a scene's lines [m], > 0
   double pictureLineRadius = 0.0018;  //!< The same in pictures, as a part of their height, > 0
   double cloudMargin = 1.0;           //!< The cloud is drawn this far around the rest [m], >= 0
-  double cloudPaleness = 0.35;        //!< Share of white in the cloud's colours, in [0, 1]
+  double cloudPaleness = 0.45;        //!< Share of white in the cloud's colours, in [0, 1]
   unsigned insideThinning = 4;        //!< One in so many of the cloud's points on objects, > 0
   double cameraLength = 0.18;         //!< Of the pyramids [m], > 0
   unsigned shownCameras = 12;         //!< Pyramids, spread evenly over the keyframes
