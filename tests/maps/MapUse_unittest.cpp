@@ -1,0 +1,264 @@
+#include <gtest/gtest.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/opengl/CBox.h>
+#include <mrpt/opengl/CEllipsoid3D.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/CText3D.h>
+#include <mrpt/tfest/TMatchingPair.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "ObjectMapFixture.h"
+
+using namespace quadmap;
+using namespace quadmap::testing;
+
+namespace
+{
+std::filesystem::path temporaryFolder()
+{
+  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto folder =
+      std::filesystem::path(::testing::TempDir()) / (std::string("quadmap_maps_") + info->name());
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+}  // namespace
+
+// Queries and editing --------------------------------------------------------------------------
+
+TEST(MapQueries, FindObjects)
+{
+  const CQuadricObjectMap map = smallMap();
+  ASSERT_EQ(map.confirmedObjects().size(), 2u);
+  EXPECT_EQ(map.withLabel("tvmonitor").size(), 1u) << "any spelling";
+  EXPECT_TRUE(map.withLabel("cat").empty());
+  EXPECT_EQ(map.inRegion({-0.5, -0.5, 0}, {0.5, 0.5, 1}).size(), 1u);
+  EXPECT_EQ(map.inRegion({-5, -5, 0}, {5, 5, 2}).size(), 2u);
+  EXPECT_EQ(map.nearest({1, 1, 1})->label(), "tv");
+  EXPECT_EQ(map.nearest({1, 1, 1}, "suitcase")->label(), "suitcase");
+  EXPECT_FALSE(map.nearest({0, 0, 0}, "cat"));
+  EXPECT_FALSE(map.find(99));
+  EXPECT_FALSE(CQuadricObjectMap().nearest({0, 0, 0}));
+  EXPECT_NE(map.asString().find("suitcase"), std::string::npos);
+}
+
+TEST(MapQueries, FootprintIsTheOutlineCounterClockwise)
+{
+  const CQuadricObjectMap map = smallMap();
+  const auto* object = map.nearest({0, 0, 0.3}, "suitcase");
+  const auto outline = map.footprint(object->id);
+  ASSERT_EQ(outline.size(), 4u);
+  double area = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const auto &p = outline[i], &q = outline[(i + 1) % 4];
+    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
+  }
+  const Eigen::Vector3d s = object->object.semiAxes();
+  EXPECT_NEAR(area, 4 * s.x() * s.y(), 1e-9) << "positive: counter-clockwise";
+  EXPECT_THROW(map.footprint(99), std::out_of_range);
+}
+
+TEST(MapEditing, MergeRelabelRemove)
+{
+  CQuadricObjectMap map = smallMap();
+  const ObjectId suitcase = map.nearest({0, 0, 0.3}, "suitcase")->id;
+  const ObjectId tv = map.nearest({1, 1, 1}, "tv")->id;
+  map.relabel(suitcase, "Cabinet");
+  EXPECT_EQ(map.find(suitcase)->label(), map.labels().canonical("Cabinet"));
+  const unsigned before = map.find(suitcase)->observations() + map.find(tv)->observations();
+  map.merge(suitcase, tv);
+  EXPECT_EQ(map.objects().size(), 1u);
+  EXPECT_EQ(map.find(suitcase)->observations(), before);
+  map.remove(suitcase);
+  EXPECT_TRUE(map.isEmpty());
+  EXPECT_THROW(map.remove(suitcase), std::out_of_range);
+  EXPECT_THROW(map.relabel(suitcase, "x"), std::out_of_range);
+  EXPECT_THROW(map.merge(suitcase, tv), std::out_of_range);
+}
+
+TEST(MapEditing, AnObjectCannotSwallowItself)
+{
+  CQuadricObjectMap map = smallMap();
+  const ObjectId id = map.objects().begin()->first;
+  EXPECT_THROW(map.merge(id, id), std::out_of_range);
+  EXPECT_EQ(map.objects().size(), 2u);
+}
+
+// Matching -------------------------------------------------------------------------------------
+
+TEST(MapMatching, PairsAMovedMap)
+{
+  const CQuadricObjectMap here = smallMap();
+  CQuadricObjectMap there;
+  SyntheticCamera camera(42);
+  const mrpt::poses::CPose3D T_here_there(1.0, -0.5, 0, 0.6, 0, 0);
+  std::vector<TrueObject> moved = {
+      cuboid("suitcase", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4),
+      cuboid("tv", {0.9, 0.8, 0.9}, {0.8, 0.1, 0.5}, 0.2)};
+  for (auto& o : moved) o.object = o.object.transformed(-T_here_there);
+  walkAround(there, camera, moved, 24);
+
+  mrpt::tfest::TMatchingPairList pairs;
+  mrpt::maps::TMatchingParams params;
+  mrpt::maps::TMatchingExtraResults extra;
+  params.maxDistForCorrespondence = 0.2f;
+  here.determineMatching3D(&there, T_here_there, pairs, params, extra);
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_FLOAT_EQ(extra.correspondencesRatio, 1.0f);
+  for (const auto& pair : pairs)
+    EXPECT_EQ(here.find(pair.globalIdx)->label(), there.find(pair.localIdx)->label());
+
+  mrpt::maps::TMatchingRatioParams ratio;
+  EXPECT_FLOAT_EQ(here.compute3DMatchingRatio(&there, T_here_there, ratio), 1.0f);
+  EXPECT_FLOAT_EQ(here.compute3DMatchingRatio(&there, {}, ratio), 0.0f);
+  const mrpt::maps::CMultiMetricMap other;
+  EXPECT_FLOAT_EQ(here.compute3DMatchingRatio(&other, {}, ratio), 0.0f);
+  EXPECT_THROW(here.determineMatching3D(&other, {}, pairs, params, extra), std::invalid_argument);
+}
+
+// Likelihood -----------------------------------------------------------------------------------
+
+TEST(MapLikelihood, PeaksAtTheTruePose)
+{
+  CQuadricObjectMap map;
+  SyntheticCamera camera(1);
+  walkAround(map, camera, kitchen(), 40, {0, 0, 0.5}, 2.8);
+  for (const double partial : {0.0, 1.0})
+  {
+    camera.disturbances.partialProbability = partial;
+    const auto T = SyntheticCamera::lookAt({2.5, 1.0, 1.5}, {0, 0, 0.5});
+    const auto obs = camera.observe(T, kitchen());
+    ASSERT_TRUE(map.canComputeObservationLikelihood(obs));
+    const double best = map.computeObservationLikelihood(obs, T);
+    for (const double step : {-1.0, -0.5, -0.25, 0.25, 0.5, 1.0})
+    {
+      EXPECT_LT(
+          map.computeObservationLikelihood(obs, mrpt::poses::CPose3D(step, 0, 0, 0, 0, 0) + T),
+          best);
+      EXPECT_LT(
+          map.computeObservationLikelihood(obs, mrpt::poses::CPose3D(0, step, 0, 0, 0, 0) + T),
+          best);
+      const mrpt::poses::CPose3D turned(T.x(), T.y(), T.z(), T.yaw() + 0.5 * step, T.pitch(), 0);
+      EXPECT_LT(map.computeObservationLikelihood(obs, turned), best) << step << " yaw";
+    }
+  }
+}
+
+TEST(MapLikelihood, LocalisesByImportanceSampling)
+{
+  // What a particle filter does in one step: weight poses in a room, take the mean.
+  CQuadricObjectMap map;
+  SyntheticCamera camera(2);
+  walkAround(map, camera, kitchen(), 40, {0, 0, 0.5}, 2.8);
+  const auto T = SyntheticCamera::lookAt({2.5, 1.0, 1.5}, {0, 0, 0.5});
+  const auto obs = camera.observe(T, kitchen());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> around(-1, 1);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (int i = 0; i < 4000; ++i)
+  {
+    const mrpt::poses::CPose3D sample(
+        T.x() + 1.5 * around(random), T.y() + 1.5 * around(random), T.z(),
+        T.yaw() + 0.5 * around(random), T.pitch(), 0);
+    const double weight = std::exp(map.computeObservationLikelihood(obs, sample));
+    mean += weight * Eigen::Vector3d(sample.x(), sample.y(), sample.yaw());
+    total += weight;
+  }
+  mean /= total;
+  EXPECT_NEAR(mean.x(), T.x(), 0.15);
+  EXPECT_NEAR(mean.y(), T.y(), 0.15);
+  EXPECT_NEAR(mean.z(), T.yaw(), 0.08);
+}
+
+TEST(MapLikelihood, SaysWhatItCannotCompute)
+{
+  const CQuadricObjectMap map = smallMap();
+  EXPECT_FALSE(map.canComputeObservationLikelihood(mrpt::obs::CObservation3DRangeScan()));
+  EXPECT_FALSE(map.canComputeObservationLikelihood(CObservationObjects()));
+  CObservationObjects unmeasured;
+  unmeasured.objects.emplace_back();
+  EXPECT_FALSE(map.canComputeObservationLikelihood(unmeasured));
+}
+
+// Drawing and files ----------------------------------------------------------------------------
+
+TEST(MapDrawing, DrawsCuboidEllipsoidAndName)
+{
+  CQuadricObjectMap map = smallMap();
+  mrpt::opengl::CSetOfObjects scene;
+  map.getVisualizationInto(scene);
+  unsigned boxes = 0, ellipsoids = 0, texts = 0;
+  for (const auto& o : scene)
+  {
+    if (const auto box = std::dynamic_pointer_cast<mrpt::opengl::CBox>(o))
+    {
+      mrpt::math::TPoint3D lower, upper;
+      box->getBoxCorners(lower, upper);
+      const auto* object = map.nearest({box->getPoseX(), box->getPoseY(), box->getPoseZ()});
+      EXPECT_NEAR(upper.x - lower.x, 2 * object->object.semiAxes().x(), 1e-6);
+      ++boxes;
+    }
+    if (const auto e = std::dynamic_pointer_cast<mrpt::opengl::CEllipsoid3D>(o))
+    {
+      EXPECT_EQ(e->getCovMatrix()(0, 1), 0) << "off-diagonal terms are drawn wrongly";
+      ++ellipsoids;
+    }
+    if (std::dynamic_pointer_cast<mrpt::opengl::CText3D>(o)) ++texts;
+  }
+  EXPECT_EQ(boxes, 2u);
+  EXPECT_EQ(ellipsoids, 2u);
+  EXPECT_EQ(texts, 2u);
+
+  map.renderOptions.labels = map.renderOptions.ellipsoids = false;
+  mrpt::opengl::CSetOfObjects plain;
+  map.getVisualizationInto(plain);
+  EXPECT_EQ(std::distance(plain.begin(), plain.end()), 2);
+  map.renderOptions.cuboids = false;
+  map.genericMapParams.enableSaveAs3DObject = false;
+  mrpt::opengl::CSetOfObjects nothing;
+  map.getVisualizationInto(nothing);
+  EXPECT_EQ(nothing.begin(), nothing.end());
+}
+
+TEST(MapDrawing, UnconfirmedObjectsOnRequest)
+{
+  CQuadricObjectMap map;
+  SyntheticCamera camera(1);
+  map.insertObservation(camera.observe({}, {cuboid("suitcase", {2, 0, 0}, {0.4, 0.4, 0.4}, 0)}));
+  ASSERT_TRUE(map.confirmedObjects().empty());
+  mrpt::opengl::CSetOfObjects hidden, shown;
+  map.getVisualizationInto(hidden);
+  map.renderOptions.unconfirmed = true;
+  map.getVisualizationInto(shown);
+  EXPECT_EQ(hidden.begin(), hidden.end());
+  EXPECT_NE(shown.begin(), shown.end());
+}
+
+TEST(MapFiles, RepresentationReadsBack)
+{
+  const CQuadricObjectMap map = smallMap();
+  const std::string prefix = (temporaryFolder() / "map").string();
+  map.saveMetricMapRepresentationToFile(prefix);
+  const auto records = readObjectsJson(prefix + ".json");
+  ASSERT_EQ(records.size(), 2u);
+  for (const auto& r : records)
+  {
+    const auto* object = map.find(static_cast<ObjectId>(std::stoul(r.id)));
+    ASSERT_TRUE(object);
+    EXPECT_EQ(r.label, object->label());
+    EXPECT_LT((r.object.center() - object->object.center()).norm(), 1e-6);
+    EXPECT_EQ(r.observations, object->observations());
+  }
+  mrpt::opengl::COpenGLScene scene;
+  EXPECT_TRUE(scene.loadFromFile(prefix + ".3Dscene"));
+  EXPECT_GT(std::filesystem::file_size(prefix + ".txt"), 20u);
+  EXPECT_ANY_THROW(map.saveMetricMapRepresentationToFile("/nowhere/map"));
+}
