@@ -3,7 +3,6 @@
 #include <mrpt/core/format.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/serialization/CArchive.h>
-#include <mrpt/serialization/stl_serialization.h>
 
 #include <cmath>
 #include <ostream>
