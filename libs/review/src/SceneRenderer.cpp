@@ -3,7 +3,9 @@
 #include <mrpt/core/format.h>
 #include <mrpt/opengl/CFBORender.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "quadmap/obs/OutputFile.h"
 
@@ -65,8 +67,16 @@ mrpt::img::CImage SceneRenderer::render(mrpt::opengl::COpenGLScene& scene, const
 void writePicture(const mrpt::img::CImage& picture, const std::string& path)
 {
   OutputFile output(path);
-  if (!picture.saveToFile(output.temporaryPath()))
-    throw std::runtime_error(path + ": the picture cannot be written");
+  const std::vector<int> smallest = {cv::IMWRITE_PNG_COMPRESSION, 9};  // MRPT has no such option
+  bool written = false;
+  try
+  {
+    written = cv::imwrite(output.temporaryPath(), picture.asCvMatRef(), smallest);
+  }
+  catch (const cv::Exception&)  // an extension it does not know
+  {
+  }
+  if (!written) throw std::runtime_error(path + ": the picture cannot be written");
   output.commit();
 }
 
