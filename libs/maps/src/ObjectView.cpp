@@ -148,6 +148,12 @@ std::array<Eigen::Vector3d, kFaces> ObjectView::faceNormals() const
   return {x, -x, y, -y, z, -z};
 }
 
+bool ObjectView::allSidesKnown() const
+{
+  return std::all_of(
+      faces.begin(), faces.end() - 1, [](const auto& f) { return isEquality(f.kind); });
+}
+
 bool ObjectView::axisKnown(std::size_t axis) const
 {
   return isEquality(faces[2 * axis].kind) && isEquality(faces[2 * axis + 1].kind);

@@ -129,7 +129,7 @@ void addViewResiduals(
     const double yaw = nearestEquivalentYaw(view.yaw, x[3]);
     eq.add((x[3] - yaw) / view.yawSigma, J, options.huber, weight);
   }
-  if (!view.complete || options.edgesOfComplete)
+  if (!view.complete || (options.edgesOfComplete && !view.allSidesKnown()))
     addEdges(view, object, shapeExponent, options, weight, eq);
   if (!view.complete)
   {

@@ -12,11 +12,12 @@ namespace quadmap
 {
 struct EstimatorOptions
 {
-  int maxMeasurements = 150;     //!< Older ones are folded into a Gaussian prior, >= 3
-  int maxIterations = 25;        //!< Of the optimiser, >= 1
-  double huber = 1.5;            //!< Residuals beyond this many sigmas lose weight, > 0
-  double edgeFloor = 0.01;       //!< Added to the sigma of every box edge [m], >= 0
-  bool edgesOfComplete = true;   //!< Use the box edges of complete measurements too
+  int maxMeasurements = 150;  //!< Older ones are folded into a Gaussian prior, >= 3
+  int maxIterations = 25;     //!< Of the optimiser, >= 1
+  double huber = 1.5;         //!< Residuals beyond this many sigmas lose weight, > 0
+  double edgeFloor = 0.01;    //!< Added to the sigma of every box edge [m], >= 0
+  bool edgesOfComplete =
+      true;  //!< Use the box edges of complete measurements with unseen sides too
   double roundnessSigma = 0.1;   //!< Of ln(a/b) for labels without dominant direction [-], > 0
   double sizePriorSpread = 1.0;  //!< Factor on the label table's spread of sizes, > 0
 };

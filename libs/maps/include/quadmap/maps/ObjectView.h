@@ -59,6 +59,9 @@ struct ObjectView
   }
   /** Both sides of axis 0..2 were measured. */
   bool axisKnown(std::size_t axis) const;
+  /** The four side faces and the top were measured: box edges, loose as detectors are, add nothing.
+   */
+  bool allSidesKnown() const;
 };
 
 /** A detected object's measurement in the map; nothing when it is not usable (no measurement, or a

@@ -25,7 +25,7 @@ struct ExistenceOptions
 
   double minLabelShare = 0.5;   //!< ... when this share of the labels agrees with its own, [0, 1]
   double maxSizeDeviation = 3;  //!< Sizes from partial measurements: spreads off the label's, > 0
-  double maxSizeSigma = 0.5;    //!< ... and of the logarithm of its sizes below this [-], > 0
+  double maxSizeSigma = 0.5;    //!< ... and the uncertainty of its half sizes below this [m], > 0
 
   double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
   double minBoxSize = 30;                 //!< Both sides of the projected box [px]
