@@ -204,11 +204,12 @@ void CQuadricObjectMap::addView(MapObject& object, const WaitingList::Entry& ent
   ++object.labelCounts[entry.view.label];
   ++(entry.view.complete ? object.completeCount : object.partialCount);
   object.lastSeen = entry.time;
-  object.existenceLogOdds = std::min(
-      existence.maxLogOdds,
-      object.existenceLogOdds +
-          std::log(existence.detectionProbability / existence.falseAlarmProbability));
-  estimators_.at(object.id).add(
+  ObjectEstimator& estimator = estimators_.at(object.id);
+  const double hit = std::log(existence.detectionProbability / existence.falseAlarmProbability);
+  const double novelty =
+      viewNovelty(entry.view.camera, entry.view.center, estimator.views(), existence);
+  object.existenceLogOdds = std::min(existence.maxLogOdds, object.existenceLogOdds + novelty * hit);
+  estimator.add(
       entry.view, uprightStateOf(object.object), labels_->properties(object.label()),
       insertionOptions.estimator);
 }

@@ -43,6 +43,8 @@ void visitInsertion(Visitor& v, Options& o)
   v.degrees("poseAngleSigma_deg", o.poseNoise.angle, 0, 90);
   v.number("detectionProbability", o.existence.detectionProbability, 0.001, 0.999);
   v.number("falseAlarmProbability", o.existence.falseAlarmProbability, 0.0001, 0.999);
+  v.degrees("independentViewAngle_deg", o.existence.independentViewAngle, 0.001, 180);
+  v.number("repeatedViewWeight", o.existence.repeatedViewWeight, kSmall, 1);
   v.number("maxLogOdds", o.existence.maxLogOdds, kSmall, 1000);
   v.number("confirmLogOdds", o.existence.confirmLogOdds, -1000, 1000);
   v.integer("minComplete", o.existence.minComplete, 1, 1000000);

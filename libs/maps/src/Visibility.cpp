@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "quadmap/geometry/Projection.h"
 
@@ -54,6 +55,18 @@ bool shouldBeVisible(
 
   return hiddenShare(*frame.depth, frame.camera, inside, nearestDepth - options.occluderMargin) <=
          options.maxHiddenShare;
+}
+
+double viewNovelty(
+    const Eigen::Vector3d& camera,
+    const Eigen::Vector3d& center,
+    const std::deque<ObjectView>& earlier,
+    const ExistenceOptions& options)
+{
+  double moved = std::numeric_limits<double>::infinity();
+  for (const auto& view : earlier) moved = std::min(moved, (view.camera - camera).norm());
+  const double independent = options.independentViewAngle * (center - camera).norm();
+  return std::clamp(moved / independent, options.repeatedViewWeight, 1.0);
 }
 
 std::optional<ImageBox> projectedBox(
