@@ -154,7 +154,7 @@ int run(Cli& cli)
 
   RawlogRunSummary summary = runOnRawlog(request);
   summary.files.push_back(writeSceneOf(summary.result, request.outputDirectory));
-  printSummary(summary);
+  if (verbosity <= mrpt::system::LVL_INFO) printSummary(summary);
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;
   std::cerr << "quadmap-slam: interrupted, the files hold what was done\n";
