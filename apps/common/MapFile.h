@@ -1,7 +1,6 @@
 #pragma once
 
 #include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <filesystem>
@@ -9,7 +8,7 @@
 #include <string>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/obs/GzipStream.h"
 
 namespace quadmap
 {
@@ -41,14 +40,7 @@ inline CQuadricObjectMap::Ptr readMapFile(const std::string& path)
 /** Writes a map, complete or not at all. \exception std::runtime_error Names the file. */
 inline void writeMapFile(const std::string& path, const CQuadricObjectMap& map)
 {
-  OutputFile output(path);
-  {
-    mrpt::io::CFileGZOutputStream file;
-    if (!file.open(output.temporaryPath())) throw std::runtime_error(path + ": cannot be written");
-    auto archive = mrpt::serialization::archiveFrom(file);
-    archive << map;
-  }
-  output.commit();
+  writeArchive(path, map);
 }
 
 }  // namespace quadmap

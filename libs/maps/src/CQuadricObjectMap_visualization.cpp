@@ -7,9 +7,8 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CText3D.h>
 
-#include <stdexcept>
-
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/obs/GzipStream.h"
 #include "quadmap/obs/OutputFile.h"
 
 namespace quadmap
@@ -101,10 +100,7 @@ void CQuadricObjectMap::saveMetricMapRepresentationToFile(const std::string& pre
   auto objects = mrpt::opengl::CSetOfObjects::Create();
   getVisualizationInto(*objects);
   scene.insert(objects);
-  OutputFile file(prefix + ".3Dscene");
-  if (!scene.saveToFile(file.temporaryPath()))
-    throw std::runtime_error("cannot write " + file.finalPath());
-  file.commit();
+  writeArchive(prefix + ".3Dscene", scene);
 }
 
 }  // namespace quadmap

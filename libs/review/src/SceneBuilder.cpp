@@ -9,11 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "LabelLayout.h"
 #include "Mesh.h"
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/obs/GzipStream.h"
 #include "quadmap/review/LabelColor.h"
 
 namespace quadmap
@@ -287,10 +286,7 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::picture(
 
 void writeScene(const mrpt::opengl::COpenGLScene& scene, const std::string& path)
 {
-  OutputFile output(path);
-  if (!scene.saveToFile(output.temporaryPath()))
-    throw std::runtime_error(path + ": the scene cannot be written");
-  output.commit();
+  writeArchive(path, scene);
 }
 
 }  // namespace quadmap

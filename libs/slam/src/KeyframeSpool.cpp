@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "quadmap/slam/GzipStream.h"
+#include "quadmap/obs/GzipStream.h"
 
 namespace quadmap
 {

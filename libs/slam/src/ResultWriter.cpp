@@ -3,9 +3,9 @@
 #include <functional>
 #include <utility>
 
+#include "quadmap/obs/GzipStream.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/obs/Trajectory.h"
-#include "quadmap/slam/GzipStream.h"
 #include "quadmap/slam/PoseGraphWriter.h"
 #include "quadmap/slam/SimpleMapWriter.h"
 

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "quadmap/slam/GzipStream.h"
+#include "quadmap/obs/GzipStream.h"
 
 namespace quadmap
 {

@@ -1,4 +1,4 @@
-#include "quadmap/slam/GzipStream.h"
+#include "quadmap/obs/GzipStream.h"
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
