@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "../obs/FileSizeLimit.h"
 #include "../review/SampleScene.h"
 #include "RunProgram.h"
 #include "SampleMap.h"
@@ -182,6 +183,19 @@ TEST_F(QuadmapExport, NamesTheFileItCannotWrite)
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
     EXPECT_NE(result.err.find("/nonexistent/x"), kNotFound) << result.err;
   }
+}
+
+TEST_F(QuadmapExport, FullDiskLeavesNoTruncatedScene)
+{
+  ASSERT_EQ(run("DIR --scene DIR/whole.3Dscene").status, 0);
+  const auto size = std::filesystem::file_size(folder_.path("whole.3Dscene"));
+  const auto files = folder_.fileCount();
+  const FileSizeLimit limit(size - 1);  // the very last byte fails
+  const auto result = run("DIR --scene DIR/s.3Dscene");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("s.3Dscene: cannot be written: "), kNotFound) << result.err;
+  EXPECT_EQ(folder_.fileCount(), files);
 }
 
 TEST_F(QuadmapExport, AnswersWrongUsageWithStatus2AndOneLine)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "../obs/FileSizeLimit.h"
 #include "RunProgram.h"
 #include "SampleMap.h"
 
@@ -128,6 +129,21 @@ TEST_F(QuadmapMap, ChangesAMapInPlace)
   ASSERT_EQ(run("remove MAP" + option("id", "couch") + " -o MAP").status, 0);
   EXPECT_EQ(readMapFile(folder_.path("objects.quadmap"))->confirmedObjects().size(), 2u);
   EXPECT_EQ(folder_.fileCount(), 1u);
+}
+
+TEST_F(QuadmapMap, FullDiskKeepsTheOldMap)
+{
+  const std::string before = readFile(folder_.path("objects.quadmap"));
+  for (const std::size_t bytes : {before.size() / 2, before.size() - 100})
+  {
+    const FileSizeLimit limit(bytes);
+    const auto result = run("relabel MAP" + option("id", "chair") + " --label bench -o MAP");
+    EXPECT_EQ(result.status, 1) << bytes;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("objects.quadmap: cannot be written: "), kNotFound) << result.err;
+    EXPECT_TRUE(readFile(folder_.path("objects.quadmap")) == before) << bytes;
+    EXPECT_EQ(folder_.fileCount(), 1u) << "no temporary file is left";
+  }
 }
 
 TEST_F(QuadmapMap, NamesTheFileItCannotRead)

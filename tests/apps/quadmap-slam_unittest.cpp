@@ -297,6 +297,21 @@ TEST_F(QuadmapSlam, FullDisk)
   EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
 }
 
+TEST_F(QuadmapSlam, FullDiskLeavesNoTruncatedScene)
+{
+  write(records());
+  ASSERT_EQ(run("IN -o DIR/whole --every 1").status, 0);
+  const auto size = std::filesystem::file_size(folder_.path("whole/scene.3Dscene"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path("whole")))
+    ASSERT_LE(entry.file_size(), size) << entry.path() << ": the scene is to be the largest";
+  const FileSizeLimit limit(size - 1);  // the very last byte fails
+  const auto result = run("IN -o DIR/out --every 1");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("scene.3Dscene: cannot be written: "), kNotFound) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out/scene.3Dscene")));
+}
+
 TEST_F(QuadmapSlam, MemoryDoesNotGrowWithTheRecording)
 {
   const auto peak_mb = [&](int frames) -> double

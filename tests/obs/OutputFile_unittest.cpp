@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <csignal>
-
+#include "FileSizeLimit.h"
 #include "TemporaryFolder.h"
 
 using namespace quadmap;
@@ -15,27 +13,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/** While it lives, no file can grow beyond a size: writes fail as on a full disk. */
-class FileSizeLimit
-{
- public:
-  explicit FileSizeLimit(rlim_t bytes)
-  {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limited{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  ~FileSizeLimit()
-  {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
-};
 /** A disk of a given size, where mounting one is allowed. */
 class SmallDisk
 {

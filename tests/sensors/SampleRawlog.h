@@ -7,14 +7,13 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "../obs/FileSizeLimit.h"
 #include "../obs/TemporaryFolder.h"
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/sensors/RawlogSource.h"
@@ -108,29 +107,5 @@ inline std::vector<RgbdFrame> readAll(const std::string& path, RawlogSourceOptio
   RawlogSource source(path, options);
   return readAll(source);
 }
-
-/** While it lives, files cannot grow beyond a size: as if the disk were full. */
-class FileSizeLimit
-{
- public:
-  explicit FileSizeLimit(rlim_t bytes)
-  {
-    oldAction_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit()
-  {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, oldAction_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit old_{};
-  void (*oldAction_)(int) = nullptr;
-};
 
 }  // namespace quadmap
