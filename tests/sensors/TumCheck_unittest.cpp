@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "../obs/TestData.h"
 #include "SampleRecording.h"
 
@@ -57,13 +59,35 @@ TEST(TumCheck, FindsAWrongDepthScale)
     recording.writeCalibration(text);
     return check(recording);
   };
-  expectOnly(withFactor("100000.0"), "depth scale", "median depth is 0.1 m");
-  expectOnly(withFactor("500.0"), "depth scale", "median depth is 20 m");
-  EXPECT_TRUE(withFactor("1000.0").empty()) << "10 m may be a hall";
+  expectOnly(withFactor("100000.0"), "depth scale", "between 0.1 and 0.1 m");
+  expectOnly(withFactor("500.0"), "depth scale", "between 20 and 20 m");
+  // A room of 1 to 3.6 m, read with the factor of other cameras.
+  for (int i = 0; i < SampleRecording::kFrames; ++i)
+    recording.writeDepth(i, 5000 + i * 13000 / (SampleRecording::kFrames - 1));
+  expectOnly(withFactor("1000.0"), "depth scale", "between 5 and 18 m: depth_factor 1000 ");
+  expectOnly(withFactor("25000.0"), "depth scale", "between 0.2 and 0.72 m: depth_factor 25000 ");
+  EXPECT_TRUE(withFactor("5000.0").empty());
   TumCheckOptions small;
-  small.minDepth = 0.05;
+  small.minDepth = 0.04;
   withFactor("100000.0");
   EXPECT_TRUE(check(recording, small).empty());
+}
+
+TEST(TumCheck, DoesNotTakeAFewWrongPixelsForAWrongDepthScale)
+{
+  const SampleRecording recording;
+  const auto withPixels = [&](int columns, int value)
+  {
+    cv::Mat image(48, 64, CV_16UC1, cv::Scalar(10000));
+    image.row(0).colRange(0, columns).setTo(cv::Scalar(value));
+    cv::imwrite(recording.files.path("depth/f0.png"), image);
+    return check(recording);
+  };
+  // Of the 6 * 12 * 16 pixels looked at, 8 are 0.7 % and 16 are 1.4 %; 1 % may be wrong.
+  EXPECT_TRUE(withPixels(32, 65000).empty());
+  EXPECT_TRUE(withPixels(32, 500).empty());
+  expectOnly(withPixels(64, 65000), "depth scale", "between 2 and 13 m");
+  expectOnly(withPixels(64, 500), "depth scale", "between 0.1 and 2 m");
 }
 
 TEST(TumCheck, FindsDepthImagesWithoutMeasurement)
@@ -180,5 +204,33 @@ TEST(TumCheck, FindsNothingInTheRealRecordings)
     const auto folder = testData(name);
     if (folder.empty()) GTEST_SKIP() << "the recordings are not here";
     EXPECT_TRUE(checkTum(TumDataset(folder), {}, [](double) {}).empty()) << name;
+  }
+}
+
+TEST(TumCheck, FindsOtherDepthFactorsInTheRealRecordings)
+{
+  namespace fs = std::filesystem;
+  for (const char* name : {"tum_fr3_cabinet", "kitchen_a"})
+  {
+    const fs::path original = testData(name);
+    if (original.empty()) GTEST_SKIP() << "the recordings are not here";
+    const TemporaryFolder folder;
+    for (const char* sub : {"rgb", "depth"})
+      fs::create_directory_symlink(original / sub, folder.path(sub));
+    std::istringstream lines(readFile((original / "associations.txt").string()));
+    std::string line, some;
+    for (int i = 0; std::getline(lines, line); ++i)
+      if (i % 20 == 0) some += line + "\n";  // enough for percentiles, and quick
+    folder.write("associations.txt", some);
+    const std::string calibration = readFile((original / "calibration.yaml").string());
+    const auto at = calibration.find("5000.0");
+    ASSERT_NE(at, std::string::npos) << name;
+    for (const auto& [factor, isWrong] :
+         {std::pair("5000.0", false), std::pair("1000.0", true), std::pair("25000.0", true)})
+    {
+      folder.write("calibration.yaml", std::string(calibration).replace(at, 6, factor));
+      const auto problems = checkTum(TumDataset(folder.folder().string()), {}, [](double) {});
+      EXPECT_EQ(problems.count("depth scale") > 0, isWrong) << name << " " << factor;
+    }
   }
 }

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "quadmap/sensors/BoxCheck.h"
@@ -16,6 +19,7 @@ namespace quadmap
 namespace
 {
 constexpr double kGapFactor = 5;  // times the median interval, when no gap is given
+constexpr double kNearShare = 0.01, kFarShare = 0.99;  // of the depths; beyond are wrong pixels
 
 double medianOf(std::vector<double> values)
 {
@@ -25,16 +29,31 @@ double medianOf(std::vector<double> values)
   return *middle;
 }
 
-/** Median of the measured depths of a frame [m]; nothing when there are none. */
-std::optional<double> medianDepth(const mrpt::obs::CObservation3DRangeScan& scan)
+/** How often each value of the depth images occurs, by value. */
+using DepthCounts = std::vector<std::size_t>;
+
+/** \return Whether the image has any depth. */
+bool countDepths(const mrpt::obs::CObservation3DRangeScan& scan, DepthCounts& counts)
 {
-  std::vector<double> depths;
-  for (int v = 0; v < scan.rangeImage.rows(); v += 4)  // every 16th pixel is plenty for a median
+  bool any = false;
+  for (int v = 0; v < scan.rangeImage.rows(); v += 4)  // every 16th pixel is plenty for percentiles
     for (int u = 0; u < scan.rangeImage.cols(); u += 4)
-      if (scan.rangeImage(v, u) > 0)
-        depths.push_back(scan.rangeImage(v, u) * static_cast<double>(scan.rangeUnits));
-  if (depths.empty()) return std::nullopt;
-  return medianOf(std::move(depths));
+    {
+      const std::uint16_t value = scan.rangeImage(v, u);
+      if (value == 0) continue;
+      ++counts[value];
+      any = true;
+    }
+  return any;
+}
+
+/** The least value that at least this share of all values does not exceed. */
+std::size_t quantile(const DepthCounts& counts, double share)
+{
+  const auto total = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  std::size_t value = 0, sum = counts[0];
+  while (static_cast<double>(sum) < share * static_cast<double>(total)) sum += counts[++value];
+  return value;
 }
 
 void checkBoxes(const TumDataset& dataset, std::size_t frame, TumProblems& problems)
@@ -54,12 +73,8 @@ catch (const std::exception& e)
   problems["box"].push_back(e.what());
 }
 
-/** Median depths of the frames [m] go to `depths`. */
 void checkImages(
-    const TumDataset& dataset,
-    std::size_t index,
-    std::vector<double>& depths,
-    TumProblems& problems)
+    const TumDataset& dataset, std::size_t index, DepthCounts& depths, TumProblems& problems)
 {
   const auto& frame = dataset.frames()[index];
   bool complete = true;
@@ -72,9 +87,7 @@ void checkImages(
   if (!complete) return;
   try
   {
-    if (const auto depth = medianDepth(*dataset.scan(index)))
-      depths.push_back(*depth);
-    else
+    if (!countDepths(*dataset.scan(index), depths))
       problems["no depth"].push_back(frame.depth + ": no pixel has a depth");
   }
   catch (const std::exception& e)
@@ -85,16 +98,19 @@ void checkImages(
 
 void checkDepthScale(
     const TumDataset& dataset,
-    const std::vector<double>& depths,
+    const DepthCounts& depths,
     const TumCheckOptions& options,
     TumProblems& problems)
 {
-  const double depth = medianOf(depths);
-  if (depths.empty() || (depth >= options.minDepth && depth <= options.maxDepth)) return;
+  const double factor = dataset.calibration().depthFactor;
+  const double nearest = static_cast<double>(quantile(depths, kNearShare)) / factor;  // [m]
+  const double farthest = static_cast<double>(quantile(depths, kFarShare)) / factor;  // [m]
+  const bool measured = farthest > 0;
+  if (!measured || (nearest >= options.minDepth && farthest <= options.maxDepth)) return;
   problems["depth scale"].push_back(mrpt::format(
-      "the median depth is %.3g m: depth_factor %g of calibration.yaml cannot be right "
-      "(plausible: %g..%g m)",
-      depth, dataset.calibration().depthFactor, options.minDepth, options.maxDepth));
+      "98 %% of the depths are between %.3g and %.3g m: depth_factor %g of calibration.yaml looks "
+      "wrong (plausible: %g..%g m)",
+      nearest, farthest, factor, options.minDepth, options.maxDepth));
 }
 
 void checkTimes(const TumDataset& dataset, const TumCheckOptions& options, TumProblems& problems)
@@ -195,7 +211,7 @@ TumProblems checkTum(
 {
   check(options);
   TumProblems problems;
-  std::vector<double> depths;  // medians of the frames [m]
+  DepthCounts depths(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
   const std::size_t frames = dataset.frames().size();
   for (std::size_t i = 0; i < frames; ++i)
   {

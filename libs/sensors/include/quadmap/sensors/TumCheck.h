@@ -12,9 +12,11 @@ namespace quadmap
 /** What counts as suspicious in a recording. */
 struct TumCheckOptions
 {
-  double maxGap = 0;               //!< Between frames [s], >= 0; 0: five times the median interval
-  double minDepth = 0.2;           //!< Plausible median depth of a recording [m], > 0
-  double maxDepth = 15.0;          //!< [m], > minDepth
+  double maxGap = 0;  //!< Between frames [s], >= 0; 0: five times the median interval
+  /** Least plausible 1st percentile of all depths [m], > 0: depth cameras see from about 0.4 m. */
+  double minDepth = 0.25;
+  /** Largest plausible 99th percentile [m], > minDepth: indoors depth cameras see up to 10 m. */
+  double maxDepth = 12.0;
   double jumpFactor = 10.0;        //!< A jump is this much faster than the median [-] and ..., > 1
   double maxSpeed = 2.0;           //!< ... than this [m/s], > 0: a hand or a robot is slower
   double maxTurnRate_deg = 180.0;  //!< ... or turns faster than this [deg/s], > 0
