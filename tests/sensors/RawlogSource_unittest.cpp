@@ -262,6 +262,29 @@ TEST(RawlogSource, FindsTheSidecarOfCompressedNames)
   EXPECT_TRUE(frames[0].objects);
 }
 
+TEST(RawlogSource, HasBoxesOnlyWhenTheSidecarHasSome)
+{
+  const TemporaryFolder folder;
+  const auto file = writeObjects(folder.path("x.rawlog"), {sampleScan(kStart)});
+  const auto hasBoxes = [&](const std::vector<mrpt::serialization::CSerializable::Ptr>& sidecar)
+  {
+    writeObjects(folder.path("x.objects.rawlog"), sidecar);
+    RawlogSource source(file, {});
+    EXPECT_EQ(readAll(source).size(), 1u);
+    return source.hasBoxes();
+  };
+  EXPECT_FALSE(hasBoxes({}));
+  EXPECT_FALSE(hasBoxes({samplePose(kStart, CPose3D())}));
+  auto nothingSeen = sampleBoxes(kStart);
+  nothingSeen->objects.clear();
+  EXPECT_TRUE(hasBoxes({nothingSeen})) << "somebody looked";
+  EXPECT_TRUE(hasBoxes({sampleBoxes(kStart)}));
+  folder.write("x.objects.rawlog", "");
+  RawlogSource source(file, {});
+  EXPECT_EQ(readAll(source).size(), 1u);
+  EXPECT_FALSE(source.hasBoxes()) << "a file of 0 bytes";
+}
+
 TEST(RawlogSource, SelectsOneSensor)
 {
   const TemporaryFolder folder;

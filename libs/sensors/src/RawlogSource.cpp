@@ -202,7 +202,7 @@ std::size_t RawlogSource::recordsRead() const { return impl_->reader.recordsRead
 
 std::size_t RawlogSource::framesRead() const { return impl_->framesRead; }
 
-bool RawlogSource::hasBoxes() const { return impl_->boxes.hasSidecar() || impl_->boxes.seenAny(); }
+bool RawlogSource::hasBoxes() const { return impl_->boxes.seenAny(); }
 
 std::string RawlogSource::odometryKind() const { return impl_->odometry.kind(); }
 

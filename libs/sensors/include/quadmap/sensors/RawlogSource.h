@@ -56,7 +56,7 @@ class RawlogSource : public mrpt::system::COutputLogger
   double progress() const;                            //!< Share of the file read, in [0, 1]
   std::size_t recordsRead() const;
   std::size_t framesRead() const;
-  bool hasBoxes() const;             //!< A sidecar or embedded boxes were seen
+  bool hasBoxes() const;             //!< Records of boxes were seen, here or in the sidecar
   std::string odometryKind() const;  //!< "CObservationRobotPose odometry", ...; "" while unseen
 
   /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
