@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -36,6 +38,28 @@ void expectProblem(
   EXPECT_EQ(readAll(source).size(), framesLeft);
   ASSERT_FALSE(source.problems().empty());
   EXPECT_EQ(source.problems().front().text(), error);
+}
+
+/** How many bytes come out of the beginning of a gzip file, as zlib's own decoder says. */
+std::size_t inflatedBytes(std::string compressed)
+{
+  z_stream stream{};
+  constexpr int kGzip = 16 + MAX_WBITS;
+  EXPECT_EQ(inflateInit2(&stream, kGzip), Z_OK);
+  stream.next_in = reinterpret_cast<Bytef*>(compressed.data());
+  stream.avail_in = static_cast<uInt>(compressed.size());
+  std::vector<Bytef> out(1u << 20);
+  int result = Z_OK;
+  while (result == Z_OK)
+  {
+    stream.next_out = out.data();
+    stream.avail_out = static_cast<uInt>(out.size());
+    result = inflate(&stream, Z_NO_FLUSH);
+  }
+  EXPECT_TRUE(result == Z_BUF_ERROR || result == Z_STREAM_END);
+  const std::size_t bytes = stream.total_out;
+  inflateEnd(&stream);
+  return bytes;
 }
 
 /** Three scans, the middle one changed. */
@@ -113,6 +137,31 @@ TEST(RawlogErrors, TruncatedCompressedFileAtAnyPlace)
     EXPECT_LE(readAll(source).size(), 2u);
     EXPECT_EQ(source.problems().size(), 1u);
   }
+}
+
+TEST(RawlogErrors, TruncatedCompressedFileKeepsEveryCompleteFrame)
+{
+  constexpr std::size_t kScans = 60;
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> scans;
+  for (std::size_t i = 0; i < kScans; ++i)
+    scans.push_back(sampleScan(kStart + static_cast<double>(i)));
+  const auto whole = readFile(writeObjects(folder.path("x.rawlog"), scans));
+  const std::size_t scanBytes = inflatedBytes(whole) / kScans;  // the scans differ in time only
+  ASSERT_EQ(scanBytes * kScans, inflatedBytes(whole));
+  std::size_t mostFrames = 0;
+  for (const double share : {0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 0.999})
+  {
+    const auto bytes = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+    const auto cut = whole.substr(0, bytes);
+    RawlogSource source(folder.write("x.rawlog", cut), keepGoing());
+    const std::size_t complete = inflatedBytes(cut) / scanBytes, frames = readAll(source).size();
+    EXPECT_EQ(frames, complete) << share;
+    ASSERT_EQ(source.problems().size(), 1u) << share;
+    EXPECT_NE(source.problems()[0].text().find("truncated"), std::string::npos);
+    mostFrames = std::max(mostFrames, frames);
+  }
+  EXPECT_GE(mostFrames, kScans - 1);
 }
 
 TEST(RawlogErrors, TruncatedUncompressedFile)

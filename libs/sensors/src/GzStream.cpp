@@ -72,8 +72,10 @@ std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
     const int got = gzread(file_, bytes + done, want);
     int error = Z_OK;
     gzerror(file_, &error);
-    if (error == Z_BUF_ERROR) fail("the file is truncated (its compressed data ends early)");
-    if (got < 0 || (error != Z_OK && error != Z_STREAM_END))
+    const bool endsEarly = error == Z_BUF_ERROR;  // what came before the end is still delivered
+    if (endsEarly && got >= 0 && static_cast<unsigned>(got) < want)
+      fail("the file is truncated (its compressed data ends early)");
+    if (got < 0 || (error != Z_OK && error != Z_STREAM_END && !endsEarly))
       fail("the file is damaged (" + errorText(error) + ")");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
