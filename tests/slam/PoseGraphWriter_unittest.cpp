@@ -123,7 +123,8 @@ TEST_F(PoseGraphWriter, AnglesCarryTheInformationOfUprightAndYaw)
   const auto id = kFrames + slam_.result().map.confirmedObjects().at(0)->id;
   for (unsigned k = 0; k < kFrames; ++k)
   {
-    const auto& measurement = spool_.objects(k)->objects.at(0).measurement;
+    const auto boxes = spool_.objects(k);
+    const auto& measurement = boxes->objects.at(0).measurement;
     ASSERT_TRUE(measurement.complete && measurement.complete->yawDefined);
     const auto& edge = graph_.getEdge(k, id);
     // Oracle: numeric derivative of the turn in the object's frame by yaw, pitch and roll
