@@ -43,7 +43,7 @@ void requireValid(const AssociationParameters& p)
 }
 
 /** Adds to the log-likelihoods (rows: measurements, columns: objects) the prior of the Dirichlet
- * process, and a last column "none of them" (a new object, or waiting): DESIGN section 4. */
+ * process, and a last column "none of them" (a new object, or waiting): doc/mathematics.md. */
 Eigen::MatrixXd unnormalisedLogPosterior(
     const std::vector<AssociationCandidate>& measurements,
     const std::vector<AssociationTarget>& targets,

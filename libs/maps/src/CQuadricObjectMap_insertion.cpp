@@ -209,9 +209,7 @@ void CQuadricObjectMap::addView(MapObject& object, const WaitingList::Entry& ent
   const double novelty =
       viewNovelty(entry.view.camera, entry.view.center, estimator.views(), existence);
   object.existenceLogOdds = std::min(existence.maxLogOdds, object.existenceLogOdds + novelty * hit);
-  estimator.add(
-      entry.view, uprightStateOf(object.object), labels_->properties(object.label()),
-      insertionOptions.estimator);
+  estimator.add(entry.view, insertionOptions.estimator);
 }
 
 void CQuadricObjectMap::countMisses(const Frame& frame, const std::set<ObjectId>& touched)

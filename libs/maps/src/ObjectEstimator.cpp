@@ -53,7 +53,7 @@ void addPrior(const InformationPrior& prior, const UprightState& x, NormalEquati
   eq.cost += 0.5 * x.dot(prior.L * x) - prior.xi.dot(x);
 }
 
-/** The measured part only: views with their weights, and the folded ones. */
+/** The measured part only: views with their weights, and what a file knew. */
 NormalEquations evidence(
     const std::deque<ObjectView>& views,
     const std::vector<double>& weights,
@@ -135,27 +135,30 @@ AxisRenaming renaming(const UprightState& from, const UprightState& to)
   return r;
 }
 
+/** Index of the view that is missed least: the older one of the two whose cameras are nearest to
+ * each other. */
+std::ptrdiff_t mostRedundant(const std::deque<ObjectView>& views)
+{
+  std::size_t redundant = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t j = i + 1; j < views.size(); ++j)
+    {
+      const double distance = (views[i].camera - views[j].camera).squaredNorm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      redundant = i;
+    }
+  return static_cast<std::ptrdiff_t>(redundant);
+}
+
 }  // namespace
 
-void ObjectEstimator::add(
-    ObjectView view,
-    const UprightState& current,
-    const LabelProperties& label,
-    const EstimatorOptions& options)
+void ObjectEstimator::add(ObjectView view, const EstimatorOptions& options)
 {
   views_.push_back(std::move(view));
   while (views_.size() > static_cast<std::size_t>(options.maxMeasurements))
-  {
-    const ObjectView& oldest = views_.front();
-    NormalEquations eq;
-    addViewResiduals(
-        oldest, current, label.shapeExponent, options, viewWeight(oldest, current), eq);
-    prior_.L += eq.H;
-    prior_.xi += eq.H * current - eq.g;
-    prior_.complete += oldest.complete ? 1 : 0;
-    prior_.yawDefined += oldest.complete && oldest.yawDefined ? 1 : 0;
-    views_.pop_front();
-  }
+    views_.erase(views_.begin() + mostRedundant(views_));
 }
 
 ObjectEstimator::Estimate ObjectEstimator::estimate(
@@ -166,7 +169,7 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
 {
   const auto medians = medianState(views_, label);
   if (!start && !medians) throw std::logic_error("ObjectEstimator: nothing to estimate from");
-  // With folded measurements the medians of the rest are not a consensus of all.
+  // With a prior the medians of the measurements are not a consensus of all.
   const UprightState reference = medians && prior_.empty() ? *medians : start.value_or(*medians);
   const auto weights = weightsAt(views_, reference);
   const auto linearise = [&](const UprightState& x)

@@ -65,7 +65,9 @@ double viewNovelty(
 {
   double moved = std::numeric_limits<double>::infinity();
   for (const auto& view : earlier) moved = std::min(moved, (view.camera - camera).norm());
-  const double independent = options.independentViewAngle * (center - camera).norm();
+  constexpr double kMinRange = 0.1;  // [m]
+  const double range = std::max(kMinRange, (center - camera).norm());
+  const double independent = options.independentViewAngle * range;
   return std::clamp(moved / independent, options.repeatedViewWeight, 1.0);
 }
 

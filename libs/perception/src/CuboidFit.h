@@ -7,7 +7,7 @@
 
 namespace quadmap
 {
-/** The upright cuboid around an object's cloud, with what each face is worth (DESIGN section 4,
+/** The upright cuboid around an object's cloud, with what each face is worth (doc/mathematics.md,
  * "Complete observation"). Its frame is the optical one (object_sensor must still be transformed).
  * \param object Not empty. */
 CompleteMeasurement fitCuboid(

@@ -15,7 +15,8 @@ struct EdgeContext
 };
 
 /** The four box edges as tangent planes in the optical frame, with what speaks against each: near
- * the image border, or something nearer just outside (DESIGN section 4, "Partial observation"). */
+ * the image border, or something nearer just outside (doc/mathematics.md, "Partial observation").
+ */
 std::array<EdgeMeasurement, 4> measureEdges(
     const DepthCloud& cloud,
     const ImageBox& box,

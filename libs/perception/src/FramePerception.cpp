@@ -91,7 +91,7 @@ Ellipsoid visiblePart(const Ellipsoid& cuboid, const ObjectCloud& object)
 /** How well a cuboid explains the detector's box. */
 struct BoxFit
 {
-  double iou = 0;          // p of DESIGN section 4
+  double iou = 0;          // p of doc/mathematics.md
   double tolerantIoU = 0;  // the same with box edges free to move by their standard deviation
 };
 

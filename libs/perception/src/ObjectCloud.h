@@ -29,7 +29,7 @@ struct ObjectCloud
 
 /** Cuts the object out of its box: planes that reach far beyond the box and the supporting plane
  * are removed, the rest falls into clusters, and the one that fills the box best is the object
- * (DESIGN section 4). Empty when there is no such cluster. */
+ * (doc/mathematics.md). Empty when there is no such cluster. */
 ObjectCloud segmentObject(
     const DepthCloud& cloud,
     const ScenePlanes& planes,

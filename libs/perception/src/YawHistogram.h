@@ -5,7 +5,7 @@
 namespace quadmap
 {
 /** The dominant horizontal direction of a set of surface normals, folded modulo 90 degrees
- * (DESIGN section 4: weighted by how horizontal the normal is, smoothed, sub-bin peak). */
+ * (doc/mathematics.md: weighted by how horizontal the normal is, smoothed, sub-bin peak). */
 class YawHistogram
 {
  public:

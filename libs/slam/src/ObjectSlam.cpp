@@ -51,6 +51,7 @@ ObjectSlam::ObjectSlam(
   result_.map.insertionOptions = configuration.mapInsertion;
   result_.map.likelihoodOptions = configuration.mapLikelihood;
   result_.map.renderOptions = configuration.mapRender;
+  result_.map.perceptionOptions = configuration.perception;
   result_.map.setLabels(labels);
 }
 

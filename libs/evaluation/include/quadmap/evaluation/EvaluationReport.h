@@ -42,7 +42,7 @@ struct EvaluationReport
  * \exception std::runtime_error On files that are missing, malformed, or have no common times. */
 EvaluationReport evaluateRun(const EvaluationInput& input);
 
-/** The form of DESIGN section 7: metres and degrees, null for what does not exist. */
+/** The form of doc/mathematics.md: metres and degrees, null for what does not exist. */
 std::string toJson(const EvaluationReport& report);
 
 /** For people: the figures, a row for each match, then the missed and the spurious objects. */

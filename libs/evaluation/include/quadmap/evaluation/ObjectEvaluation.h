@@ -26,7 +26,7 @@ struct ObjectEvaluationOptions
   LabelFolding foldLabel = installedLabelFolding();
 };
 
-/** How alike a true and an estimated object are, given in one frame (DESIGN section 7). */
+/** How alike a true and an estimated object are, given in one frame (doc/mathematics.md). */
 struct ObjectComparison
 {
   double centerDistance = 0;    //!< Trans [m]

@@ -11,7 +11,7 @@ namespace quadmap
 /** Where |x| is replaced by sqrt(x^2 + k^2) - smooth at zero: k = this * |s|. */
 constexpr double kSupportSmoothing = 1e-3;
 
-/** Half width of an object along a direction, from the family of DESIGN section 4
+/** Half width of an object along a direction, from the family of doc/mathematics.md
  *
  *   h_q(n) = ( sum_i |s_i n_i|^q )^(1/q),   1 <= q <= 2,
  *
@@ -34,7 +34,7 @@ SupportWithDerivatives supportWithDerivatives(
 
 /** Signed distance between a plane and the object it should touch, r = (n.t + d) - h_q(n) [m]:
  * positive when there is a gap, negative when the plane cuts. Plane and object in one frame, the
- * plane's normal towards the object (DESIGN section 4). */
+ * plane's normal towards the object (doc/mathematics.md). */
 double tangencyResidual(const Plane& plane, const Ellipsoid& object, double q = 2.0);
 
 // ---------------------------------------------------------------------------------------------

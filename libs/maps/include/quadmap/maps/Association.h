@@ -7,7 +7,7 @@
 
 namespace quadmap
 {
-/** Parameters of the Dirichlet process (DESIGN section 4; Mu et al., IROS 2016). */
+/** Parameters of the Dirichlet process (doc/mathematics.md; Mu et al., IROS 2016). */
 struct AssociationParameters
 {
   double alpha = 0.5;    //!< Concentration of the Dirichlet process, > 0

@@ -12,7 +12,7 @@ namespace quadmap
 {
 struct EstimatorOptions
 {
-  int maxMeasurements = 150;  //!< Older ones are folded into a Gaussian prior, >= 3
+  int maxMeasurements = 150;  //!< Of one object that are kept; redundant ones go, >= 3
   int maxIterations = 25;     //!< Of the optimiser, >= 1
   double huber = 1.5;         //!< Residuals beyond this many sigmas lose weight, > 0
   double edgeFloor = 0.01;    //!< Added to the sigma of every box edge [m], >= 0
@@ -69,13 +69,9 @@ class ObjectEstimator
     bool orientationDefined = false;
   };
 
-  /** Keeps the measurement. When there are too many the oldest is folded into the prior at the
-   *  given state of the object. */
-  void add(
-      ObjectView view,
-      const UprightState& current,
-      const LabelProperties& label,
-      const EstimatorOptions& options);
+  /** Keeps the measurement. When there are too many, the one goes that was seen from nearly the
+   * same place as a newer one. */
+  void add(ObjectView view, const EstimatorOptions& options);
 
   /** The most probable state. \param start First guess, also tried from the measurements' medians
    *  when `restart` is set; without one the medians are used.

@@ -51,7 +51,7 @@ double agreementLogLikelihood(
     const LabelTable& labels,
     const AgreementOptions& options);
 
-/** log N of where the measurement is, given the object (DESIGN section 4: h(x, l_i), S_ik). Along
+/** log N of where the measurement is, given the object (doc/mathematics.md: h(x, l_i), S_ik). Along
  * an axis of a cuboid with both ends measured its centre is compared, with one end measured that
  * end, and with none only what sticks out of the object counts. S is the measurement's, the
  * object's and a share of its extent. */

@@ -29,8 +29,8 @@ struct FaceMeasurement
 /** Faces are numbered +x, -x, +y, -y, +z, -z of the object's frame. */
 constexpr std::size_t kFaces = 6;
 
-/** The object as one depth image shows it (DESIGN section 4, "Complete observation"). Up (object z)
- * is the normal of the supporting plane. */
+/** The object as one depth image shows it (doc/mathematics.md, "Complete observation"). Up (object
+ * z) is the normal of the supporting plane. */
 struct CompleteMeasurement
 {
   Ellipsoid object_sensor;  //!< In the sensor frame (x forward); cuboid = circumscribed

@@ -12,7 +12,7 @@
 
 namespace quadmap
 {
-/** Turns the detector boxes of one RGB-D frame into measurements (DESIGN section 4).
+/** Turns the detector boxes of one RGB-D frame into measurements (doc/mathematics.md).
  *
  * Holds no state between frames: the same frame gives the same measurements. */
 class FramePerception

@@ -25,7 +25,7 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   int minPoints = 60;  //!< Fewest points (of every second pixel) worth a fit, >= 10
 
   double yawMinDominance = 0.40;   //!< Peak mass that makes a direction; even spread gives 0.22
-  double minCompleteIoU = 0.70;    //!< p of DESIGN section 4 that makes a measurement complete
+  double minCompleteIoU = 0.70;    //!< p of doc/mathematics.md that makes a measurement complete
   double minDepthCoverage = 0.30;  //!< Least share of valid depth in the box for a complete one
 
   double borderMargin = 30.0;   //!< Box edges nearer to the image border are unusable [px]
