@@ -1,0 +1,197 @@
+#include "ResidualTable.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/geometry/RotationDistance.h"
+#include "quadmap/geometry/Support.h"
+#include "quadmap/maps/ObjectEstimator.h"
+
+namespace quadmap::observations
+{
+namespace
+{
+constexpr double kOutlier = 3.0;  // [sigma]
+
+/** Residuals of one type of factor, in sigmas. */
+struct Factor
+{
+  std::vector<double> residuals;
+  bool isInequality = false;  //!< Only positive residuals say something
+};
+
+/** All residuals of a run by type of factor, in the order of the names. */
+class Residuals
+{
+ public:
+  Residuals(bool perLabel, std::ostream* raw) : perLabel_(perLabel), raw_(raw)
+  {
+    if (raw_) *raw_ << "seed frame object label factor residual_m sigma_m range_m visible\n";
+  }
+
+  void setBox(const ObservedFrame& frame, const TrueObject& truth)
+  {
+    frame_ = &frame;
+    truth_ = &truth;
+  }
+
+  /** \param residual, sigma In the same unit. */
+  void add(const std::string& factor, double residual, double sigma, bool isInequality = false)
+  {
+    insert(factor, residual / sigma, isInequality);
+    if (perLabel_) insert(factor + " / " + truth_->label, residual / sigma, isInequality);
+    if (raw_)
+      *raw_ << mrpt::format(
+          "%u %u %s %s %s %.5f %.5f %.3f %.2f\n", static_cast<unsigned>(frame_->seed),
+          static_cast<unsigned>(frame_->index), truth_->name.c_str(),
+          withoutBlanks(truth_->label).c_str(), withoutBlanks(factor).c_str(), residual, sigma,
+          truth_->object_sensor.center().norm(), truth_->visible.visibleShare);
+  }
+
+  void print(std::ostream& out) const
+  {
+    out << mrpt::format(
+        "%-44s %6s %7s %7s %8s %8s %8s\n", "factor", "count", "bias", "median", "variance",
+        "robust", ">3 sigma");
+    for (const auto& [name, factor] : factors_) out << row(name, factor);
+  }
+
+ private:
+  static std::string withoutBlanks(std::string text)
+  {
+    std::replace(text.begin(), text.end(), ' ', '_');
+    return text;
+  }
+
+  void insert(const std::string& name, double normalised, bool isInequality)
+  {
+    Factor& factor = factors_[name];
+    factor.isInequality = isInequality;
+    factor.residuals.push_back(normalised);
+  }
+
+  static std::string row(const std::string& name, const Factor& factor)
+  {
+    const auto& r = factor.residuals;
+    const double n = static_cast<double>(r.size());
+    double sum = 0, squares = 0, beyond = 0;
+    for (const double x : r)
+    {
+      sum += x;
+      squares += x * x;
+      beyond += (factor.isInequality ? x : std::abs(x)) > kOutlier ? 1 : 0;
+    }
+    const std::string head = mrpt::format("%-44s %6zu", name.c_str(), r.size());
+    const std::string tail = mrpt::format(" %6.2f %%\n", 100 * beyond / n);
+    if (factor.isInequality) return head + mrpt::format("%34s", "(violated)") + tail;
+    const double mean = sum / n, robust = madSigma(r);
+    return head +
+           mrpt::format(
+               " %7.2f %7.2f %8.2f %8.2f", mean, median(r), squares / n - mean * mean,
+               robust * robust) +
+           tail;
+  }
+
+  bool perLabel_;
+  std::ostream* raw_;
+  std::map<std::string, Factor> factors_;
+  const ObservedFrame* frame_ = nullptr;
+  const TrueObject* truth_ = nullptr;
+};
+
+/** How a face stands to the camera decides how it is measured. */
+std::string faceFactor(const ObjectView& view, std::size_t face)
+{
+  constexpr double kFrontal = 0.25;  // cosine
+  if (view.faces[face].kind == FaceKind::Support) return "face: support below";
+  const Eigen::Vector3d n = view.faceNormal(face);
+  const Eigen::Vector3d onFace =
+      view.center + n * view.halfSizes[static_cast<Eigen::Index>(face / 2)];
+  const double towards = n.dot(view.camera - onFace) / (view.camera - onFace).norm();
+  const std::string part = face == 4 ? "top" : face == 5 ? "bottom" : "side";
+  const std::string how = towards > kFrontal    ? " towards the camera"
+                          : towards < -kFrontal ? " turned away"
+                                                : " at its outline";
+  return (view.faces[face].kind == FaceKind::AtLeast ? "at least: " : "face: ") + part + how;
+}
+
+void addComplete(
+    const ObjectView& view, const TrueObject& truth, const Ellipsoid& object, Residuals& out)
+{
+  for (std::size_t f = 0; f < kFaces; ++f)
+  {
+    const auto& face = view.faces[f];
+    if (face.kind == FaceKind::Unknown) continue;
+    const Plane inwards{-view.faceNormal(f), view.faceOffset(f)};
+    out.add(
+        faceFactor(view, f), tangencyResidual(inwards, object), face.sigma,
+        face.kind == FaceKind::AtLeast);
+  }
+  if (view.yawDefined && truth.orientationDefined)
+  {
+    const double yaw = uprightStateOf(object)[3];
+    out.add("yaw", nearestEquivalentYaw(view.yaw, yaw) - yaw, view.yawSigma);
+  }
+}
+
+/** The position of a partial measurement, along the line of sight and to its sides. */
+void addSeed(const ObjectView& view, const Ellipsoid& object, Residuals& out)
+{
+  const Eigen::Vector3d off = view.center - object.center();
+  const Eigen::Vector3d along = (view.center - view.camera).normalized();
+  const Eigen::Vector3d side = along.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const auto add = [&](const char* name, const Eigen::Vector3d& n)
+  { out.add(name, n.dot(off), std::sqrt(n.dot(view.centerCovariance * n))); };
+  add("seed: along the ray", along);
+  add("seed: sideways", side);
+  add("seed: upwards", side.cross(along));
+}
+
+void addEdges(const ObjectView& view, const Ellipsoid& object, double q, Residuals& out)
+{
+  const EstimatorOptions estimator;
+  const double range = (view.center - view.camera).norm();
+  for (const auto& edge : view.edges)
+    out.add(
+        view.complete ? "box edge of a complete one" : "box edge of a partial one",
+        -tangencyResidual(edge.plane, object, q), range * edge.angle + estimator.edgeFloor);
+}
+
+void addFrame(const ObservedFrame& frame, const LabelTable& labels, Residuals& out)
+{
+  const PoseNoise noPoseNoise{0, 0};
+  for (std::size_t b = 0; b < frame.boxes.objects.size(); ++b)
+  {
+    const auto& detected = frame.boxes.objects[b];
+    const auto& truth = frame.truth[b];
+    if (!truth) continue;
+    const auto view =
+        viewOf(detected, frame.T_map_sensor, labels.properties(detected.label), noPoseNoise);
+    if (!view) continue;
+    out.setBox(frame, *truth);
+    const Ellipsoid object = truth->object_sensor.transformed(frame.T_map_sensor);
+    if (view->complete)
+      addComplete(*view, *truth, object, out);
+    else
+      addSeed(*view, object, out);
+    addEdges(*view, object, labels.properties(truth->label).shapeExponent, out);
+  }
+}
+
+}  // namespace
+
+void printResidualTable(const RunOptions& run, bool perLabel, std::ostream& out, std::ostream* raw)
+{
+  const auto labels = LabelTable::installed();
+  Residuals residuals(perLabel, raw);
+  runScene(
+      run, PerceptionOptions(), labels,
+      [&](const ObservedFrame& frame) { addFrame(frame, labels, residuals); });
+  residuals.print(out);
+}
+
+}  // namespace quadmap::observations
