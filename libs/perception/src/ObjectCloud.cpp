@@ -4,8 +4,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "SupportChoice.h"
-
 namespace quadmap
 {
 namespace
@@ -43,12 +41,11 @@ struct Candidates
 Candidates collect(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const DetectedObject& detection,
-    const LabelProperties& label,
-    std::optional<int> support,
+    const ObjectTask& task,
     const PerceptionOptions& options)
 {
-  const ImageBox box = enlarged(detection.box, options.boxMargin);
+  const auto& [detection, label, support] = task;
+  const ImageBox box = enlarged(detection->box, options.boxMargin);
   const auto range = cloud.cellsOf(box);
   const auto insideShares = planes.all.sharesWithin(range);
   // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
@@ -59,8 +56,8 @@ Candidates collect(
     for (int c = range.c0; c < range.c1; ++c)
     {
       if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
-      if (detection.mask &&
-          !detection.mask->contains(
+      if (detection->mask &&
+          !detection->mask->contains(
               static_cast<unsigned>(c * cloud.stride()), static_cast<unsigned>(r * cloud.stride())))
         continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
@@ -206,14 +203,15 @@ double medianDepth(const Candidates& candidates)
 ObjectCloud segmentObject(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const DetectedObject& detection,
-    const LabelProperties& label,
+    const std::vector<ObjectTask>& tasks,
+    std::size_t index,
     const PerceptionOptions& options)
 {
+  const DetectedObject& detection = *tasks[index].detection;
   ObjectCloud out;
   out.coverage = coverageOf(cloud, detection.box);
-  out.support = chooseSupport(cloud, planes, detection.box, label.support, options);
-  const Candidates candidates = collect(cloud, planes, detection, label, out.support, options);
+  out.support = tasks[index].support;
+  const Candidates candidates = collect(cloud, planes, tasks[index], options);
   if (static_cast<int>(candidates.points.size()) < options.minPoints) return out;
 
   const double voxel =

@@ -27,14 +27,23 @@ struct ObjectCloud
   bool empty() const { return points.empty(); }
 };
 
-/** Cuts the object out of its box: planes that reach far beyond the box and the supporting plane
+/** One detection of the frame, with what is known about it before its points are cut out. */
+struct ObjectTask
+{
+  const DetectedObject* detection = nullptr;  //!< Never null
+  LabelProperties label;
+  std::optional<int> support;  //!< Plane it stands on, index in ScenePlanes
+};
+
+/** Cuts an object out of its box: planes that reach far beyond the box and the supporting plane
  * are removed, the rest falls into clusters, and the one that fills the box best is the object
- * (doc/mathematics.md). Empty when there is no such cluster. */
+ * (doc/mathematics.md). Empty when there is no such cluster.
+ * \param tasks All detections of the frame. \param index Of the one to cut out. */
 ObjectCloud segmentObject(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const DetectedObject& detection,
-    const LabelProperties& label,
+    const std::vector<ObjectTask>& tasks,
+    std::size_t index,
     const PerceptionOptions& options);
 
 }  // namespace quadmap
