@@ -54,12 +54,11 @@ std::vector<ObjectTask> FramePerception::Impl::tasksOf(
     const std::vector<DetectedObject>& detections) const
 {
   std::vector<ObjectTask> tasks;
-  for (const auto& detection : detections)
-  {
-    ObjectTask task{&detection, labels.properties(detection.label), {}};
-    task.support = chooseSupport(cloud, planes, detection.box, task.label.support, options);
-    tasks.push_back(std::move(task));
-  }
+  const auto supports = chooseSupports(cloud, planes, detections, labels, options);
+  for (std::size_t i = 0; i < detections.size(); ++i)
+    tasks.push_back(
+        {&detections[i], labels.properties(detections[i].label), supports[i].plane,
+         supports[i].wall, supports[i].carries});
   return tasks;
 }
 

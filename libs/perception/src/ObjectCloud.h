@@ -32,7 +32,9 @@ struct ObjectTask
 {
   const DetectedObject* detection = nullptr;  //!< Never null
   LabelProperties label;
-  std::optional<int> support;  //!< Plane it stands on, index in ScenePlanes
+  std::optional<int> support;        //!< Plane it stands on, index in ScenePlanes
+  std::optional<int> wall;           //!< Plane its back hangs at, index in ScenePlanes
+  std::vector<std::size_t> carries;  //!< Detections of the frame that stand on this object
 };
 
 /** Cuts an object out of its box: planes that reach far beyond the box and the supporting plane

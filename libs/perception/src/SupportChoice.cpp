@@ -53,8 +53,8 @@ Relation relate(
   return {share(ringOn, ring), share(above, inside), share(below, inside)};
 }
 
-}  // namespace
-
+/** Which horizontal plane an object stands on: for classes that stand on the floor the floor, for
+ * others the plane that surrounds the lower part of the box and that the object rises above. */
 std::optional<int> chooseSupport(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
@@ -81,6 +81,25 @@ std::optional<int> chooseSupport(
     }
   }
   return best;
+}
+
+}  // namespace
+
+std::vector<BoxSupport> chooseSupports(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const std::vector<DetectedObject>& boxes,
+    const LabelTable& labels,
+    const PerceptionOptions& options)
+{
+  std::vector<BoxSupport> out;
+  for (const auto& detection : boxes)
+    out.push_back(
+        {chooseSupport(
+             cloud, planes, detection.box, labels.properties(detection.label).support, options),
+         {},
+         {}});
+  return out;
 }
 
 }  // namespace quadmap

@@ -1,21 +1,30 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "DepthCloud.h"
 #include "ScenePlanes.h"
+#include "quadmap/obs/DetectedObject.h"
 #include "quadmap/obs/LabelTable.h"
 
 namespace quadmap
 {
-/** Which horizontal plane an object stands on: for classes that stand on the floor the floor, for
- * others the plane that surrounds the lower part of the box and that the object rises above.
- * \param box The detector's box [px]. \return Index in ScenePlanes, or nothing. */
-std::optional<int> chooseSupport(
+/** What the object of one box stands on or hangs at, and what stands on it. */
+struct BoxSupport
+{
+  std::optional<int> plane;          //!< Horizontal, index in ScenePlanes; nothing: unknown
+  std::optional<int> wall;           //!< Vertical, index in ScenePlanes: its back is there
+  std::vector<std::size_t> carries;  //!< Boxes of the frame whose objects stand on this one
+};
+
+/** Decides the supports of all boxes of a frame with the whole scene in view.
+ * \return One for each box. */
+std::vector<BoxSupport> chooseSupports(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const ImageBox& box,
-    UsualSupport usual,
+    const std::vector<DetectedObject>& boxes,
+    const LabelTable& labels,
     const PerceptionOptions& options);
 
 }  // namespace quadmap
