@@ -44,7 +44,9 @@ Candidates collect(
     const ObjectTask& task,
     const PerceptionOptions& options)
 {
-  const auto& [detection, label, support] = task;
+  const auto& detection = task.detection;
+  const auto& label = task.label;
+  const auto& support = task.support;
   const ImageBox box = enlarged(detection->box, options.boxMargin);
   const auto range = cloud.cellsOf(box);
   const auto insideShares = planes.all.sharesWithin(range);
