@@ -119,12 +119,8 @@ class Detector : public testing::Test
     for (int i = 0; i < frames; ++i)
     {
       RandomStream random(1, Purpose::Detector, static_cast<std::uint64_t>(i));
-      for (auto& found : detector.detect(
-               {
-                   {object, box, visibleShare}
-      },
-               vga(), random))
-        all.push_back(found);
+      const VisibleObject seen{object, box, visibleShare, box};
+      for (auto& found : detector.detect({seen}, vga(), random).boxes) all.push_back(found);
     }
     return all;
   }
@@ -144,6 +140,42 @@ TEST_F(Detector, FaultlessDetectorReturnsTheBox)
     EXPECT_FALSE(found.instanceId) << "a detector does not know instances";
   }
   EXPECT_EQ(100U, detections(faultless(), 100).size());
+}
+
+TEST_F(Detector, SaysWhichObjectEachBoxShows)
+{
+  DetectorOptions options = faultless();
+  options.missRate = 0.4;
+  options.falseAlarms = 0.7;
+  const SimulatedDetector detector(scene, options, labels);
+  const ImageBox boxes[2] = {
+      {100, 100, 200, 200},
+      {400, 150, 500, 350}
+  };
+  unsigned chairs = 0, cups = 0, alarms = 0;
+  for (std::uint64_t i = 0; i < 200; ++i)
+  {
+    RandomStream random(1, Purpose::Detector, i);
+    const auto found = detector.detect(
+        {
+            {0, boxes[0], 1, boxes[0]},
+            {1, boxes[1], 1, boxes[1]}
+    },
+        vga(), random);
+    ASSERT_EQ(found.boxes.size(), found.truth.size());
+    for (std::size_t k = 0; k < found.boxes.size(); ++k)
+    {
+      const auto truth = found.truth[k];
+      alarms += !truth;
+      if (!truth) continue;
+      EXPECT_EQ(boxes[*truth].x1, found.boxes[k].box.x1);
+      EXPECT_EQ(*truth == 0 ? "chair" : "cup", found.boxes[k].label);
+      ++(*truth == 0 ? chairs : cups);
+    }
+  }
+  EXPECT_NEAR(120, chairs, 4 * std::sqrt(200 * 0.6 * 0.4));
+  EXPECT_NEAR(120, cups, 4 * std::sqrt(200 * 0.6 * 0.4));
+  EXPECT_NEAR(140, alarms, 4 * std::sqrt(200 * 0.7 * 0.3));
 }
 
 TEST_F(Detector, EdgesJitterWithTheirSigma)

@@ -63,6 +63,25 @@ TEST(Simulator, FramesDoNotDependOnTheOrderTheyAreMadeIn)
     EXPECT_EQ(late.objects->objects[i].box.x1, again.objects->objects[i].box.x1);
 }
 
+TEST(Simulator, SaysWhichObjectEachBoxShows)
+{
+  Scene scene = smallHome();
+  scene.options.scaleNoise(0);
+  const Simulator simulator(scene, LabelTable::installed(), 5);
+  for (const std::size_t index : {0U, 5U, 9U})
+  {
+    const SimulatedFrame frame = simulator.frame(index);
+    ASSERT_EQ(frame.objects->objects.size(), frame.truthOfBox.size());
+    ASSERT_EQ(frame.visible.size(), frame.truthOfBox.size()) << "without noise all are found";
+    for (std::size_t i = 0; i < frame.truthOfBox.size(); ++i)
+    {
+      EXPECT_EQ(frame.visible[i].object, frame.truthOfBox[i].value_or(999));
+      EXPECT_EQ(scene.objects[frame.visible[i].object].label, frame.objects->objects[i].label);
+      EXPECT_EQ(frame.visible[i].box.x2, frame.objects->objects[i].box.x2);
+    }
+  }
+}
+
 TEST(Simulator, RawlogIsReadBackComplete)
 {
   const TemporaryFolder folder;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "quadmap/sensors/simulator/Silhouette.h"
 #include "quadmap/sensors/simulator/SurfaceTexture.h"
 
 namespace quadmap::simulator
@@ -104,6 +105,7 @@ class FrameRenderer
  public:
   FrameRenderer(const Scene& scene, const PinholeCamera& camera, const mrpt::poses::CPose3D& pose) :
       scene_(scene),
+      T_world_camera_(pose),
       T_world_optical_(pose + T_sensor_optical()),
       rays_(inverseOf(camera)),
       width_(static_cast<int>(camera.width)),
@@ -176,6 +178,7 @@ class FrameRenderer
     for (std::size_t part = 0; part < o.parts.size(); ++part)
       castPart(object, static_cast<std::uint16_t>(part));
     out_.outlinePixels.push_back(coveredInside_ + coveredOutside(views_.back()));
+    out_.outline.push_back(outlineBox(o, T_world_camera_, out_.camera));
     coveredInside_ = 0;
   }
 
@@ -279,6 +282,7 @@ class FrameRenderer
   }
 
   const Scene& scene_;
+  const mrpt::poses::CPose3D T_world_camera_;
   const Transform T_world_optical_;
   const Matrix3d rays_;  // (u, v, 1) to the direction with z = 1 in `optical`
   const int width_, height_;

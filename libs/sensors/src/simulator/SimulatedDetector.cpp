@@ -53,7 +53,7 @@ std::vector<VisibleObject> visibleObjects(
         static_cast<double>(f.v2)};
     const double share = std::min(1.0, f.pixels / frame.outlinePixels[i]);
     if (share < options.minVisible || std::sqrt(box.area()) < minSize) continue;
-    result.push_back({i, box, share});
+    result.push_back({i, box, share, frame.outline[i].value_or(box)});
   }
   return result;
 }
@@ -68,12 +68,12 @@ SimulatedDetector::SimulatedDetector(
   sceneLabels_.erase(std::unique(sceneLabels_.begin(), sceneLabels_.end()), sceneLabels_.end());
 }
 
-std::vector<DetectedObject> SimulatedDetector::detect(
+Detections SimulatedDetector::detect(
     const std::vector<VisibleObject>& visible,
     const PinholeCamera& camera,
     RandomStream& random) const
 {
-  std::vector<DetectedObject> result;
+  Detections result;
   for (const auto& seen : visible)
   {
     const double hidden = (1 - seen.visibleShare) / std::max(1e-6, 1 - options_.minVisible);
@@ -81,13 +81,16 @@ std::vector<DetectedObject> SimulatedDetector::detect(
         options_.missRate + hidden * (options_.occludedMissRate - options_.missRate);
     if (random.uniform() < missRate) continue;
     DetectedObject found = detection(seen, camera, random);
-    if (found.box.isValid()) result.push_back(std::move(found));
+    if (!found.box.isValid()) continue;
+    result.boxes.push_back(std::move(found));
+    result.truth.emplace_back(seen.object);
   }
   // The whole part of `falseAlarms` always happens, the rest of it with that probability.
   const double alarms = options_.falseAlarms;
   const int count = static_cast<int>(alarms) + (random.uniform() < alarms - std::floor(alarms));
   for (int i = 0; i < count && !sceneLabels_.empty(); ++i)
-    result.push_back(falseAlarm(camera, random));
+    result.boxes.push_back(falseAlarm(camera, random));
+  result.truth.resize(result.boxes.size());
   return result;
 }
 

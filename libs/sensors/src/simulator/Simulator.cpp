@@ -89,7 +89,9 @@ SimulatedFrame Simulator::frame(std::size_t index) const
   result.objects->sensorLabel = kCameraLabel;
   result.objects->timestamp = result.scan->timestamp;
   result.objects->cameraParams = result.scan->cameraParams;
-  result.objects->objects = detector_.detect(result.visible, rendered.camera, random);
+  Detections found = detector_.detect(result.visible, rendered.camera, random);
+  result.objects->objects = std::move(found.boxes);
+  result.truthOfBox = std::move(found.truth);
   return result;
 }
 

@@ -3,8 +3,10 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "quadmap/geometry/ImageBox.h"
 #include "quadmap/sensors/simulator/Scene.h"
 
 namespace quadmap::simulator
@@ -23,6 +25,8 @@ struct RenderedFrame
   /** For each object the pixels its outline would cover with nothing in front of it, those outside
    * the image included (to one image size beyond its borders). */
   std::vector<double> outlinePixels;
+  /** For each object the box of that outline, the image's borders ignored (see outlineBox()). */
+  std::vector<std::optional<ImageBox>> outline;
 };
 
 /** Renders a scene by ray casting: analytic intersections, no sampling errors. */

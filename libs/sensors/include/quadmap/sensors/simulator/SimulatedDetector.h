@@ -17,11 +17,22 @@ struct VisibleObject
   std::size_t object = 0;   //!< Index into Scene::objects
   ImageBox box;             //!< Of its visible pixels, exact
   double visibleShare = 0;  //!< Visible pixels to those of its whole outline, in [0, 1]
+  /** Of its whole outline, exact, with nothing in front of it and no image border. Where an edge of
+   * `box` lies within a pixel or two of it the object really ends; elsewhere the border of the
+   * image or something nearer cuts it. */
+  ImageBox outline;
 };
 
 /** The labelled objects of which enough can be seen, in the order of the scene. */
 std::vector<VisibleObject> visibleObjects(
     const Scene& scene, const RenderedFrame& frame, const DetectorOptions& options);
+
+/** What a detector says, and which object each box shows. */
+struct Detections
+{
+  std::vector<DetectedObject> boxes;
+  std::vector<std::optional<std::size_t>> truth;  //!< Index into Scene::objects; none: false alarm
+};
 
 /** What a detector makes of them: jittered boxes, misses, wrong labels, false alarms, scores. */
 class SimulatedDetector
@@ -31,7 +42,7 @@ class SimulatedDetector
   SimulatedDetector(const Scene& scene, const DetectorOptions& options, const LabelTable& labels);
 
   /** May run concurrently. */
-  std::vector<DetectedObject> detect(
+  Detections detect(
       const std::vector<VisibleObject>& visible,
       const PinholeCamera& camera,
       RandomStream& random) const;

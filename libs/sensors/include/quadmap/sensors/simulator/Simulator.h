@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct SimulatedFrame
 {
   mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< sensorLabel "camera"
   CObservationObjects::Ptr objects;              //!< The same label and time stamp
-  std::vector<VisibleObject> visible;            //!< Before the detector's errors
+  /** For each box of `objects` which of Scene::objects it shows; none: a false alarm. */
+  std::vector<std::optional<std::size_t>> truthOfBox;
+  std::vector<VisibleObject> visible;  //!< Before the detector's errors
 };
 
 /** A hand-held RGB-D camera in a scene. Robot and sensor frame coincide. */
