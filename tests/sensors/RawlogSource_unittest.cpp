@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 
 #include <cmath>
+#include <limits>
 
 #include "../obs/TestData.h"
 #include "SampleRawlog.h"
@@ -14,6 +15,7 @@
 using namespace quadmap;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPose3D;
+using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
@@ -133,6 +135,49 @@ TEST(RawlogSource, InterpolatesRotationsAlongTheShortestArc)
   ASSERT_EQ(frames.size(), 1u);
   ASSERT_TRUE(frames[0].T_odom_robot);
   EXPECT_LT(distance(*frames[0].T_odom_robot, turned(0.8)), 10 * kClockTick) << "at 2 rad/s";
+}
+
+TEST(RawlogSource, KnowsTheCovarianceOfEveryKindThatStatesIt)
+{
+  const TemporaryFolder folder;
+  const auto covarianceOf = [&](const std::vector<mrpt::serialization::CSerializable::Ptr>& records)
+  {
+    const auto frames = readAll(writeObjects(folder.path("x.rawlog"), records));
+    EXPECT_TRUE(!frames.empty() && frames.back().odometryCovariance);
+    return frames.at(frames.size() - 1).odometryCovariance.value();
+  };
+  const auto poseAt = [](double time, double variance)
+  {
+    auto pose = samplePose(time, CPose3D(time - kStart, 0, 0, 0, 0, 0));
+    pose->pose.cov(1, 1) = variance;
+    return pose;
+  };
+  const auto interpolated =
+      covarianceOf({poseAt(kStart, 0.01), sampleScan(kStart + 0.25), poseAt(kStart + 1, 0.03)});
+  EXPECT_NEAR(interpolated(1, 1), 0.015, 1e-7);
+  EXPECT_TRUE(covarianceOf({odometry2D(kStart, {}), sampleScan(kStart)}).asEigen().isZero())
+      << "silent";
+
+  const auto scanAt = [](double time) { return sensoryFrame({sampleScan(time)}); };
+  const auto planar = movement2D(CPose2D(0.5, 0, 0.1));
+  CPose3DPDFGaussian once;
+  ASSERT_TRUE(planar->getFirstMovementEstimation(once));
+  ASSERT_GT(once.cov(0, 0), 0);
+  auto twice = once;
+  twice += once;
+  EXPECT_LT(
+      (covarianceOf({planar, scanAt(kStart), planar, scanAt(kStart + 1)}) - twice.cov).maxCoeff(),
+      1e-12);
+  mrpt::obs::CActionRobotMovement3D move;
+  move.poseChange.mean = CPose3D(0.5, 0.1, 0.2, 0, 0, 0);
+  move.poseChange.cov(2, 2) = 0.04;
+  auto spatial = mrpt::obs::CActionCollection::Create();
+  spatial->insert(move);
+  EXPECT_NEAR(covarianceOf({spatial, scanAt(kStart)})(2, 2), 0.04, 1e-12);
+  move.poseChange.cov(2, 2) = std::numeric_limits<double>::quiet_NaN();
+  spatial->clear();
+  spatial->insert(move);
+  EXPECT_TRUE(covarianceOf({spatial, scanAt(kStart)}).asEigen().isZero()) << "broken: as none";
 }
 
 TEST(RawlogSource, DoesNotInventPoses)

@@ -11,16 +11,28 @@
 
 namespace quadmap
 {
+using mrpt::poses::CPose3DPDFGaussian;
+
 namespace
 {
-std::optional<mrpt::poses::CPose3D> movementIn(const mrpt::obs::CActionCollection& actions)
+/** A covariance with broken numbers is as good as none. */
+CPose3DPDFGaussian withUsableCovariance(CPose3DPDFGaussian pose)
 {
-  mrpt::poses::CPose3D increment;
-  if (actions.getFirstMovementEstimationMean(increment)) return increment;
+  if (!pose.cov.asEigen().allFinite()) pose.cov.setZero();
+  return pose;
+}
+
+std::optional<CPose3DPDFGaussian> movementIn(const mrpt::obs::CActionCollection& actions)
+{
+  CPose3DPDFGaussian increment;
+  if (actions.getFirstMovementEstimation(increment)) return increment;
   if (const auto move = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
-    return move->poseChange.mean;
+    return move->poseChange;
   if (const auto move = actions.getBestMovementEstimation())
-    return mrpt::poses::CPose3D(move->poseChange->getMeanVal());
+  {
+    increment.copyFrom(*move->poseChange);
+    return increment;
+  }
   return std::nullopt;
 }
 
@@ -46,15 +58,16 @@ bool OdometryReader::read(const mrpt::obs::CObservation& observation)
   if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
   {
     if (accept("CObservationOdometry " + odometry->sensorLabel))
-      track_.add(secondsOf(*odometry), mrpt::poses::CPose3D(odometry->odometry));
+      track_.add(
+          secondsOf(*odometry), CPose3DPDFGaussian(mrpt::poses::CPose3D(odometry->odometry)));
     return true;
   }
   if (const auto* pose = dynamic_cast<const CObservationRobotPose*>(&observation))
   {
     if (pose->sensorLabel == kGroundTruthLabel)
-      truth_.add(secondsOf(*pose), pose->pose.mean);
+      truth_.add(secondsOf(*pose), CPose3DPDFGaussian(pose->pose.mean));
     else if (accept("CObservationRobotPose " + pose->sensorLabel))
-      track_.add(secondsOf(*pose), pose->pose.mean);
+      track_.add(secondsOf(*pose), withUsableCovariance(pose->pose));
     return true;
   }
   return false;
@@ -65,9 +78,9 @@ void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
   const auto increment = movementIn(actions);
   if (!increment || !accept("CActionRobotMovement")) return;
   countsActions_ = true;
-  if (!isFinite(*increment))
+  if (!isFinite(increment->mean))
     throw std::runtime_error("the movement has numbers that are not finite");
-  sumOfActions_ = sumOfActions_ + *increment;
+  sumOfActions_ += withUsableCovariance(*increment);
 }
 
 void OdometryReader::forgetBefore(double time)

@@ -27,7 +27,7 @@ class OdometryReader
   bool countsActions() const { return countsActions_; }
   const std::string& ignoredKind() const { return ignoredKind_; }  //!< A second source, if any
 
-  const mrpt::poses::CPose3D& sumOfActions() const { return sumOfActions_; }
+  const mrpt::poses::CPose3DPDFGaussian& sumOfActions() const { return sumOfActions_; }
   const PoseTrack& track() const { return track_; }
   const PoseTrack& truth() const { return truth_; }
   void forgetBefore(double time);  //!< What poses at this time [s] or later do not need
@@ -37,7 +37,7 @@ class OdometryReader
 
   std::string kind_, ignoredKind_;
   bool countsActions_ = false;
-  mrpt::poses::CPose3D sumOfActions_;
+  mrpt::poses::CPose3DPDFGaussian sumOfActions_;
   PoseTrack track_, truth_;
 };
 

@@ -9,6 +9,8 @@
 
 namespace quadmap
 {
+using mrpt::poses::CPose3DPDFGaussian;
+
 namespace
 {
 constexpr double kSameTime = 1e-6;  // [s]; MRPT's clock ticks are 1e-7 s
@@ -24,6 +26,14 @@ mrpt::poses::CPose3D interpolate(
   return mrpt::poses::CPose3D::FromRotationAndTranslation(
       R, ((1 - share) * t_a + share * t_b).eval());
 }
+
+CPose3DPDFGaussian interpolate(
+    const CPose3DPDFGaussian& a, const CPose3DPDFGaussian& b, double share)
+{
+  CPose3DPDFGaussian result(interpolate(a.mean, b.mean, share));
+  result.cov = (1 - share) * a.cov.asEigen() + share * b.cov.asEigen();
+  return result;
+}
 }  // namespace
 
 bool isFinite(const mrpt::poses::CPose3D& pose)
@@ -32,9 +42,9 @@ bool isFinite(const mrpt::poses::CPose3D& pose)
   return matrix.asEigen().allFinite();
 }
 
-void PoseTrack::add(double time, const mrpt::poses::CPose3D& pose)
+void PoseTrack::add(double time, const CPose3DPDFGaussian& pose)
 {
-  if (!isFinite(pose)) throw std::runtime_error("the pose has numbers that are not finite");
+  if (!isFinite(pose.mean)) throw std::runtime_error("the pose has numbers that are not finite");
   if (!poses_.empty() && time < poses_.back().time)
     throw std::runtime_error(
         mrpt::format("the time goes back by %.6f s", poses_.back().time - time));
@@ -49,7 +59,7 @@ bool PoseTrack::reaches(double time) const
   return !poses_.empty() && poses_.back().time >= time - kSameTime;
 }
 
-std::optional<mrpt::poses::CPose3D> PoseTrack::at(double time, double maxGap) const
+std::optional<CPose3DPDFGaussian> PoseTrack::at(double time, double maxGap) const
 {
   const auto isBefore = [](const Stamped& s, double t) { return s.time < t; };
   const auto next = std::lower_bound(poses_.begin(), poses_.end(), time, isBefore);

@@ -126,10 +126,15 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
 void RawlogSource::Impl::addPoses(PendingFrame& pending)
 {
   const double time = pending.frame.time();
-  pending.frame.T_odom_robot = odometry.countsActions()
-                                   ? pending.sumOfActions
-                                   : odometry.track().at(time, options.maxOdometryGap);
-  pending.frame.T_world_robot = odometry.truth().at(time, options.maxOdometryGap);
+  const auto pose = odometry.countsActions() ? std::make_optional(pending.sumOfActions)
+                                             : odometry.track().at(time, options.maxOdometryGap);
+  if (pose)
+  {
+    pending.frame.T_odom_robot = pose->mean;
+    pending.frame.odometryCovariance = pose->cov;
+  }
+  if (const auto truth = odometry.truth().at(time, options.maxOdometryGap))
+    pending.frame.T_world_robot = truth->mean;
   if (!pending_.empty())
   {
     const auto earlier = [](const PendingFrame& a, const PendingFrame& b)

@@ -21,7 +21,7 @@ namespace quadmap
 struct PendingFrame
 {
   RgbdFrame frame;
-  mrpt::poses::CPose3D sumOfActions;
+  mrpt::poses::CPose3DPDFGaussian sumOfActions;
 };
 
 struct RawlogSource::Impl

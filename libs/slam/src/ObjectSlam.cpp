@@ -46,7 +46,7 @@ ObjectSlam::ObjectSlam(
     spool_(spool),
     perception_(configuration.perception, labels),
     selector_(configuration.keyframes),
-    odometry_(configuration.slam.odometry)
+    odometry_(configuration.slam.odometry, configuration.poses)
 {
   result_.map.insertionOptions = configuration.mapInsertion;
   result_.map.likelihoodOptions = configuration.mapLikelihood;
@@ -113,7 +113,8 @@ bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robo
       "keyframe %zu: record %zu (%s), %zu boxes, %zu objects in the map", result_.keyframes.size(),
       frame.record, frame.scan->sensorLabel.c_str(), boxes ? boxes->objects.size() : 0,
       result_.map.objects().size());
-  result_.keyframes.push_back({frame.record, frame.time(), T_map_robot, T_map_robot});
+  result_.keyframes.push_back(
+      {frame.record, frame.time(), T_map_robot, T_map_robot, odometry_.keyframeStep()});
   return true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/poses/CPose3D.h>
 
@@ -17,6 +18,9 @@ struct RgbdFrame
   mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< Loaded; time stamp and sensorLabel inside
   CObservationObjects::Ptr objects;  //!< Boxes of the same label and time; null: nobody looked
   std::optional<mrpt::poses::CPose3D> T_odom_robot;   //!< From the rawlog's odometry, any kind
+  /** Of T_odom_robot, (x, y, z, yaw, pitch, roll), as far as the odometry says so: zero where it
+   *  does not. What actions say is added up from their first on. */
+  std::optional<mrpt::math::CMatrixDouble66> odometryCovariance;
   std::optional<mrpt::poses::CPose3D> T_world_robot;  //!< From the "ground_truth" poses
 
   double time() const { return mrpt::Clock::toDouble(scan->timestamp); }  //!< [s]

@@ -35,6 +35,21 @@ mrpt::poses::CPose3DPDFGaussian odometryStep(
     const mrpt::poses::CPose3D& T_map_from,
     const mrpt::poses::CPose3D& T_map_to);
 
+/** The same from poses whose source states their covariance, (x, y, z, yaw, pitch, roll). When the
+ * covariance grows from `from` to `to` as that of summed increments does, the step is what was
+ * added; else the two poses err independently of each other. A coordinate that the source says
+ * nothing about (variance 0), and all when it is silent, is as the options say. */
+mrpt::poses::CPose3DPDFGaussian odometryStep(
+    const PoseUncertaintyOptions& options,
+    const mrpt::poses::CPose3DPDFGaussian& from_map,
+    const mrpt::poses::CPose3DPDFGaussian& to_map);
+
+/** Between two ground truth poses, which err independently by the fixed part of the options. */
+mrpt::poses::CPose3DPDFGaussian groundTruthStep(
+    const PoseUncertaintyOptions& options,
+    const mrpt::poses::CPose3D& T_map_from,
+    const mrpt::poses::CPose3D& T_map_to);
+
 /** Gives the poses of a trajectory, one after the other, their covariance. */
 class PoseCovarianceChain
 {

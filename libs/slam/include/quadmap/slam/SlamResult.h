@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/poses/CPose3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,9 @@ struct Keyframe
   double time = 0;         //!< [s]
   mrpt::poses::CPose3D T_map_robot;
   mrpt::poses::CPose3D T_odom_robot;  //!< As given by the input
+  /** Motion since the keyframe before, by the input, (x, y, z, yaw, pitch, roll); the first has
+   *  none. */
+  std::optional<mrpt::poses::CPose3DPDFGaussian> odometryStep = std::nullopt;
 };
 
 /** Which object a box was taken for. */
