@@ -38,8 +38,8 @@ struct FramePerception::Impl
   ObjectMeasurement measureBox(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
-      const std::vector<ObjectTask>& tasks,
-      std::size_t index) const;
+      const ObjectTask& task,
+      const ObjectCloud& object) const;
   void tryComplete(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
@@ -89,10 +89,10 @@ void FramePerception::Impl::tryComplete(
 ObjectMeasurement FramePerception::Impl::measureBox(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const std::vector<ObjectTask>& tasks,
-    std::size_t index) const
+    const ObjectTask& task,
+    const ObjectCloud& object) const
 {
-  const DetectedObject& detection = *tasks[index].detection;
+  const DetectedObject& detection = *task.detection;
   ObjectMeasurement out;
   out.kind = MeasurementKind::Rejected;
   const ImageBox visible = detection.box.clipped(cloud.camera().width, cloud.camera().height);
@@ -101,7 +101,6 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     out.reason = detection.box.isValid() ? "box outside the image" : "box without area";
     return out;
   }
-  const ObjectCloud object = segmentObject(cloud, planes, tasks, index, options);
   out.depthCoverage = object.coverage;
 
   EdgeContext context;
@@ -117,7 +116,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   {
     seed = seedOf(object);
     context.nearDepth = nearDepthOf(object);
-    tryComplete(cloud, planes, object, tasks[index], out);
+    tryComplete(cloud, planes, object, task, out);
   }
   if (seed) out.seed_sensor = toSensor(*seed);
 
@@ -170,8 +169,9 @@ std::optional<Plane> FramePerception::measure(
   const ScenePlanes planes =
       classifyPlanes(cloud, std::move(segmentation), *up, knownFloor, impl_->options);
   const auto tasks = impl_->tasksOf(cloud, planes, boxes.objects);
+  const auto objects = segmentObjects(cloud, planes, tasks, impl_->options);
   for (std::size_t i = 0; i < tasks.size(); ++i)
-    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks, i);
+    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i]);
   if (!planes.floorSeen) return {};
   return planes.plane(*planes.floor).plane.transformed(T_sensor_optical());
 }

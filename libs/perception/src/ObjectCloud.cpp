@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <numeric>
+
+#include "BoxCandidates.h"
+#include "PointClusters.h"
+#include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
 {
 namespace
 {
-ImageBox enlarged(const ImageBox& box, double share)
-{
-  const double dx = share * box.width() + 2.0, dy = share * box.height() + 2.0;
-  return {box.x1 - dx, box.y1 - dy, box.x2 + dx, box.y2 + dy};
-}
+constexpr int kNobody = -1;
 
 double coverageOf(const DepthCloud& cloud, const ImageBox& box)
 {
@@ -24,209 +24,245 @@ double coverageOf(const DepthCloud& cloud, const ImageBox& box)
   return static_cast<double>(valid) / range.cells();
 }
 
-/** A point nearer than this to its supporting plane belongs to the plane [m]; thin objects (a book)
- * allow less than tall ones. */
-double supportTolerance(double z, const LabelProperties& label, const PerceptionOptions& options)
+double medianDepth(const std::vector<Eigen::Vector3d>& points)
 {
-  const double allowed = std::min(options.planeTolerance, 0.25 * label.typicalSize.z());
-  return std::max(allowed, 2.5 * options.depthSigma(z));
+  std::vector<double> z;
+  for (const auto& p : points) z.push_back(p.z());
+  return median(std::move(z));
 }
 
-struct Candidates
+/** One cluster of a box's candidates, and how well it plays the part of the object. */
+struct Cluster
 {
-  std::vector<ObjectCloud::Cell> cells;
-  std::vector<Eigen::Vector3d> points;
-};
-
-Candidates collect(
-    const DepthCloud& cloud,
-    const ScenePlanes& planes,
-    const ObjectTask& task,
-    const PerceptionOptions& options)
-{
-  const auto& detection = task.detection;
-  const auto& label = task.label;
-  const auto& support = task.support;
-  const ImageBox box = enlarged(detection->box, options.boxMargin);
-  const auto range = cloud.cellsOf(box);
-  const auto insideShares = planes.all.sharesWithin(range);
-  // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
-  // on a wall covers much of what is seen of it.
-  const double minOwnShare = label.support == UsualSupport::Wall ? 0.85 : 0.5;
-  Candidates out;
-  for (int r = range.r0; r < range.r1; ++r)
-    for (int c = range.c0; c < range.c1; ++c)
-    {
-      if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
-      if (detection->mask &&
-          !detection->mask->contains(
-              static_cast<unsigned>(c * cloud.stride()), static_cast<unsigned>(r * cloud.stride())))
-        continue;
-      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      if (support &&
-          planes.plane(*support).plane.signedDistance(p) < supportTolerance(p.z(), label, options))
-        continue;
-      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
-      const int plane = planes.all.planeAt(cloud, c, r, tolerance);
-      if (plane >= 0 && insideShares[static_cast<std::size_t>(plane)] < minOwnShare) continue;
-      out.cells.push_back({c, r});
-      out.points.push_back(p);
-    }
-  return out;
-}
-
-/** Connected components of the points: neighbours share a voxel or touch one. */
-class VoxelClusters
-{
- public:
-  VoxelClusters(const std::vector<Eigen::Vector3d>& points, double voxel)
-  {
-    std::unordered_map<std::int64_t, int> voxelIndex;
-    std::vector<Eigen::Vector3i> coordinates;
-    std::vector<int> voxelOfPoint;
-    for (const auto& p : points)
-    {
-      const Eigen::Vector3i v = (p / voxel).array().floor().cast<int>();
-      const auto [it, isNew] = voxelIndex.try_emplace(key(v), static_cast<int>(coordinates.size()));
-      if (isNew) coordinates.push_back(v);
-      voxelOfPoint.push_back(it->second);
-    }
-    const std::vector<int> component = label(coordinates, voxelIndex);
-    for (const int v : voxelOfPoint) labels_.push_back(component[static_cast<std::size_t>(v)]);
-  }
-
-  int count() const { return count_; }
-  const std::vector<int>& labels() const { return labels_; }  //!< Of each point
-
- private:
-  static std::int64_t key(const Eigen::Vector3i& v)
-  {
-    constexpr std::int64_t kOffset = 1 << 20;
-    return ((v.x() + kOffset) << 42) | ((v.y() + kOffset) << 21) | (v.z() + kOffset);
-  }
-
-  std::vector<int> label(
-      const std::vector<Eigen::Vector3i>& coordinates,
-      const std::unordered_map<std::int64_t, int>& voxelIndex)
-  {
-    std::vector<int> component(coordinates.size(), -1), stack;
-    for (std::size_t seed = 0; seed < coordinates.size(); ++seed)
-    {
-      if (component[seed] >= 0) continue;
-      component[seed] = count_;
-      stack.push_back(static_cast<int>(seed));
-      while (!stack.empty())
-      {
-        const Eigen::Vector3i v = coordinates[static_cast<std::size_t>(stack.back())];
-        stack.pop_back();
-        for (int i = 0; i < 27; ++i)
-        {
-          const auto it =
-              voxelIndex.find(key(v + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
-          if (it == voxelIndex.end() || component[static_cast<std::size_t>(it->second)] >= 0)
-            continue;
-          component[static_cast<std::size_t>(it->second)] = count_;
-          stack.push_back(it->second);
-        }
-      }
-      ++count_;
-    }
-    return component;
-  }
-
-  int count_ = 0;
-  std::vector<int> labels_;
-};
-
-/** How well a cluster plays the part of the object in the box. */
-struct ClusterScore
-{
+  int count = 0;
   double centrality = 0;                            // sum of Gaussian weights of its cells
   double x1 = 1e9, y1 = 1e9, x2 = -1e9, y2 = -1e9;  // bounds [cells]
+  double nearest = 1e9, farthest = 0;               // depth [m]
+  int leaking = 0;                                  // cells where it goes on outside the box
+  double fill = 0;                                  // IoU of its bounds and the box
+  double leak = 0;  // share of the box's outline across which it goes on
 
-  void add(const ObjectCloud::Cell& cell, double weight)
+  void add(const ObjectCloud::Cell& cell, double z, double weight)
   {
+    ++count;
     centrality += weight;
     x1 = std::min(x1, double(cell.c));
     y1 = std::min(y1, double(cell.r));
     x2 = std::max(x2, double(cell.c));
     y2 = std::max(y2, double(cell.r));
+    nearest = std::min(nearest, z);
+    farthest = std::max(farthest, z);
   }
+  double score() const { return centrality * fill * (1.0 - leak) * (1.0 - leak); }
 };
 
-int bestCluster(
-    const Candidates& candidates,
-    const VoxelClusters& clusters,
-    const ImageBox& box,
-    const DepthCloud& cloud,
-    int minPoints)
+/** What was cut out of one box, and whether it may be taken from other boxes. */
+struct Cut
 {
-  const double s = cloud.stride();
-  const ImageBox target = box.clipped(cloud.camera().width, cloud.camera().height);
-  std::vector<ClusterScore> scores(static_cast<std::size_t>(clusters.count()));
-  std::vector<int> counts(static_cast<std::size_t>(clusters.count()), 0);
-  for (std::size_t i = 0; i < candidates.cells.size(); ++i)
-  {
-    const auto& cell = candidates.cells[i];
-    const double du = (cell.c * s - target.centerX()) / (0.35 * target.width());
-    const double dv = (cell.r * s - target.centerY()) / (0.35 * target.height());
-    const auto label = static_cast<std::size_t>(clusters.labels()[i]);
-    scores[label].add(cell, std::exp(-0.5 * (du * du + dv * dv)));
-    ++counts[label];
-  }
-  int best = -1;
-  double bestScore = 0;
-  for (std::size_t i = 0; i < scores.size(); ++i)
-  {
-    if (counts[i] < minPoints) continue;
-    const auto& b = scores[i];
-    const double fill = imageBoxIoU({b.x1 * s, b.y1 * s, b.x2 * s, b.y2 * s}, target);
-    const double score = b.centrality * fill;
-    if (score > bestScore)
-    {
-      bestScore = score;
-      best = static_cast<int>(i);
-    }
-  }
-  return best;
-}
+  ObjectCloud object;
+  bool isSeparate = false;  // it fills its box and ends there
+};
 
-double medianDepth(const Candidates& candidates)
+/** Cuts the objects of a frame out of their boxes. */
+class Segmenter
 {
-  std::vector<double> z;
-  for (const auto& p : candidates.points) z.push_back(p.z());
-  const auto middle = z.begin() + static_cast<long>(z.size() / 2);
-  std::nth_element(z.begin(), middle, z.end());
-  return *middle;
-}
+ public:
+  Segmenter(
+      const DepthCloud& cloud,
+      const ScenePlanes& planes,
+      const std::vector<ObjectTask>& tasks,
+      const PerceptionOptions& options) :
+      cloud_(cloud), planes_(planes), tasks_(tasks), options_(options)
+  {
+    owner_.assign(static_cast<std::size_t>(cloud.columns() * cloud.rows()), kNobody);
+  }
+
+  /** Small boxes first: what stands alone in one of them is no part of the larger ones around it.
+   * Boxes whose cluster goes on outside come last and get what is left. */
+  std::vector<ObjectCloud> run()
+  {
+    std::vector<ObjectCloud> out(tasks_.size());
+    std::vector<std::size_t> order(tasks_.size()), unsure;
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(
+        order.begin(), order.end(),
+        [&](auto a, auto b) { return boxOf(a).area() < boxOf(b).area(); });
+    for (const std::size_t i : order)
+    {
+      Cut cut = cutOut(i);
+      if (cut.isSeparate)
+        for (const auto& cell : cut.object.cells) owner(cell) = static_cast<int>(i);
+      else
+        unsure.push_back(i);
+      out[i] = std::move(cut.object);
+    }
+    for (const std::size_t i : unsure)
+      if (containsOthers(i, out[i])) out[i] = cutOut(i).object;
+    return out;
+  }
+
+ private:
+  const ImageBox& boxOf(std::size_t i) const { return tasks_[i].detection->box; }
+  int& owner(const ObjectCloud::Cell& cell)
+  {
+    return owner_[static_cast<std::size_t>(cell.r * cloud_.columns() + cell.c)];
+  }
+
+  /** Two boxes that a detector drew around one thing, under two names. */
+  bool isSameThing(std::size_t i, std::size_t j) const
+  {
+    constexpr double kMinIoU = 0.55;
+    return i == j || imageBoxIoU(boxOf(i), boxOf(j)) > kMinIoU;
+  }
+  bool belongsToOther(std::size_t i, const ObjectCloud::Cell& cell)
+  {
+    const int who = owner(cell);
+    return who != kNobody && !isSameThing(i, static_cast<std::size_t>(who));
+  }
+  bool containsOthers(std::size_t i, const ObjectCloud& object)
+  {
+    return std::any_of(
+        object.cells.begin(), object.cells.end(),
+        [&](const auto& cell) { return belongsToOther(i, cell); });
+  }
+
+  Cut cutOut(std::size_t index)
+  {
+    const ObjectTask& task = tasks_[index];
+    Cut out;
+    out.object.support = task.support;
+    if (!boxOf(index).isValid()) return out;
+    out.object.coverage = coverageOf(cloud_, boxOf(index));
+    BoxCandidates candidates = candidatesIn(cloud_, planes_, task, options_);
+    dropOthers(index, candidates);
+    if (static_cast<int>(candidates.points.size()) < options_.minPoints) return out;
+
+    const PointClusters parts(
+        candidates.points, gapFor(boxOf(index), medianDepth(candidates.points)), options_);
+    const auto clusters = describe(task, candidates, parts);
+    const int best = bestOf(clusters);
+    if (best < 0) return out;
+    const Cluster& main = clusters[static_cast<std::size_t>(best)];
+    constexpr double kMinFill = 0.5, kMaxLeak = 0.1;
+    out.isSeparate = main.fill > kMinFill && main.leak < kMaxLeak;
+    for (std::size_t i = 0; i < candidates.points.size(); ++i)
+      if (parts.labels()[i] == best ||
+          isFragment(clusters[static_cast<std::size_t>(parts.labels()[i])], main))
+      {
+        out.object.cells.push_back(candidates.cells[i]);
+        out.object.points.push_back(candidates.points[i]);
+      }
+    return out;
+  }
+
+  void dropOthers(std::size_t index, BoxCandidates& candidates)
+  {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < candidates.cells.size(); ++i)
+    {
+      if (belongsToOther(index, candidates.cells[i])) continue;
+      candidates.cells[kept] = candidates.cells[i];
+      candidates.points[kept++] = candidates.points[i];
+    }
+    candidates.cells.resize(kept);
+    candidates.points.resize(kept);
+  }
+
+  /** Gap that parts of one object may have: a share of its size, but no less than the sampling
+   * needs. */
+  double gapFor(const ImageBox& box, double range) const
+  {
+    const double size = std::sqrt(box.area()) * range / std::abs(cloud_.camera().fx);
+    return std::max(
+        options_.clusterToleranceGrowth * range,
+        std::min(options_.clusterTolerance, options_.clusterToleranceShare * size));
+  }
+
+  std::vector<Cluster> describe(
+      const ObjectTask& task, const BoxCandidates& candidates, const PointClusters& parts) const
+  {
+    const double s = cloud_.stride();
+    const ImageBox target =
+        task.detection->box.clipped(cloud_.camera().width, cloud_.camera().height);
+    std::vector<Cluster> clusters(static_cast<std::size_t>(parts.count()));
+    for (std::size_t i = 0; i < candidates.cells.size(); ++i)
+    {
+      const auto& cell = candidates.cells[i];
+      const double du = (cell.c * s - target.centerX()) / (0.35 * target.width());
+      const double dv = (cell.r * s - target.centerY()) / (0.35 * target.height());
+      auto& cluster = clusters[static_cast<std::size_t>(parts.labels()[i])];
+      cluster.add(cell, candidates.points[i].z(), std::exp(-0.5 * (du * du + dv * dv)));
+      cluster.leaking += goesOn(task, candidates.range, cell);
+    }
+    const double outline = 2.0 * (candidates.range.c1 - candidates.range.c0) +
+                           2.0 * (candidates.range.r1 - candidates.range.r0);
+    for (auto& b : clusters)
+    {
+      b.fill = imageBoxIoU({b.x1 * s, b.y1 * s, b.x2 * s, b.y2 * s}, target);
+      b.leak = std::min(1.0, b.leaking / outline);
+    }
+    return clusters;
+  }
+
+  /** Is a cell at the rim of the range, with the same surface going on outside? */
+  bool goesOn(
+      const ObjectTask& task,
+      const DepthCloud::CellRange& range,
+      const ObjectCloud::Cell& cell) const
+  {
+    constexpr int kReach = 2;  // cells
+    const int dc = cell.c == range.c0 ? -kReach : cell.c == range.c1 - 1 ? kReach : 0;
+    const int dr = cell.r == range.r0 ? -kReach : cell.r == range.r1 - 1 ? kReach : 0;
+    const int c = cell.c + dc, r = cell.r + dr;
+    if ((dc == 0 && dr == 0) || !cloud_.inside(c, r) || !cloud_.valid(c, r)) return false;
+    const double z = cloud_.depth(cell.c, cell.r);
+    if (std::abs(cloud_.depth(c, r) - z) > options_.clusterTolerance + 3.0 * options_.depthSigma(z))
+      return false;
+    return !task.support ||
+           planes_.plane(*task.support).plane.signedDistance(cloud_.point(c, r).cast<double>()) >
+               supportTolerance(z, task.label, options_);
+  }
+
+  int bestOf(const std::vector<Cluster>& clusters) const
+  {
+    int best = -1;
+    double bestScore = 0;
+    for (std::size_t i = 0; i < clusters.size(); ++i)
+      if (clusters[i].count >= options_.minPoints && clusters[i].score() > bestScore)
+      {
+        bestScore = clusters[i].score();
+        best = static_cast<int>(i);
+      }
+    return best;
+  }
+
+  /** A part that something thin or unseen joins to the main one: a leg, the leaves above a stem. It
+   * ends within the box and lies at the main part's depth; background does not. */
+  bool isFragment(const Cluster& cluster, const Cluster& main) const
+  {
+    constexpr int kMinCount = 12;         // points; fewer are noise
+    constexpr double kDepthSlack = 0.05;  // [m]
+    return cluster.count >= kMinCount && cluster.leaking == 0 &&
+           cluster.nearest > main.nearest - kDepthSlack &&
+           cluster.farthest < main.farthest + kDepthSlack;
+  }
+
+  const DepthCloud& cloud_;
+  const ScenePlanes& planes_;
+  const std::vector<ObjectTask>& tasks_;
+  const PerceptionOptions& options_;
+  std::vector<int> owner_;  // of each cell of the cloud: index of a task
+};
 
 }  // namespace
 
-ObjectCloud segmentObject(
+std::vector<ObjectCloud> segmentObjects(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const std::vector<ObjectTask>& tasks,
-    std::size_t index,
     const PerceptionOptions& options)
 {
-  const DetectedObject& detection = *tasks[index].detection;
-  ObjectCloud out;
-  out.coverage = coverageOf(cloud, detection.box);
-  out.support = tasks[index].support;
-  const Candidates candidates = collect(cloud, planes, tasks[index], options);
-  if (static_cast<int>(candidates.points.size()) < options.minPoints) return out;
-
-  const double voxel =
-      std::max(options.clusterTolerance, options.clusterToleranceGrowth * medianDepth(candidates));
-  const VoxelClusters clusters(candidates.points, voxel);
-  const int best = bestCluster(candidates, clusters, detection.box, cloud, options.minPoints);
-  for (std::size_t i = 0; i < candidates.points.size(); ++i)
-    if (clusters.labels()[i] == best)
-    {
-      out.cells.push_back(candidates.cells[i]);
-      out.points.push_back(candidates.points[i]);
-    }
-  return out;
+  return Segmenter(cloud, planes, tasks, options).run();
 }
 
 }  // namespace quadmap

@@ -37,15 +37,15 @@ struct ObjectTask
   std::vector<std::size_t> carries;  //!< Detections of the frame that stand on this object
 };
 
-/** Cuts an object out of its box: planes that reach far beyond the box and the supporting plane
- * are removed, the rest falls into clusters, and the one that fills the box best is the object
- * (doc/mathematics.md). Empty when there is no such cluster.
- * \param tasks All detections of the frame. \param index Of the one to cut out. */
-ObjectCloud segmentObject(
+/** Cuts the objects of a frame out of their boxes. Of each box the support, the walls around and
+ * planes that reach far beyond it are removed; the rest falls into clusters, and the one that fills
+ * the box best and ends there is the object, with fragments at its depth. What stands alone in its
+ * own box is no part of the other boxes' objects (doc/mathematics.md).
+ * \return One for each task; empty where there is no such cluster. */
+std::vector<ObjectCloud> segmentObjects(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const std::vector<ObjectTask>& tasks,
-    std::size_t index,
     const PerceptionOptions& options);
 
 }  // namespace quadmap

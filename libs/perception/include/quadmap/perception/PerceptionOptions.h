@@ -20,8 +20,12 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double planeTolerance = 0.015;  //!< A point this near to its support belongs to it [m], > 0
 
   double boxMargin = 0.05;         //!< Detector boxes are enlarged by this share of their size
-  double clusterTolerance = 0.03;  //!< Gap that separates objects at close range [m], > 0
-  double clusterToleranceGrowth = 0.012;  //!< ... but at least this times the range [-]
+  /** Gap between parts of one object: a share of its size, at most `clusterTolerance`, and at
+   * least `clusterToleranceGrowth` times the range, where the depth camera's pixels are as far
+   * apart. */
+  double clusterToleranceShare = 0.06;    //!< Of the object's size, from its box and range [-]
+  double clusterTolerance = 0.05;         //!< [m], > 0
+  double clusterToleranceGrowth = 0.012;  //!< [-], >= 0
   int minPoints = 60;  //!< Fewest points (of every second pixel) worth a fit, >= 10
 
   double yawMinDominance = 0.40;   //!< Peak mass that makes a direction; even spread gives 0.22

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "ObjectCloud.h"
+
+namespace quadmap
+{
+/** The cells of a detector's box that may belong to its object. */
+struct BoxCandidates
+{
+  std::vector<ObjectCloud::Cell> cells;
+  std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
+  DepthCloud::CellRange range;          //!< Where was looked: the enlarged box
+};
+
+/** Cells of the enlarged box (or the mask) with depth, without the supporting plane, without planes
+ * that reach far beyond the box and without the wall behind it. */
+BoxCandidates candidatesIn(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ObjectTask& task,
+    const PerceptionOptions& options);
+
+/** A point nearer than this to its supporting plane belongs to the plane [m]; thin objects (a book)
+ * allow less than tall ones. \param z Depth [m]. */
+double supportTolerance(double z, const LabelProperties& label, const PerceptionOptions& options);
+
+}  // namespace quadmap
