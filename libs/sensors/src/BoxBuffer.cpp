@@ -1,7 +1,6 @@
 #include "BoxBuffer.h"
 
-#include <mrpt/core/format.h>
-
+#include <algorithm>
 #include <cmath>
 
 #include "InputError.h"
@@ -13,16 +12,50 @@ namespace
 constexpr std::size_t kMaxWaiting = 1000;  // records of one sensor; a few kB each
 
 double secondsOf(const BoxBuffer::Entry& e) { return mrpt::Clock::toDouble(e.boxes->timestamp); }
+
+/** What has to be known of a sidecar before it is read along with its rawlog. */
+struct SidecarSurvey
+{
+  bool hasBoxes = false, damaged = false;
+  double stepBack = 0;  // how far a record is behind a later one before it [s]
+};
+
+SidecarSurvey surveyOf(const std::string& file)
+{
+  SidecarSurvey survey;
+  std::optional<double> latest;
+  RecordReader reader(file);
+  try
+  {
+    while (const auto object = reader.next())
+    {
+      const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(object);
+      survey.hasBoxes = survey.hasBoxes || boxes;
+      if (!boxes || boxes->timestamp == INVALID_TIMESTAMP) continue;
+      const double time = secondsOf({0, boxes});
+      latest = std::max(time, latest.value_or(time));
+      survey.stepBack = std::max(survey.stepBack, *latest - time);
+    }
+  }
+  catch (const InputError&)  // told when the file is read
+  {
+    survey.damaged = true;
+  }
+  return survey;
+}
 }  // namespace
 
 void BoxBuffer::openSidecar(const std::string& file)
 {
+  const SidecarSurvey survey = surveyOf(file);
+  if (!survey.hasBoxes && !survey.damaged) return;
   sidecar_ = std::make_unique<RecordReader>(file);
+  stepBack_ = survey.stepBack;
 }
 
 void BoxBuffer::readUntil(double time)
 {
-  while (sidecar_ && (!sidecarTime_ || *sidecarTime_ <= time + maxDelay_))
+  while (sidecar_ && (!sidecarTime_ || *sidecarTime_ <= time + maxDelay_ + stepBack_))
   {
     const std::size_t record = sidecar_->recordsRead();
     const auto object = sidecar_->next();
@@ -32,7 +65,8 @@ void BoxBuffer::readUntil(double time)
     try
     {
       add({record, boxes});
-      sidecarTime_ = secondsOf({record, boxes});
+      const double t = secondsOf({record, boxes});
+      sidecarTime_ = std::max(t, sidecarTime_.value_or(t));
     }
     catch (const std::exception& e)
     {
@@ -48,14 +82,12 @@ void BoxBuffer::add(Entry entry)
   if (entry.boxes->timestamp == INVALID_TIMESTAMP)
     throw std::runtime_error("the boxes have no time stamp");
   const double time = secondsOf(entry);
-  const auto before = latest_.find(label);
-  if (before != latest_.end() && time < before->second)
-    throw std::runtime_error(
-        mrpt::format("the time of the boxes goes back by %.6f s", before->second - time));
-  latest_[label] = time;
+  auto& latest = latest_.emplace(label, time).first->second;
+  latest = std::max(latest, time);
   auto& queue = waiting_[label];
-  queue.push_back(std::move(entry));
-  if (queue.size() <= kMaxWaiting) return;
+  const auto isLater = [](double t, const Entry& e) { return t < secondsOf(e); };
+  queue.insert(std::upper_bound(queue.begin(), queue.end(), time, isLater), std::move(entry));
+  if (sidecar_ || queue.size() <= kMaxWaiting) return;  // of a sidecar no more is read than needed
   queue.pop_front();
   ++dropped_[label];
 }

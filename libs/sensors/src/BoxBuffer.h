@@ -25,14 +25,15 @@ class BoxBuffer
   /** \param maxDelay Largest difference of the times of boxes and scan [s]. */
   explicit BoxBuffer(double maxDelay) : maxDelay_(maxDelay) {}
 
-  /** \exception std::runtime_error If the file cannot be opened. */
+  /** Its records may stand in any order. A file without boxes counts for nothing.
+   *  \exception std::runtime_error If the file cannot be opened. */
   void openSidecar(const std::string& file);
   bool hasSidecar() const { return sidecar_ != nullptr; }
 
-  /** Reads the sidecar up to a time [s]. \exception InputError */
+  /** Reads the sidecar as far as boxes up to a time [s] can stand in it. \exception InputError */
   void readUntil(double time);
 
-  /** \exception std::runtime_error Without time stamp, or if time goes backwards. */
+  /** \exception std::runtime_error Without time stamp. */
   void add(Entry entry);
 
   /** A detector takes its time: can boxes of this sensor and time [s] still turn up in the rawlog?
@@ -50,7 +51,8 @@ class BoxBuffer
  private:
   double maxDelay_;
   std::unique_ptr<RecordReader> sidecar_;
-  std::optional<double> sidecarTime_;                 // of the last record read [s]
+  std::optional<double> sidecarTime_;                 // the latest that was read [s]
+  double stepBack_ = 0;                               // how far its times go back at most [s]
   std::map<std::string, std::deque<Entry>> waiting_;  // by sensor, in the order of time
   std::map<std::string, double> latest_;              // of the boxes of each sensor [s]
   std::map<std::string, std::size_t> dropped_;        // too old to find a scan, by sensor

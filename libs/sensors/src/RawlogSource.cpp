@@ -9,13 +9,14 @@
 #include "InputError.h"
 #include "RawlogSourceImpl.h"
 #include "ScanCheck.h"
+#include "quadmap/obs/PixelLabels.h"
 #include "quadmap/sensors/RawlogNames.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr std::size_t kMaxPending = 32;  // frames waiting for later poses and boxes: up to 50 MB
+constexpr std::size_t kMaxPending = 32;  // frames of a sensor waiting for poses and boxes: 50 MB
 
 std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
 {
@@ -94,7 +95,8 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
 bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
 {
   const double time = pending.frame.time();
-  if (pending_.size() > kMaxPending || latestTime_ > time + options.maxOdometryGap) return true;
+  const bool tooMany = pending_.size() > kMaxPending * lastScanTime_.size();
+  if (tooMany || latestTime_ > time + options.maxOdometryGap) return true;
   if (latestTime_ <= time + options.maxBoxDelay) return false;
   if (boxes.mayStillCome(pending.frame.scan->sensorLabel, time)) return false;
   const bool odometryKnown = odometry.countsActions() || odometry.track().reaches(time);
@@ -119,6 +121,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
         "): colour is not registered to depth, boxes may be off");
   addPoses(pending);
   addBoxes(frame);
+  if (!frame.objects && options.pixelLabelClasses) addPixelLabels(frame);
   ++framesRead;
   return std::move(frame);
 }
@@ -139,8 +142,8 @@ void RawlogSource::Impl::addPoses(PendingFrame& pending)
   {
     const auto earlier = [](const PendingFrame& a, const PendingFrame& b)
     { return a.frame.time() < b.frame.time(); };
-    odometry.forgetBefore(
-        std::min_element(pending_.begin(), pending_.end(), earlier)->frame.time());
+    const auto first = std::min_element(pending_.begin(), pending_.end(), earlier);
+    odometry.forgetBefore(first->frame.time() - kMaxScanDelay);
   }
 }
 
@@ -170,12 +173,37 @@ void RawlogSource::Impl::addBoxes(RgbdFrame& frame)
   frame.objects = found->boxes;
 }
 
+void RawlogSource::Impl::addPixelLabels(RgbdFrame& frame)
+{
+  try
+  {
+    frame.objects = boxesFromPixelLabels(
+        *frame.scan, *options.pixelLabelClasses, options.minLabelPixels, unknownPixelLabels_);
+    frame.objectsFromPixelLabels = frame.objects != nullptr;
+    sawPixelLabels = sawPixelLabels || frame.objects;
+  }
+  catch (const std::exception& e)
+  {
+    report({reader.file(), frame.record, frame.scan->sensorLabel, e.what()});
+  }
+}
+
+void RawlogSource::Impl::tellUnknownPixelLabels()
+{
+  std::string names;
+  for (const auto& name : unknownPixelLabels_) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty())
+    warnOnce(
+        reader.file() + ": pixel labels that are not in the label table are no objects: " + names);
+}
+
 /** Boxes that all miss their scans are a mistake of the input that would otherwise look like an
  * empty room. */
 void RawlogSource::Impl::finish()
 {
   if (finished_) return;
   finished_ = true;
+  tellUnknownPixelLabels();
   readSidecar(1e300);
   const std::size_t lost = boxes.unpaired(options.sensorLabel);
   if (framesRead == 0 || lost == 0) return;
@@ -207,7 +235,7 @@ std::size_t RawlogSource::recordsRead() const { return impl_->reader.recordsRead
 
 std::size_t RawlogSource::framesRead() const { return impl_->framesRead; }
 
-bool RawlogSource::hasBoxes() const { return impl_->boxes.seenAny(); }
+bool RawlogSource::hasBoxes() const { return impl_->boxes.seenAny() || impl_->sawPixelLabels; }
 
 std::string RawlogSource::odometryKind() const { return impl_->odometry.kind(); }
 

@@ -31,11 +31,15 @@ struct RawlogSource::Impl
   std::optional<RgbdFrame> next();
   std::string summary() const;
 
+  /** Sensors may write their scans so long after their time [s]: poses are kept. */
+  static constexpr double kMaxScanDelay = 10;
+
   RecordReader reader;
   std::string imagesFolder;
   RawlogSourceOptions options;
   std::vector<InputProblem> problems;
   std::size_t framesRead = 0;
+  bool sawPixelLabels = false;
   BoxBuffer boxes;
   OdometryReader odometry;
 
@@ -49,6 +53,8 @@ struct RawlogSource::Impl
   std::optional<RgbdFrame> complete(PendingFrame pending);
   void addPoses(PendingFrame& pending);
   void addBoxes(RgbdFrame& frame);
+  void addPixelLabels(RgbdFrame& frame);
+  void tellUnknownPixelLabels();
   void readSidecar(double time);
   void finish();
   void warnOnce(const std::string& text);
@@ -58,6 +64,7 @@ struct RawlogSource::Impl
   std::map<std::string, double> lastScanTime_;  // by sensor [s]
   std::map<std::string, std::size_t> content_;  // records by class
   std::set<std::string> warned_;
+  std::set<std::string> unknownPixelLabels_;
   double latestTime_ = -1e300;  // of all records [s]
   bool ended_ = false, finished_ = false;
 };

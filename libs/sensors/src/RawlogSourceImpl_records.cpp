@@ -13,8 +13,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kMaxScanDelay = 10;  // [s]; poses are kept so long for scans recorded late
-
 std::string bareClassName(const mrpt::rtti::CObject& object)
 {
   const std::string name = object.GetRuntimeClass()->className;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/obs/LabelTable.h"
 #include "quadmap/sensors/RgbdFrame.h"
 
 namespace quadmap
@@ -16,8 +17,11 @@ namespace quadmap
 struct RawlogSourceOptions
 {
   std::string objectsFile;  //!< Sidecar with the boxes; empty: NAME.objects.rawlog when it exists
-  std::string sensorLabel;  //!< Only this RGB-D sensor; empty: all
-  bool keepGoing = false;   //!< Drop broken records (and count them) instead of throwing
+  /** The classes whose pixelLabels become boxes; nothing: pixelLabels are not looked at. */
+  std::optional<LabelTable> pixelLabelClasses;
+  int minLabelPixels = 1;       //!< See boxesFromPixelLabels()
+  std::string sensorLabel;      //!< Only this RGB-D sensor; empty: all
+  bool keepGoing = false;       //!< Drop broken records (and count them) instead of throwing
   double maxBoxDelay = 0.005;   //!< Boxes belong to a scan within this time [s], >= 0
   double maxOdometryGap = 1.0;  //!< Poses are interpolated over at most this time [s], > 0
 };
@@ -36,7 +40,8 @@ struct InputProblem
 /** Streams the RGB-D frames of a rawlog, either MRPT format (actions + sensory frames, or
  * observations), .gz or not, paired with boxes and poses; holds only a few frames at a time.
  *
- * Boxes come from the sidecar or from the rawlog itself. Odometry of any kind
+ * Boxes come from the sidecar; without one (or with one that has no boxes) from the rawlog itself.
+ * A scan that has none there gets those of its pixelLabels, when it has some. Odometry of any kind
  * (CActionRobotMovement2D/3D, CObservationOdometry, CObservationRobotPose) is interpolated at the
  * frame's time; CObservationRobotPose labelled "ground_truth" is the true pose, not odometry. */
 class RawlogSource : public mrpt::system::COutputLogger
@@ -56,7 +61,7 @@ class RawlogSource : public mrpt::system::COutputLogger
   double progress() const;                            //!< Share of the file read, in [0, 1]
   std::size_t recordsRead() const;
   std::size_t framesRead() const;
-  bool hasBoxes() const;             //!< Records of boxes were seen, here or in the sidecar
+  bool hasBoxes() const;             //!< Boxes (or pixelLabels, if wanted) were seen somewhere
   std::string odometryKind() const;  //!< "CObservationRobotPose odometry", ...; "" while unseen
 
   /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
