@@ -17,7 +17,7 @@ struct Cli
 {
   cli::CommandLine line{
       "quadmap-simulate",
-      "Walks through a furnished room with a simulated RGB-D camera and an object detector. Writes "
+      "Moves through a furnished room with simulated RGB-D cameras and an object detector. Writes "
       "the rawlog (range scans, drifting odometry, true poses), the boxes (OUT.objects.rawlog), "
       "the "
       "true objects (OUT.objects.gt.json) and the true trajectory (OUT.groundtruth.tum). The same "
@@ -37,8 +37,9 @@ struct Cli
       false,      "1",     "FACTOR",
       line.args()};
   TCLAP::ValueArg<std::string> frames{
-      "",  "frames",   "Number of frames instead of the scene's, for the same walk.", false, "",
-      "N", line.args()};
+      "",         "frames", "Images of each camera instead of the scene's, for the same walk.",
+      false,      "",       "N",
+      line.args()};
   TCLAP::ValueArg<std::string> resolution{
       "",    "resolution", "Image size instead of the scene's, same width of view.", false, "",
       "WxH", line.args()};
@@ -70,14 +71,14 @@ double noiseFactor(const std::string& text)
   return value;
 }
 
-void setResolution(const std::string& text, simulator::CameraOptions& camera)
+void setResolution(const std::string& text, simulator::SimulatorOptions& options)
 {
   const auto x = text.find('x');
   if (x == std::string::npos)
     throw cli::UsageError("--resolution " + text + ": expected WIDTHxHEIGHT, such as 320x240");
   const auto width = wholeNumber("--resolution", text.substr(0, x), 64, 4096);
   const auto height = wholeNumber("--resolution", text.substr(x + 1), 64, 4096);
-  camera.resize(static_cast<int>(width), static_cast<int>(height));
+  options.resize(static_cast<int>(width), static_cast<int>(height));
 }
 
 /** A bar on a terminal, nothing elsewhere. */
@@ -104,7 +105,7 @@ void run(Cli& cli)
   if (cli.frames.isSet())
     scene.options.trajectory.frames =
         static_cast<int>(wholeNumber("--frames", cli.frames.getValue(), 2, 100000));
-  if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options.camera);
+  if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options);
   scene.options.scaleNoise(noise);
 
   const simulator::Simulator simulator(std::move(scene), LabelTable::installed(), seed);

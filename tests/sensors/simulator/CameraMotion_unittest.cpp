@@ -11,6 +11,14 @@ namespace quadmap::simulator
 {
 namespace
 {
+/** The way of a scene, frame by frame. */
+std::vector<mrpt::poses::CPose3D> pathOf(const Scene& scene, const TrajectoryOptions& options)
+{
+  std::vector<double> instants;
+  for (int frame = 0; frame < options.frames; ++frame) instants.push_back(frame);
+  return robotPath(scene, options, instants);
+}
+
 /** Distance of two directions of view [rad]. */
 double turnBetween(const mrpt::poses::CPose3D& a, const mrpt::poses::CPose3D& b)
 {
@@ -25,7 +33,7 @@ TEST(CameraPath, PassesItsWaypointsLookingAtTheirTargets)
   Scene scene = homeScene();
   scene.options.trajectory.frames = 4000;  // 1 cm or 0.5 degrees apart
   scene.options.trajectory.bob = scene.options.trajectory.sway_deg = 0;
-  const auto path = cameraPath(scene, scene.options.trajectory);
+  const auto path = pathOf(scene, scene.options.trajectory);
   for (const auto& waypoint : scene.waypoints)
   {
     double best = 1e9, angle = 0;
@@ -47,7 +55,7 @@ TEST(CameraPath, HomeIsWalkedAtAHumanPace)
 {
   const Scene scene = homeScene();
   const auto& options = scene.options.trajectory;
-  const auto path = cameraPath(scene, options);
+  const auto path = pathOf(scene, options);
   ASSERT_EQ(static_cast<std::size_t>(options.frames), path.size());
   const double seconds = options.duration / options.frames;
   double low = 9, high = 0;
@@ -68,9 +76,9 @@ TEST(CameraPath, FrameCountDoesNotChangeTheWay)
   Scene scene = homeScene();
   scene.options.trajectory.bob = scene.options.trajectory.sway_deg = 0;
   auto options = scene.options.trajectory;
-  const auto many = cameraPath(scene, options);
+  const auto many = pathOf(scene, options);
   options.frames /= 4;
-  const auto few = cameraPath(scene, options);
+  const auto few = pathOf(scene, options);
   for (std::size_t i = 0; i < few.size(); ++i) EXPECT_LT((few[i] - many[4 * i]).norm(), 1e-9);
 }
 
@@ -82,7 +90,7 @@ TEST(CameraPath, RejectsWaysThroughWallsAndFurniture)
         [&]
         {
           const Scene scene = sceneFromText(text);
-          cameraPath(scene, scene.options.trajectory);
+          pathOf(scene, scene.options.trajectory);
         });
   };
   EXPECT_EQ("", errorFor(kRoomText));
@@ -111,7 +119,7 @@ TEST(SimulatedOdometry, IsTheTruthWithoutNoise)
   SimulatorOptions options;
   options.scaleNoise(0);
   const Scene scene = homeScene();
-  const auto truth = cameraPath(scene, scene.options.trajectory);
+  const auto truth = pathOf(scene, scene.options.trajectory);
   RandomStream random(1, Purpose::Odometry, 0);
   const auto odometry = driftingOdometry(truth, options.odometry, random);
   ASSERT_EQ(truth.size(), odometry.size());

@@ -1,5 +1,5 @@
-#include <mrpt/config/CConfigFile.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
 #include <mrpt/system/string_utils.h>
 
 #include <algorithm>
@@ -8,6 +8,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "SceneConfig.h"
+#include "SceneText.h"
+#include "WaypointText.h"
 #include "quadmap/obs/ConfigCheck.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/sensors/simulator/Scene.h"
@@ -16,61 +19,27 @@ namespace quadmap::simulator
 {
 namespace
 {
-using mrpt::config::CConfigFile;
 using Parts = std::vector<Primitive>;
-
-std::vector<std::string> wordsOf(const std::string& text)
-{
-  std::vector<std::string> words;
-  mrpt::system::tokenize(text, " \t,", words);
-  return words;
-}
-
-/** One key of the file with its text, for messages. */
-struct Entry
-{
-  std::string section, key, text;
-
-  [[noreturn]] void reject(const std::string& why) const
-  {
-    throw std::invalid_argument("[" + section + "] " + key + "=" + text + ": " + why);
-  }
-
-  double number(const std::string& word, double min, double max) const
-  {
-    const auto value = parseNumber(word);
-    if (!value || !(*value >= min && *value <= max))
-      reject(mrpt::format("\"%s\" must be a number in [%g, %g]", word.c_str(), min, max));
-    return *value;
-  }
-
-  /** Words [first, first + 3). */
-  Eigen::Vector3d vector(
-      const std::vector<std::string>& words, std::size_t first, double min, double max) const
-  {
-    return {
-        number(words[first], min, max), number(words[first + 1], min, max),
-        number(words[first + 2], min, max)};
-  }
-};
 
 /** Reads the sections of one file into a scene. */
 class SceneReader
 {
  public:
-  explicit SceneReader(const std::string& path) : file_(path) {}
+  explicit SceneReader(const SceneConfig& config) :
+      file_(config.config()), sections_(config.sections())
+  {
+  }
 
   Scene read()
   {
-    file_.getAllSections(sections_);
     readMaterials();
     readRoom();
     for (const auto& section : sectionsOf("model")) readModel(section);
     for (const auto& section : sectionsOf("object")) readObject(section);
-    readWaypoints();
     auto& options = scene_.options;
-    options.camera.loadFromConfigFile(file_, "camera");
+    readCameras();
     options.trajectory.loadFromConfigFile(file_, "trajectory");
+    scene_.waypoints = readWaypoints(file_, options.trajectory.kind);
     options.depthNoise.loadFromConfigFile(file_, "depth_noise");
     options.odometry.loadFromConfigFile(file_, "odometry");
     options.detector.loadFromConfigFile(file_, "detector");
@@ -103,22 +72,16 @@ class SceneReader
     for (const auto& section : sections_)
     {
       const std::string kind = section.substr(0, section.find(' '));
-      const bool named =
-          section != kind && (kind == "material" || kind == "model" || kind == "object");
+      const bool named = section != kind && (kind == "material" || kind == "model" ||
+                                             kind == "object" || kind == "camera");
       if (!named && known.count(section) == 0)
         throw std::invalid_argument("[" + section + "] unknown section");
     }
   }
 
-  std::optional<Entry> entry(const std::string& section, const std::string& key) const
-  {
-    if (!file_.keyExists(section, key)) return std::nullopt;
-    return Entry{section, key, mrpt::system::trim(file_.read_string(section, key, ""))};
-  }
-
   Entry required(const std::string& section, const std::string& key) const
   {
-    const auto found = entry(section, key);
+    const auto found = entryOf(file_, section, key);
     if (!found) throw std::invalid_argument("[" + section + "] " + key + ": is missing");
     return *found;
   }
@@ -126,10 +89,7 @@ class SceneReader
   Eigen::Vector3d requiredVector(
       const std::string& section, const std::string& key, double min, double max) const
   {
-    const Entry e = required(section, key);
-    const auto words = wordsOf(e.text);
-    if (words.size() != 3) e.reject("expected three numbers");
-    return e.vector(words, 0, min, max);
+    return required(section, key).vector(min, max);
   }
 
   /** The keys of a section that start with `prefix`, the rest of them known. */
@@ -153,7 +113,7 @@ class SceneReader
       Material material;
       material.name = nameOf(section);
       material.color = requiredVector(section, "color", 0, 255);
-      if (const auto e = entry(section, "pattern")) material.pattern = patternOf(*e);
+      if (const auto e = entryOf(file_, section, "pattern")) material.pattern = patternOf(*e);
       readNumber(file_, section, "scale", material.scale, 0.001, 10);
       readNumber(file_, section, "contrast", material.contrast, 0, 1);
       readFlag(file_, section, "depth", material.depth);
@@ -241,7 +201,7 @@ class SceneReader
     object.T_world_obj = mrpt::poses::CPose3D(
         position.x(), position.y(), position.z(), mrpt::DEG2RAD(yaw_deg), 0, 0);
 
-    if (const auto e = entry(section, "model")) object.parts = modelOf(*e);
+    if (const auto e = entryOf(file_, section, "model")) object.parts = modelOf(*e);
     const std::set<std::string> known{
         "label", "model", "position", "yaw_deg", "orientation_defined"};
     for (const auto& key : keysStartingWith("part", section, known))
@@ -258,29 +218,20 @@ class SceneReader
     return found->second;
   }
 
-  void readWaypoints()
+  void readCameras()
   {
-    std::map<int, Waypoint> ordered;
-    std::vector<std::string> keys;
-    file_.getAllKeys("trajectory", keys);
-    for (const auto& key : keys)
+    auto& options = scene_.options;
+    options.camera.loadFromConfigFile(file_, "camera");
+    for (const auto& section : sectionsOf("camera"))
     {
-      if (key.compare(0, 8, "waypoint") != 0) continue;
-      const Entry e = required("trajectory", key);
-      const auto number = parseNumber(key.substr(8));
-      if (!number || !(*number >= 0 && *number < 1e6)) e.reject("the key must be waypointNUMBER");
-      const auto words = wordsOf(e.text);
-      if (words.size() != 6) e.reject("expected six numbers: eye x y z, target x y z");
-      ordered[static_cast<int>(*number)] = {
-          e.vector(words, 0, -kFar, kFar), e.vector(words, 3, -kFar, kFar)};
+      options.rig.push_back(options.camera);
+      options.rig.back().name = nameOf(section);
+      options.rig.back().loadFromConfigFile(file_, section);
     }
-    if (ordered.size() < 4)
-      throw std::invalid_argument("[trajectory] needs waypoint1 to waypoint4 at least");
-    for (const auto& item : ordered) scene_.waypoints.push_back(item.second);
   }
 
-  CConfigFile file_;
-  std::vector<std::string> sections_;
+  const mrpt::config::CConfigFileBase& file_;
+  const std::vector<std::string>& sections_;
   std::map<std::string, std::size_t> materialIndex_;
   std::map<std::string, Parts> models_;
   Scene scene_;
@@ -290,14 +241,14 @@ class SceneReader
 
 Scene readScene(const std::string& path)
 {
-  requireReadableIni(path);
+  const SceneConfig config(path);
   try
   {
-    return SceneReader(path).read();
+    return SceneReader(config).read();
   }
   catch (const std::invalid_argument& e)
   {
-    throw std::runtime_error(path + ": " + e.what());
+    throw std::runtime_error(config.fileOf(e.what()) + ": " + e.what());
   }
 }
 

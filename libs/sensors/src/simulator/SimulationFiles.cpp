@@ -52,15 +52,24 @@ std::vector<SimulatedFrame> makeFrames(
   return frames;
 }
 
+/** Cameras without delay take their images at one time, and with one pose of the robot. */
+bool isFirstOfItsTime(const Simulator& simulator, std::size_t frame)
+{
+  return frame == 0 || simulator.time(frame) > simulator.time(frame - 1);
+}
+
 void write(
     const Simulator& simulator,
     std::size_t index,
     const SimulatedFrame& frame,
     RawlogWriter& writer)
 {
-  const auto time = frame.scan->timestamp;
-  writer.writePose(time, kOdometryLabel, simulator.odometry()[index]);
-  writer.writePose(time, kGroundTruthLabel, simulator.truePoses()[index]);
+  if (isFirstOfItsTime(simulator, index))
+  {
+    const auto time = frame.scan->timestamp;
+    writer.writePose(time, kOdometryLabel, simulator.odometry()[index]);
+    writer.writePose(time, kGroundTruthLabel, simulator.truePoses()[index]);
+  }
   writer.write(*frame.scan);
   writer.write(*frame.objects);
 }
@@ -87,7 +96,8 @@ SimulationSummary simulateToFiles(
     {
       const SimulatedFrame& frame = frames[i - first];
       write(simulator, i, frame, writer);
-      trajectory.push_back({simulator.time(i), simulator.truePoses()[i]});
+      if (isFirstOfItsTime(simulator, i))
+        trajectory.push_back({simulator.time(i), simulator.truePoses()[i]});
       for (const auto& seen : frame.visible) ++framesVisible[seen.object];
       summary.boxes += frame.objects->objects.size();
     }

@@ -1,5 +1,6 @@
 #include "quadmap/sensors/simulator/Simulator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -11,7 +12,6 @@ namespace quadmap::simulator
 {
 namespace
 {
-const std::string kCameraLabel = "camera";
 constexpr double kDepthUnit = 1.0 / 5000;  // of the stored 16-bit depth [m]: TUM's, up to 13.1 m
 
 mrpt::img::TCamera calibrationOf(const PinholeCamera& camera)
@@ -62,33 +62,56 @@ Simulator::Simulator(Scene scene, LabelTable labels, std::uint64_t seed) :
     scene_(std::move(scene)),
     labels_(std::move(labels)),
     seed_(seed),
-    caster_(scene_, scene_.options.camera.pinhole()),
-    detector_(scene_, scene_.options.detector, labels_),
-    T_world_robot_(cameraPath(scene_, scene_.options.trajectory))
+    cameras_(scene_.options.cameras()),
+    shots_(shotsOf(cameras_, scene_.options.trajectory)),
+    detector_(scene_, scene_.options.detector, labels_)
 {
+  std::vector<double> instants;
+  for (const auto& shot : shots_) instants.push_back(shot.instant);
+  T_world_robot_ = robotPath(scene_, scene_.options.trajectory, instants);
   RandomStream random(seed_, Purpose::Odometry, 0);
   odometry_ = driftingOdometry(T_world_robot_, scene_.options.odometry, random);
+}
+
+std::vector<Simulator::Shot> Simulator::shotsOf(
+    const std::vector<CameraOptions>& cameras, const TrajectoryOptions& trajectory)
+{
+  std::vector<Shot> shots;
+  for (int frame = 0; frame < trajectory.frames; ++frame)
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+      shots.push_back({frame + cameras[i].delay * trajectory.frames / trajectory.duration, i});
+  std::stable_sort(
+      shots.begin(), shots.end(),
+      [](const Shot& a, const Shot& b) { return a.instant < b.instant; });
+  return shots;
+}
+
+const CameraOptions& Simulator::camera(std::size_t frame) const
+{
+  return cameras_[shots_.at(frame).camera];
 }
 
 double Simulator::time(std::size_t frame) const
 {
   const auto& trajectory = scene_.options.trajectory;
-  return trajectory.startTime +
-         trajectory.duration * static_cast<double>(frame) / trajectory.frames;
+  return trajectory.startTime + trajectory.duration * shots_.at(frame).instant / trajectory.frames;
 }
 
 SimulatedFrame Simulator::frame(std::size_t index) const
 {
-  const RenderedFrame rendered = caster_.render(T_world_robot_.at(index));
+  const CameraOptions& by = camera(index);
+  const RenderedFrame rendered =
+      RayCaster(scene_, by.pinhole()).render(T_world_robot_[index] + by.T_robot_camera());
   SimulatedFrame result;
   result.scan = scanOf(rendered, index);
   result.visible = visibleObjects(scene_, rendered, scene_.options.detector);
 
   RandomStream random(seed_, Purpose::Detector, index);
   result.objects = CObservationObjects::Create();
-  result.objects->sensorLabel = kCameraLabel;
+  result.objects->sensorLabel = result.scan->sensorLabel;
   result.objects->timestamp = result.scan->timestamp;
   result.objects->cameraParams = result.scan->cameraParams;
+  result.objects->sensorPose = result.scan->sensorPose;
   Detections found = detector_.detect(result.visible, rendered.camera, random);
   result.objects->objects = std::move(found.boxes);
   result.truthOfBox = std::move(found.truth);
@@ -99,7 +122,8 @@ mrpt::obs::CObservation3DRangeScan::Ptr Simulator::scanOf(
     const RenderedFrame& rendered, std::size_t index) const
 {
   const auto scan = mrpt::obs::CObservation3DRangeScan::Create();
-  scan->sensorLabel = kCameraLabel;
+  scan->sensorLabel = camera(index).name;
+  scan->sensorPose = camera(index).T_robot_camera();
   scan->timestamp = mrpt::Clock::fromDouble(time(index));
   scan->cameraParams = scan->cameraParamsIntensity = calibrationOf(rendered.camera);
   scan->maxRange = static_cast<float>(scene_.options.depthNoise.maxRange);
@@ -107,8 +131,8 @@ mrpt::obs::CObservation3DRangeScan::Ptr Simulator::scanOf(
   RandomStream random(seed_, Purpose::Depth, index);
   storeDepth(noisyDepth(rendered, scene_.options.depthNoise, random), *scan);
   scan->hasIntensityImage = true;
-  scan->intensityImage = colorImage(
-      rendered, scene_.options.camera.colorNoise, RandomStream(seed_, Purpose::Color, index));
+  scan->intensityImage =
+      colorImage(rendered, camera(index).colorNoise, RandomStream(seed_, Purpose::Color, index));
   return scan;
 }
 

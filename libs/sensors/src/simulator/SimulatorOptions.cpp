@@ -1,23 +1,58 @@
 #include "quadmap/sensors/simulator/SimulatorOptions.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
+#include "SceneText.h"
 #include "quadmap/obs/ConfigCheck.h"
 
 namespace quadmap::simulator
 {
+namespace
+{
+Motion motionOf(const Entry& e)
+{
+  if (e.text == "walk") return Motion::Walk;
+  if (e.text == "drive") return Motion::Drive;
+  if (e.text == "approach") return Motion::Approach;
+  e.reject("must be walk, drive or approach");
+}
+
+}  // namespace
+
 void CameraOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& c, const std::string& section)
 {
-  rejectUnknownKeys(c, section, {"width", "height", "focal", "colorNoise", "jpegQuality"});
+  std::set<std::string> known{"width",   "height",    "focal",    "colorNoise", "position",
+                              "yaw_deg", "pitch_deg", "roll_deg", "delay"};
+  if (section == "camera") known.insert("jpegQuality");
+  rejectUnknownKeys(c, section, known);
   readNumber(c, section, "width", width, 64, 4096);
   readNumber(c, section, "height", height, 64, 4096);
   readNumber(c, section, "focal", focal, 10, 10000);
   readNumber(c, section, "colorNoise", colorNoise, 0, 50);
   readNumber(c, section, "jpegQuality", jpegQuality, 1, 100);
+  if (const auto e = entryOf(c, section, "position")) position = e->vector(-10, 10);
+  readNumber(c, section, "yaw_deg", yaw_deg, -360, 360);
+  readNumber(c, section, "pitch_deg", pitch_deg, -90, 90);
+  readNumber(c, section, "roll_deg", roll_deg, -360, 360);
+  readNumber(c, section, "delay", delay, 0, 10);
+}
+
+mrpt::poses::CPose3D CameraOptions::T_robot_camera() const
+{
+  const Eigen::Vector3d angles(yaw_deg, pitch_deg, roll_deg);
+  mrpt::poses::CPose3D pose;
+  if (!angles.isZero(0))  // MRPT's rotation by zero has a -0, and identity is to be stored as such
+    pose.setYawPitchRoll(mrpt::DEG2RAD(yaw_deg), mrpt::DEG2RAD(pitch_deg), mrpt::DEG2RAD(roll_deg));
+  pose.x(position.x());
+  pose.y(position.y());
+  pose.z(position.z());
+  return pose;
 }
 
 PinholeCamera CameraOptions::pinhole() const
@@ -41,12 +76,14 @@ void CameraOptions::resize(int newWidth, int newHeight)
 void TrajectoryOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& c, const std::string& section)
 {
-  std::set<std::string> known{"frames", "duration", "startTime", "bob", "sway_deg", "stepRate"};
+  std::set<std::string> known{"kind", "frames",   "duration", "startTime",
+                              "bob",  "sway_deg", "stepRate"};
   std::vector<std::string> keys;
   c.getAllKeys(section, keys);
   for (const auto& key : keys)
     if (key.compare(0, 8, "waypoint") == 0) known.insert(key);  // the scene reads these
   rejectUnknownKeys(c, section, known);
+  if (const auto e = entryOf(c, section, "kind")) kind = motionOf(*e);
   readNumber(c, section, "frames", frames, 2, 100000);
   readNumber(c, section, "duration", duration, 0.1, 100000);
   readNumber(c, section, "startTime", startTime, 0, 4e9);
@@ -111,8 +148,20 @@ void DetectorOptions::loadFromConfigFile(
   readNumber(c, section, "flipRate", flipRate, 0, 1);
 }
 
+std::vector<CameraOptions> SimulatorOptions::cameras() const
+{
+  return rig.empty() ? std::vector<CameraOptions>{camera} : rig;
+}
+
+void SimulatorOptions::resize(int width, int height)
+{
+  camera.resize(width, height);
+  for (auto& one : rig) one.resize(width, height);
+}
+
 void SimulatorOptions::scaleNoise(double factor)
 {
+  for (auto& one : rig) one.colorNoise *= factor;
   for (double* sigma :
        {&camera.colorNoise, &depthNoise.axialBase, &depthNoise.axialGrowth,
         &depthNoise.disparityStep, &depthNoise.lateral, &odometry.translationPerMetre,

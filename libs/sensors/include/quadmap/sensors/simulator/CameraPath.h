@@ -8,11 +8,13 @@
 
 namespace quadmap::simulator
 {
-/** T_world_camera for each frame; camera frame x forward, y left, z up. A closed Catmull-Rom curve
- * through the waypoints' eyes and targets, walked at an even pace, with the bobbing and swaying of
- * somebody who walks with the camera in his hands.
- * \exception std::runtime_error If the way leaves the room, enters an object, or looks straight up
- * or down; names the frame. */
-std::vector<mrpt::poses::CPose3D> cameraPath(const Scene& scene, const TrajectoryOptions& options);
+/** T_world_robot at some instants; robot frame x forward, y left, z up. The waypoints are passed at
+ * an even pace, as options.kind says; whoever walks bobs and sways. A hand-held camera is its own
+ * robot frame; that of a driving robot moves on the floor.
+ * \param instants In frames since the start; the whole way takes options.frames of them.
+ * \exception std::runtime_error If a camera leaves the room, something is inside an object, or the
+ * way looks straight up or down; names the frame. */
+std::vector<mrpt::poses::CPose3D> robotPath(
+    const Scene& scene, const TrajectoryOptions& options, const std::vector<double>& instants);
 
 }  // namespace quadmap::simulator

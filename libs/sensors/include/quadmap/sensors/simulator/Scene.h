@@ -49,7 +49,8 @@ struct Room
   std::size_t floor = 0, walls = 0, ceiling = 0;      //!< Indices into Scene::materials
 };
 
-/** The view the camera takes at one point of its way, in the world [m]. */
+/** The view the robot takes at one point of its way, in the world [m]. A robot that drives and may
+ * look where it goes has its target at its eye. */
 struct Waypoint
 {
   Eigen::Vector3d eye, target;
@@ -61,7 +62,7 @@ struct Scene
   Room room;
   std::vector<Material> materials;
   std::vector<SceneObject> objects;  //!< In the order of their names
-  std::vector<Waypoint> waypoints;   //!< At least four; the way is closed
+  std::vector<Waypoint> waypoints;   //!< At least four of a walk, else two
   SimulatorOptions options;          //!< What the file says about the simulation
 };
 

@@ -15,43 +15,58 @@
 
 namespace quadmap::simulator
 {
-/** What the camera and the detector say at one time. */
+/** What one camera and the detector say at one time. */
 struct SimulatedFrame
 {
-  mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< sensorLabel "camera"
+  mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< sensorLabel: the camera's name
   CObservationObjects::Ptr objects;              //!< The same label and time stamp
   /** For each box of `objects` which of Scene::objects it shows; none: a false alarm. */
   std::vector<std::optional<std::size_t>> truthOfBox;
   std::vector<VisibleObject> visible;  //!< Before the detector's errors
 };
 
-/** A hand-held RGB-D camera in a scene. Robot and sensor frame coincide. */
+/** RGB-D cameras in a scene, held in the hands or mounted on a robot. A frame is one image of one
+ * camera; frames are in the order of their times, and cameras without delay take turns at one time.
+ */
 class Simulator
 {
  public:
-  /** Uses scene.options. \exception std::runtime_error See cameraPath(). */
+  /** Uses scene.options. \exception std::runtime_error See robotPath(). */
   Simulator(Scene scene, LabelTable labels, std::uint64_t seed);
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
-  std::size_t frameCount() const { return T_world_robot_.size(); }
+  std::size_t frameCount() const { return shots_.size(); }
+  /** T_world_robot of each frame. */
   const std::vector<mrpt::poses::CPose3D>& truePoses() const { return T_world_robot_; }
   /** Starts at the first true pose and drifts. */
   const std::vector<mrpt::poses::CPose3D>& odometry() const { return odometry_; }
-  double time(std::size_t frame) const;  //!< [s since 1970]
+  double time(std::size_t frame) const;                  //!< [s since 1970]
+  const CameraOptions& camera(std::size_t frame) const;  //!< Which took it
   const Scene& scene() const { return scene_; }
 
   /** The frame depends on nothing but scene, seed and index; may run concurrently. */
   SimulatedFrame frame(std::size_t index) const;
 
  private:
+  /** When which camera takes an image. */
+  struct Shot
+  {
+    double instant;  // in frames of its camera since the start
+    std::size_t camera;
+  };
+
+  static std::vector<Shot> shotsOf(
+      const std::vector<CameraOptions>& cameras, const TrajectoryOptions& trajectory);
+
   mrpt::obs::CObservation3DRangeScan::Ptr scanOf(
       const RenderedFrame& rendered, std::size_t index) const;
 
   Scene scene_;
   LabelTable labels_;
   std::uint64_t seed_;
-  RayCaster caster_;
+  std::vector<CameraOptions> cameras_;
+  std::vector<Shot> shots_;
   SimulatedDetector detector_;
   std::vector<mrpt::poses::CPose3D> T_world_robot_;
   std::vector<mrpt::poses::CPose3D> odometry_;

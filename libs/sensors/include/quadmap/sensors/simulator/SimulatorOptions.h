@@ -2,32 +2,54 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/config/CLoadableOptions.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <string>
+#include <vector>
 
 #include "quadmap/geometry/PinholeCamera.h"
 
 namespace quadmap::simulator
 {
-/** INI section [camera]. Depth and colour share one camera, as after registration. */
+/** INI section [camera], or [camera NAME] for each camera of a robot with several: what such a
+ * section does not say is as in [camera]. Depth and colour share one camera, as after registration.
+ * The frame of the robot is x forward, y left, z up. */
 struct CameraOptions : public mrpt::config::CLoadableOptions
 {
   int width = 640, height = 480;  //!< Image size [px], 64..4096: VGA as the Kinect's
   double focal = 525;             //!< fx = fy [px], 10..10000: the Kinect's default calibration
   double colorNoise = 1.5;        //!< Sigma of each colour value [0..255], 0..50: a decent exposure
-  int jpegQuality = 90;           //!< Of the stored colour images, 1..100: artefacts not visible
+  int jpegQuality = 90;           //!< Of the stored images of all cameras, 1..100: looks unharmed
+  std::string name = "camera";    //!< NAME, the sensor label
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  //!< On the robot, x y z [m], -10..10
+  double yaw_deg = 0;    //!< Positive: looks to the left [deg], -360..360
+  double pitch_deg = 0;  //!< Positive: looks down [deg], -90..90
+  double roll_deg = 0;   //!< About its line of sight [deg], -360..360
+  double delay = 0;      //!< Its images come this much after a frame's time [s], 0..10
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& c, const std::string& section) override;
-  PinholeCamera pinhole() const;  //!< Principal point in the middle of the image
+  PinholeCamera pinhole() const;                //!< Principal point in the middle of the image
+  mrpt::poses::CPose3D T_robot_camera() const;  //!< Camera frame x forward, y left, z up
 
   /** Another image size with the same field of view. */
   void resize(int newWidth, int newHeight);
 };
 
+/** How the robot moves along the waypoints. */
+enum class Motion
+{
+  Walk,     //!< Closed smooth curve, a camera in the hands of somebody who walks
+  Drive,    //!< Smooth way on the floor from the first to the last; the robot frame stays at z = 0
+  Approach  //!< Straight from one to the next, in the hands of somebody who walks
+};
+
 /** INI section [trajectory]. The way itself is in the waypoints of the same section. */
 struct TrajectoryOptions : public mrpt::config::CLoadableOptions
 {
-  int frames = 180;          //!< For the whole way, 2..100000
-  double duration = 45;      //!< Of the whole way [s], 0.1..100000: a slow walk around a room
+  Motion kind = Motion::Walk;  //!< walk, drive or approach
+  int frames = 180;            //!< Of each camera for the whole way, 2..100000
+  double duration = 45;        //!< Of the whole way [s], 0.1..100000: a slow walk around a room
   double startTime = 1.6e9;  //!< Of the first frame [s since 1970], 0..4e9: fixed, so reproducible
   double bob = 0.02;         //!< Amplitude of the up and down of the steps [m], 0..0.3
   double sway_deg = 1.0;     //!< Amplitude of pitch and roll of the hands [deg], 0..20
@@ -92,11 +114,15 @@ struct DetectorOptions : public mrpt::config::CLoadableOptions
 
 struct SimulatorOptions
 {
-  CameraOptions camera;
+  CameraOptions camera;            //!< The only one, unless there is a rig
+  std::vector<CameraOptions> rig;  //!< Several cameras, each with a name of its own
   TrajectoryOptions trajectory;
   DepthNoiseOptions depthNoise;
   OdometryOptions odometry;
   DetectorOptions detector;
+
+  std::vector<CameraOptions> cameras() const;  //!< The rig, or the only camera
+  void resize(int width, int height);          //!< All cameras; they keep their fields of view
 
   /** Multiplies every random error (not the range limits, nor what cannot be seen) with a factor in
    * [0, 10]; shares stay below 1. With 0 depth is exact to its storage unit, odometry is the truth

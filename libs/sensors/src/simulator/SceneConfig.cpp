@@ -1,0 +1,81 @@
+#include "SceneConfig.h"
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "quadmap/obs/ConfigCheck.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap::simulator
+{
+namespace
+{
+const std::string kInclude = "include";
+
+std::string includedFile(const std::string& name, const std::string& fromFile)
+{
+  const auto beside = std::filesystem::path(fromFile).parent_path() / name;
+  return std::filesystem::exists(beside) ? beside.string() : findShareFile("scenes/" + name);
+}
+
+/** The files that a file includes, in the order of the keys. */
+std::vector<std::string> filesIncludedBy(
+    const mrpt::config::CConfigFileBase& config, const std::string& path)
+{
+  std::vector<std::string> keys, files;
+  config.getAllKeys(kInclude, keys);
+  std::sort(keys.begin(), keys.end());
+  for (const auto& key : keys)
+  {
+    if (key.compare(0, 4, "file") != 0)
+      throw std::runtime_error(
+          path + ": [include] unknown key \"" + key + "\"; known: file1, file2, ...");
+    const auto name = mrpt::system::trim(config.read_string(kInclude, key, ""));
+    try
+    {
+      files.push_back(includedFile(name, path));
+    }
+    catch (const std::exception& e)
+    {
+      throw std::runtime_error(path + ": [include] " + key + "=" + name + ": " + e.what());
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+SceneConfig::SceneConfig(const std::string& path) { add(path); }
+
+void SceneConfig::add(const std::string& path)
+{
+  requireReadableIni(path);
+  files_.push_back(path);
+  const mrpt::config::CConfigFile file(path);
+  std::vector<std::string> sections;
+  file.getAllSections(sections);
+  for (const auto& section : sections)
+  {
+    if (section == kInclude || !fileOfSection_.emplace(section, path).second) continue;
+    sections_.push_back(section);
+    std::vector<std::string> keys;
+    file.getAllKeys(section, keys);
+    for (const auto& key : keys) config_.write(section, key, file.read_string(section, key, ""));
+  }
+  for (const auto& included : filesIncludedBy(file, path))
+    if (std::find(files_.begin(), files_.end(), included) == files_.end()) add(included);
+}
+
+std::string SceneConfig::fileOf(const std::string& message) const
+{
+  const auto end = message.find(']');
+  if (message.empty() || message[0] != '[' || end == std::string::npos) return files_.front();
+  const auto found = fileOfSection_.find(message.substr(1, end - 1));
+  return found == fileOfSection_.end() ? files_.front() : found->second;
+}
+
+}  // namespace quadmap::simulator

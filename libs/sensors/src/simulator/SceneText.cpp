@@ -1,0 +1,54 @@
+#include "SceneText.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/system/string_utils.h>
+
+#include <stdexcept>
+
+#include "quadmap/obs/ConfigCheck.h"
+
+namespace quadmap::simulator
+{
+std::vector<std::string> wordsOf(const std::string& text)
+{
+  std::vector<std::string> words;
+  mrpt::system::tokenize(text, " \t,", words);
+  return words;
+}
+
+void Entry::reject(const std::string& why) const
+{
+  throw std::invalid_argument("[" + section + "] " + key + "=" + text + ": " + why);
+}
+
+double Entry::number(const std::string& word, double min, double max) const
+{
+  const auto value = parseNumber(word);
+  if (!value || !(*value >= min && *value <= max))
+    reject(mrpt::format("\"%s\" must be a number in [%g, %g]", word.c_str(), min, max));
+  return *value;
+}
+
+Eigen::Vector3d Entry::vector(
+    const std::vector<std::string>& words, std::size_t first, double min, double max) const
+{
+  return {
+      number(words[first], min, max), number(words[first + 1], min, max),
+      number(words[first + 2], min, max)};
+}
+
+Eigen::Vector3d Entry::vector(double min, double max) const
+{
+  const auto words = wordsOf(text);
+  if (words.size() != 3) reject("expected three numbers");
+  return vector(words, 0, min, max);
+}
+
+std::optional<Entry> entryOf(
+    const mrpt::config::CConfigFileBase& config, const std::string& section, const std::string& key)
+{
+  if (!config.keyExists(section, key)) return std::nullopt;
+  return Entry{section, key, mrpt::system::trim(config.read_string(section, key, ""))};
+}
+
+}  // namespace quadmap::simulator

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadmap::simulator
+{
+/** The words of a value; blanks and commas separate them. */
+std::vector<std::string> wordsOf(const std::string& text);
+
+/** One key of a scene file with its text. */
+struct Entry
+{
+  std::string section, key, text;
+
+  /** \exception std::invalid_argument Names section, key, text and why. */
+  [[noreturn]] void reject(const std::string& why) const;
+
+  double number(const std::string& word, double min, double max) const;
+
+  /** Words [first, first + 3). */
+  Eigen::Vector3d vector(
+      const std::vector<std::string>& words, std::size_t first, double min, double max) const;
+
+  /** The text consists of three numbers. */
+  Eigen::Vector3d vector(double min, double max) const;
+};
+
+/** Nothing when the section has no such key. */
+std::optional<Entry> entryOf(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& section,
+    const std::string& key);
+
+}  // namespace quadmap::simulator

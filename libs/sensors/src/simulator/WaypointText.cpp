@@ -1,0 +1,98 @@
+#include "WaypointText.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "SceneText.h"
+#include "quadmap/obs/ConfigCheck.h"
+
+namespace quadmap::simulator
+{
+namespace
+{
+constexpr double kFar = 100;  // no coordinate of a room is larger [m]
+
+std::vector<Entry> entriesOf(const mrpt::config::CConfigFileBase& config)
+{
+  std::map<int, Entry> ordered;
+  std::vector<std::string> keys;
+  config.getAllKeys("trajectory", keys);
+  for (const auto& key : keys)
+  {
+    if (key.compare(0, 8, "waypoint") != 0) continue;
+    const Entry e = *entryOf(config, "trajectory", key);
+    const auto number = parseNumber(key.substr(8));
+    if (!number || !(*number >= 0 && *number < 1e6)) e.reject("the key must be waypointNUMBER");
+    ordered[static_cast<int>(*number)] = e;
+  }
+  std::vector<Entry> entries;
+  for (const auto& item : ordered) entries.push_back(item.second);
+  return entries;
+}
+
+Waypoint viewOf(const Entry& e)
+{
+  const auto words = wordsOf(e.text);
+  if (words.size() != 6) e.reject("expected six numbers: eye x y z, target x y z");
+  return {e.vector(words, 0, -kFar, kFar), e.vector(words, 3, -kFar, kFar)};
+}
+
+/** x y, and where to look when it is said. */
+struct Stop
+{
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
+  std::optional<double> heading;                    // [rad]
+};
+
+Stop stopOf(const Entry& e)
+{
+  const auto words = wordsOf(e.text);
+  if (words.size() != 2 && words.size() != 3) e.reject("expected: x y [heading in degrees]");
+  Stop stop;
+  stop.place.x() = e.number(words[0], -kFar, kFar);
+  stop.place.y() = e.number(words[1], -kFar, kFar);
+  if (words.size() == 3) stop.heading = mrpt::DEG2RAD(e.number(words[2], -360, 360));
+  return stop;
+}
+
+/** Is there a way to look along? */
+bool moves(const std::vector<Stop>& stops, std::size_t i)
+{
+  const bool before = i > 0 && stops[i].place != stops[i - 1].place;
+  return before || (i + 1 < stops.size() && stops[i + 1].place != stops[i].place);
+}
+
+}  // namespace
+
+std::vector<Waypoint> readWaypoints(const mrpt::config::CConfigFileBase& config, Motion kind)
+{
+  const auto entries = entriesOf(config);
+  const std::size_t fewest = kind == Motion::Walk ? 4 : 2;
+  if (entries.size() < fewest)
+    throw std::invalid_argument(
+        mrpt::format("[trajectory] needs waypoint1 to waypoint%zu at least", fewest));
+
+  std::vector<Waypoint> way;
+  std::vector<Stop> stops;
+  for (const auto& e : entries)
+    if (kind == Motion::Drive)
+      stops.push_back(stopOf(e));
+    else
+      way.push_back(viewOf(e));
+  for (std::size_t i = 0; i < stops.size(); ++i)
+  {
+    if (!stops[i].heading && !moves(stops, i))
+      entries[i].reject("where to look is not clear: give x y heading");
+    Waypoint stop{stops[i].place, stops[i].place};
+    if (const auto heading = stops[i].heading)
+      stop.target += Eigen::Vector3d(std::cos(*heading), std::sin(*heading), 0);
+    way.push_back(stop);
+  }
+  return way;
+}
+
+}  // namespace quadmap::simulator
