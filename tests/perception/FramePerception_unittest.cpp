@@ -121,9 +121,12 @@ TEST(FramePerception, UsesAFloorKnownFromOtherFrames)
   frame.hasFloor = false;
   frame.add(1.8, 0.0, 0.0, 0.3, {0.5, 0.5, 0.9});
   CObservationObjects boxes = frame.observation({frame.detect(0, "chair")});
-  const Plane floor = Plane{Eigen::Vector3d::UnitZ(), 0.0}.transformed(-frame.T_world_sensor);
+  const SurfacePatch floor = {
+      SurfaceKind::Floor, {Eigen::Vector3d::UnitZ(), 0.0},
+       {     }
+  };
   FramePerception(PerceptionOptions(), labels())
-      .measure(frame.scan(), boxes, frame.up_sensor(), floor);
+      .measure(frame.scan(), boxes, frame.up_sensor(), {transformed(floor, -frame.T_world_sensor)});
   const auto& m = boxes.objects[0].measurement;
   ASSERT_EQ(m.kind, MeasurementKind::Complete) << m.reason;
   EXPECT_EQ(m.complete->faces[5].kind, FaceKind::Support);
@@ -136,12 +139,15 @@ TEST(FramePerception, ReturnsTheFloorItSaw)
   SyntheticFrame frame;
   frame.add(2.0, 0.1, 0.0, 0.3, {0.78, 0.43, 0.56});
   CObservationObjects boxes = frame.observation({frame.detect(0, "suitcase")});
-  const auto floor = FramePerception(PerceptionOptions(), labels())
-                         .measure(frame.scan(), boxes, frame.up_sensor());
-  ASSERT_TRUE(floor);
-  const Plane world = floor->transformed(frame.T_world_sensor);
-  EXPECT_GT(world.n.z(), std::cos(0.5 * M_PI / 180));
-  EXPECT_NEAR(world.d, 0.0, 0.01);
+  const auto surfaces = FramePerception(PerceptionOptions(), labels())
+                            .measure(frame.scan(), boxes, frame.up_sensor());
+  ASSERT_FALSE(surfaces.seen.empty());
+  EXPECT_EQ(surfaces.seen.front().kind, SurfaceKind::Floor) << "the lowest comes first";
+  const SurfacePatch world = transformed(surfaces.seen.front(), frame.T_world_sensor);
+  EXPECT_GT(world.plane.n.z(), std::cos(0.5 * M_PI / 180));
+  EXPECT_NEAR(world.plane.d, 0.0, 0.01);
+  EXPECT_GT(world.samples.size(), 100U);
+  for (const auto& p : world.samples) EXPECT_NEAR(p.z(), 0.0, 0.02);
 }
 
 TEST(FramePerception, CallsTheHiddenBackOfAFrontalBoxALowerBound)

@@ -96,6 +96,7 @@ void CQuadricObjectMap::internal_clear()
   nextId_ = 1;
   waiting_.clear();
   pairing_.clear();
+  room_ = RoomPlanes();
   objectOfInstance_.clear();
   lastDecisions_.clear();
 }

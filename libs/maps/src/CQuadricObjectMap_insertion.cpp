@@ -78,7 +78,10 @@ bool CQuadricObjectMap::insertFrame(FramePairing::Frame frame)
 {
   const mrpt::poses::CPose3D T_map_sensor = frame.robotPose + frame.boxes.sensorPose;
   const Eigen::Vector3d up_sensor = T_map_sensor.getRotationMatrix().asEigen().row(2);
-  FramePerception(perceptionOptions, *labels_).measure(*frame.scan, frame.boxes, up_sensor);
+  const auto surfaces =
+      FramePerception(perceptionOptions, *labels_)
+          .measure(*frame.scan, frame.boxes, up_sensor, room_.around(T_map_sensor));
+  room_.add(surfaces, T_map_sensor);
   return insertObjects(frame.boxes, frame.robotPose);
 }
 

@@ -140,11 +140,11 @@ FramePerception::FramePerception(const PerceptionOptions& options, const LabelTa
 
 FramePerception::~FramePerception() = default;
 
-std::optional<Plane> FramePerception::measure(
+FrameSurfaces FramePerception::measure(
     const mrpt::obs::CObservation3DRangeScan& scan,
     CObservationObjects& boxes,
     const std::optional<Eigen::Vector3d>& up_sensor,
-    const std::optional<Plane>& knownFloor_sensor) const
+    const std::vector<SurfacePatch>& known_sensor) const
 {
   const DepthCloud cloud(scan, impl_->options);
   boxes.coarseDepth = cloud.coarse(kCoarseColumns, kCoarseRows);
@@ -164,16 +164,19 @@ std::optional<Plane> FramePerception::measure(
     }
     return {};
   }
-  std::optional<Plane> knownFloor;
-  if (knownFloor_sensor) knownFloor = knownFloor_sensor->transformed(-T_sensor_optical());
+  std::vector<SurfacePatch> known;
+  for (const auto& patch : known_sensor) known.push_back(transformed(patch, -T_sensor_optical()));
   const ScenePlanes planes =
-      classifyPlanes(cloud, std::move(segmentation), *up, knownFloor, impl_->options);
+      classifyPlanes(cloud, std::move(segmentation), *up, known, impl_->options);
   const auto tasks = impl_->tasksOf(cloud, planes, boxes.objects);
   const auto objects = segmentObjects(cloud, planes, tasks, impl_->options);
   for (std::size_t i = 0; i < tasks.size(); ++i)
     boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i]);
-  if (!planes.floorSeen) return {};
-  return planes.plane(*planes.floor).plane.transformed(T_sensor_optical());
+
+  FrameSurfaces out = surfacesOf(cloud, planes, known);
+  for (auto& patch : out.seen) patch = transformed(patch, T_sensor_optical());
+  for (auto& p : out.seenThrough) p = transformed(p, T_sensor_optical());
+  return out;
 }
 
 }  // namespace quadmap

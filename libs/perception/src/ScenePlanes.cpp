@@ -1,69 +1,12 @@
 #include "ScenePlanes.h"
 
-#include <pcl/features/integral_image_normal.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-#include <pcl/segmentation/edge_aware_plane_comparator.h>
-#include <pcl/segmentation/organized_multi_plane_segmentation.h>
-
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <cmath>
 
 namespace quadmap
 {
 namespace
 {
-using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
-using PclNormals = pcl::PointCloud<pcl::Normal>;
-
-constexpr int kPlaneStride = 2;  // of the cloud's cells: 160x120 for the usual sensors
-
-PclCloud::Ptr reducedCloud(const DepthCloud& cloud)
-{
-  auto out = std::make_shared<PclCloud>();
-  out->width = static_cast<unsigned>(cloud.columns() / kPlaneStride);
-  out->height = static_cast<unsigned>(cloud.rows() / kPlaneStride);
-  out->is_dense = false;
-  out->points.reserve(out->width * out->height);
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  for (unsigned r = 0; r < out->height; ++r)
-    for (unsigned c = 0; c < out->width; ++c)
-    {
-      const int cc = static_cast<int>(c) * kPlaneStride, rr = static_cast<int>(r) * kPlaneStride;
-      if (cloud.valid(cc, rr))
-      {
-        const Eigen::Vector3f p = cloud.point(cc, rr);
-        out->points.emplace_back(p.x(), p.y(), p.z());
-      }
-      else
-        out->points.emplace_back(nan, nan, nan);
-    }
-  return out;
-}
-
-using NormalEstimation = pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal>;
-
-void configure(NormalEstimation& estimation, const PclCloud::Ptr& cloud)
-{
-  estimation.setNormalEstimationMethod(estimation.COVARIANCE_MATRIX);
-  estimation.setMaxDepthChangeFactor(0.03f);
-  estimation.setNormalSmoothingSize(8.0f);
-  estimation.setInputCloud(cloud);
-}
-
-/** Connects cells of one plane, but not around the edges of objects: smoothed normals turn there
- * step by step, and planes that leak into each other are lost. */
-pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>::Ptr edgeAwareComparator(
-    NormalEstimation& estimation)
-{
-  auto comparator = pcl::make_shared<pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>>(
-      estimation.getDistanceMap());
-  comparator->setCurvatureThreshold(0.05f);   // a plane at 3 m shows 0.04 by its noise
-  comparator->setDistanceMapThreshold(2.0f);  // cells between a plane and a depth edge
-  return comparator;
-}
-
 /** Share of the cloud's points that lie more than `margin` behind (below) the plane. */
 double shareBelow(const DepthCloud& cloud, const Plane& plane, double margin)
 {
@@ -80,98 +23,87 @@ double shareBelow(const DepthCloud& cloud, const Plane& plane, double margin)
   return all > 0 ? static_cast<double>(below) / all : 0.0;
 }
 
-}  // namespace
-
-int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tolerance) const
+/** The samples of a known surface that this frame does not look through. */
+struct CheckedPatch
 {
-  const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-  int best = -1;
-  double bestDistance = tolerance;
-  for (int dr = -2; dr <= 2; dr += 2)  // the segmentation leaves out the rim of each plane
-    for (int dc = -2; dc <= 2; dc += 2)
+  std::vector<Eigen::Vector3d> standing;
+  std::vector<Eigen::Vector3f> seenThrough;
+};
+
+CheckedPatch check(const DepthCloud& cloud, const SurfacePatch& patch)
+{
+  constexpr double kBehind = 0.08;  // [m]; what is seen must lie this far behind the surface
+  CheckedPatch out;
+  for (const auto& sample : patch.samples)
+  {
+    const Eigen::Vector3d p = sample.cast<double>();
+    if (p.z() > 0.1)
     {
-      const int cc = c / kPlaneStride + dc, rr = r / kPlaneStride + dr;
-      if (cc < 0 || rr < 0 || cc >= columns_ || rr >= rows_) continue;
-      const int label = labels_[static_cast<std::size_t>(rr * columns_ + cc)];
-      if (label < 0) continue;
-      const double distance =
-          std::abs(planes[static_cast<std::size_t>(label)].plane.signedDistance(p));
-      if (distance < bestDistance)
+      const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
+      const int c = static_cast<int>(std::lround(pixel.x()));
+      const int r = static_cast<int>(std::lround(pixel.y()));
+      if (cloud.inside(c, r) && cloud.valid(c, r) &&
+          patch.plane.signedDistance(cloud.point(c, r).cast<double>()) < -kBehind)
       {
-        bestDistance = distance;
-        best = label;
+        out.seenThrough.push_back(sample);
+        continue;
       }
     }
-  return best;
-}
-
-std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange& range) const
-{
-  std::vector<double> inside(planes.size(), 0.0);
-  for (int r = range.r0 / kPlaneStride; r < std::min(rows_, range.r1 / kPlaneStride); ++r)
-    for (int c = range.c0 / kPlaneStride; c < std::min(columns_, range.c1 / kPlaneStride); ++c)
-    {
-      const int label = labels_[static_cast<std::size_t>(r * columns_ + c)];
-      if (label >= 0) inside[static_cast<std::size_t>(label)] += 1.0;
-    }
-  const double cells = static_cast<double>(labels_.size());
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    inside[i] = planes[i].share > 0 ? inside[i] / (planes[i].share * cells) : 0.0;
-  return inside;
-}
-
-PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options)
-{
-  const auto points = reducedCloud(cloud);
-  NormalEstimation estimation;
-  configure(estimation, points);
-  const auto normals = pcl::make_shared<PclNormals>();
-  estimation.compute(*normals);
-  const double cells = static_cast<double>(points->size());
-
-  pcl::OrganizedMultiPlaneSegmentation<pcl::PointXYZ, pcl::Normal, pcl::Label> segmentation;
-  segmentation.setMinInliers(static_cast<unsigned>(std::max(30.0, options.planeMinArea * cells)));
-  segmentation.setComparator(edgeAwareComparator(estimation));
-  segmentation.setAngularThreshold(0.10);
-  segmentation.setDistanceThreshold(0.03);
-  segmentation.setMaximumCurvature(0.02);
-  segmentation.setInputCloud(points);
-  segmentation.setInputNormals(normals);
-  std::vector<pcl::ModelCoefficients> coefficients;
-  std::vector<pcl::PointIndices> inliers;
-  segmentation.segment(coefficients, inliers);
-
-  std::vector<std::size_t> order(inliers.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(
-      order.begin(), order.end(),
-      [&](auto a, auto b) { return inliers[a].indices.size() > inliers[b].indices.size(); });
-
-  PlaneSegmentation out;
-  out.columns_ = static_cast<int>(points->width);
-  out.rows_ = static_cast<int>(points->height);
-  out.labels_.assign(points->size(), -1);
-  for (const std::size_t i : order)
-  {
-    const auto& v = coefficients[i].values;
-    ScenePlane plane;
-    plane.plane.n = Eigen::Vector3d(v[0], v[1], v[2]);
-    const double norm = plane.plane.n.norm();
-    if (!(norm > 1e-6)) continue;
-    plane.plane.n /= norm;
-    plane.plane.d = v[3] / norm;
-    if (plane.plane.d < 0) plane.plane = {-plane.plane.n, -plane.plane.d};  // towards the camera
-    for (const int index : inliers[i].indices)
-    {
-      plane.centroid += (*points)[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
-      out.labels_[static_cast<std::size_t>(index)] = static_cast<int>(out.planes.size());
-    }
-    plane.centroid /= static_cast<double>(inliers[i].indices.size());
-    plane.share = static_cast<double>(inliers[i].indices.size()) / cells;
-    out.planes.push_back(plane);
+    out.standing.push_back(p);
   }
   return out;
 }
+
+/** Adds a surface known from other frames: to the plane of this frame that shows it, else as a
+ * plane of its own. \param candidates Planes of this frame with that orientation. */
+void addKnown(
+    ScenePlanes& planes,
+    std::vector<int>& candidates,
+    const Plane& plane,
+    std::vector<Eigen::Vector3d> samples)
+{
+  constexpr double kSamePlane = 0.05, kNear = 0.10;  // [m]; the poses' noise
+  for (const int i : candidates)
+  {
+    ScenePlane& seen = planes.all.planes[static_cast<std::size_t>(i)];
+    double distance = 0;
+    bool overlaps = false;
+    for (const auto& p : samples)
+    {
+      distance += seen.plane.signedDistance(p) / static_cast<double>(samples.size());
+      overlaps = overlaps || seen.extent.outside(p) < kNear;
+    }
+    if (std::abs(distance) > kSamePlane || !overlaps) continue;
+    if (seen.extent.isEverywhere()) return;
+    seen.rim.insert(seen.rim.end(), samples.begin(), samples.end());
+    seen.extent = PlaneExtent(seen.plane.n, seen.rim);
+    return;
+  }
+  ScenePlane known;
+  known.plane = plane;
+  for (const auto& p : samples) known.centroid += p / static_cast<double>(samples.size());
+  known.extent = PlaneExtent(plane.n, samples);
+  known.rim = std::move(samples);
+  candidates.push_back(static_cast<int>(planes.all.planes.size()));
+  planes.all.planes.push_back(std::move(known));
+}
+
+/** The floor that other frames know replaces a higher one of this frame. */
+void useKnownFloor(ScenePlanes& planes, const Plane& known)
+{
+  constexpr double kSameFloor = 0.12;  // [m]; a table top is higher above the floor than this
+  if (planes.floor && known.signedDistance(planes.plane(*planes.floor).centroid) <= kSameFloor)
+    return;
+  planes.floorSeen = false;
+  planes.floor = static_cast<int>(planes.all.planes.size());
+  ScenePlane floor;
+  floor.plane = known;
+  floor.centroid = -known.d * known.n;
+  planes.all.planes.push_back(std::move(floor));
+  planes.horizontal.insert(planes.horizontal.begin(), *planes.floor);
+}
+
+}  // namespace
 
 std::optional<Eigen::Vector3d> upFromPlanes(
     const DepthCloud& cloud, const std::vector<ScenePlane>& planes)
@@ -201,43 +133,78 @@ ScenePlanes classifyPlanes(
     const DepthCloud& cloud,
     PlaneSegmentation segmentation,
     const Eigen::Vector3d& up,
-    const std::optional<Plane>& knownFloor,
+    const std::vector<SurfacePatch>& known,
     const PerceptionOptions& options)
 {
   constexpr double kFloorMargin = 0.06;  // [m]
   constexpr double kMaxBelowFloor = 0.03;
+  constexpr std::size_t kMinSamples = 3;  // that make a surface
   ScenePlanes out;
   out.all = std::move(segmentation);
   out.up = up.normalized();
   for (int i = 0; i < static_cast<int>(out.all.planes.size()); ++i)
   {
-    const double cosine = out.plane(i).plane.n.dot(out.up);
-    if (cosine > std::cos(options.planeMaxTilt))
-      out.horizontal.push_back(i);
-    else if (std::abs(cosine) < std::sin(options.planeMaxTilt))
-      out.vertical.push_back(i);
+    ScenePlane& plane = out.all.planes[static_cast<std::size_t>(i)];
+    const double cosine = plane.plane.n.dot(out.up);
+    const bool isHorizontal = cosine > std::cos(options.planeMaxTilt);
+    if (!isHorizontal && std::abs(cosine) > std::sin(options.planeMaxTilt)) continue;
+    (isHorizontal ? out.horizontal : out.vertical).push_back(i);
+    if (!plane.rim.empty()) plane.extent = PlaneExtent(plane.plane.n, plane.rim);
   }
   const auto height = [&](int i) { return out.plane(i).centroid.dot(out.up); };
-  std::stable_sort(
-      out.horizontal.begin(), out.horizontal.end(),
-      [&](int a, int b) { return height(a) < height(b); });
-  if (!out.horizontal.empty())
+  const auto sortByHeight = [&]
   {
-    // Only the lowest can be the floor, and only when nothing shows under it.
-    const int lowest = out.horizontal.front();
-    if (shareBelow(cloud, out.plane(lowest).plane, kFloorMargin) <= kMaxBelowFloor)
-      out.floor = lowest;
-  }
+    std::stable_sort(
+        out.horizontal.begin(), out.horizontal.end(),
+        [&](int a, int b) { return height(a) < height(b); });
+  };
+  sortByHeight();
+  // Only the lowest can be the floor, and only when nothing shows under it.
+  if (!out.horizontal.empty() &&
+      shareBelow(cloud, out.plane(out.horizontal.front()).plane, kFloorMargin) <= kMaxBelowFloor)
+    out.floor = out.horizontal.front();
   out.floorSeen = out.floor.has_value();
-  constexpr double kSameFloor = 0.12;  // [m]; a table top is higher above the floor than this
-  const bool isTooHigh = out.floor && knownFloor &&
-                         knownFloor->signedDistance(out.plane(*out.floor).centroid) > kSameFloor;
-  if (knownFloor && (!out.floor || isTooHigh))
+  for (const auto& patch : known)
+    if (patch.kind == SurfaceKind::Floor) useKnownFloor(out, patch.plane);
+  if (out.floor) out.all.planes[static_cast<std::size_t>(*out.floor)].extent = PlaneExtent();
+  for (const auto& patch : known)
   {
-    out.floorSeen = false;
-    out.floor = static_cast<int>(out.all.planes.size());
-    out.all.planes.push_back({*knownFloor, 0.0, -knownFloor->d * knownFloor->n});
-    out.horizontal.insert(out.horizontal.begin(), *out.floor);
+    if (patch.kind == SurfaceKind::Floor) continue;
+    auto standing = check(cloud, patch).standing;
+    if (standing.size() < kMinSamples) continue;
+    addKnown(
+        out, patch.kind == SurfaceKind::Wall ? out.vertical : out.horizontal, patch.plane,
+        std::move(standing));
+  }
+  sortByHeight();
+  return out;
+}
+
+FrameSurfaces surfacesOf(
+    const DepthCloud& cloud, const ScenePlanes& planes, const std::vector<SurfacePatch>& known)
+{
+  constexpr double kWallMargin = 0.10;  // [m]
+  constexpr double kMaxBehindWall = 0.03;
+  constexpr double kMinWallShare = 0.02;
+  FrameSurfaces out;
+  const auto add = [&](int i, SurfaceKind kind)
+  {
+    const ScenePlane& plane = planes.plane(i);
+    SurfacePatch patch = {kind, plane.plane, {}};
+    for (const auto& p : plane.samples) patch.samples.push_back(p.cast<float>());
+    out.seen.push_back(std::move(patch));
+  };
+  for (const int i : planes.horizontal)
+    if (planes.plane(i).share > 0)
+      add(i, planes.floorSeen && i == *planes.floor ? SurfaceKind::Floor : SurfaceKind::Horizontal);
+  for (const int i : planes.vertical)
+    if (planes.plane(i).share > kMinWallShare &&
+        shareBelow(cloud, planes.plane(i).plane, kWallMargin) <= kMaxBehindWall)
+      add(i, SurfaceKind::Wall);
+  for (const auto& patch : known)
+  {
+    const auto through = check(cloud, patch).seenThrough;
+    out.seenThrough.insert(out.seenThrough.end(), through.begin(), through.end());
   }
   return out;
 }

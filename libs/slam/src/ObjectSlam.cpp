@@ -125,9 +125,9 @@ void ObjectSlam::measureBoxes(
   const auto scope = times_.measure("perception");
   try
   {
-    const auto floor = perception_.measure(
-        *frame.scan, boxes, upInSensor(T_map_sensor), floor_.inSensor(T_map_sensor));
-    if (floor) floor_.add(*floor, T_map_sensor);
+    const auto surfaces = perception_.measure(
+        *frame.scan, boxes, upInSensor(T_map_sensor), room_.around(T_map_sensor));
+    room_.add(surfaces, T_map_sensor);
   }
   catch (const std::runtime_error& e)
   {

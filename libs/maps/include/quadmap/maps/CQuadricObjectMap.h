@@ -20,6 +20,7 @@
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/perception/RoomPlanes.h"
 
 namespace quadmap
 {
@@ -122,6 +123,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   ObjectId nextId_ = 1;
   WaitingList waiting_;
   FramePairing pairing_;
+  RoomPlanes room_;  // what the scans measured here showed
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
   std::shared_ptr<const LabelTable> labels_;

@@ -9,6 +9,7 @@
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/perception/SurfacePatch.h"
 
 namespace quadmap
 {
@@ -26,16 +27,15 @@ class FramePerception
    * \param boxes Of the same image.
    * \param up_sensor Unit vector that points up in the sensor frame, e.g. from the robot's pose in
    * a z-up world; when absent, up comes from the planes of the scene.
-   * \param knownFloor_sensor Where the floor is according to other frames (see FloorTracker); what
-   * this frame shows of a floor goes before it.
-   * \return The lowest horizontal surface of this frame that nothing shows under, sensor frame: a
-   * candidate for the floor.
+   * \param known_sensor Surfaces of the room according to other frames (see RoomPlanes); what this
+   * frame shows of them goes before it.
+   * \return The surfaces of this frame and what it looks through, sensor frame.
    * \exception std::runtime_error If the scan has no depth image or no usable calibration. */
-  std::optional<Plane> measure(
+  FrameSurfaces measure(
       const mrpt::obs::CObservation3DRangeScan& scan,
       CObservationObjects& boxes,
       const std::optional<Eigen::Vector3d>& up_sensor,
-      const std::optional<Plane>& knownFloor_sensor = {}) const;
+      const std::vector<SurfacePatch>& known_sensor = {}) const;
 
  private:
   struct Impl;

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/perception/FloorTracker.h"
 #include "quadmap/perception/FramePerception.h"
+#include "quadmap/perception/RoomPlanes.h"
 #include "quadmap/sensors/RgbdFrame.h"
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/KeyframeSpool.h"
@@ -61,7 +61,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   LabelTable labels_;
   KeyframeSpool& spool_;
   FramePerception perception_;
-  FloorTracker floor_;
+  RoomPlanes room_;
   KeyframeSelector selector_;
   OdometryInput odometry_;
   SlamResult result_;

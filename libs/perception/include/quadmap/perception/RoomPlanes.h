@@ -1,0 +1,74 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "quadmap/perception/SurfacePatch.h"
+
+namespace quadmap
+{
+/** The flat surfaces of a z-up map: the floor, table tops and the like, and walls, each with where
+ * it was seen. Every frame adds what it shows and takes back what it looks through, so that a
+ * support is known although the present frame does not show it; what was left behind is forgotten
+ * (doc/mathematics.md). */
+class RoomPlanes
+{
+ public:
+  /** What a frame showed. \param T_map_sensor Pose of its sensor. */
+  void add(const FrameSurfaces& frame, const mrpt::poses::CPose3D& T_map_sensor);
+
+  /** The floor and the confirmed surfaces within the reach of a sensor, in its frame. */
+  std::vector<SurfacePatch> around(const mrpt::poses::CPose3D& T_map_sensor) const;
+
+  /** z of the floor in the map [m]: of the surfaces that recent frames of this storey took for the
+   * floor, the lowest that several agree on. Nothing at first. */
+  std::optional<double> floorHeight() const;
+
+  /** Direction of the walls in the map, modulo a quarter turn, in [0, pi/2) [rad]; nothing while no
+   * wall is confirmed. */
+  std::optional<double> wallHeading() const;
+
+  /** Confirmed surfaces in the map, without the floor. */
+  std::vector<SurfacePatch> surfaces() const;
+
+ private:
+  using Cell = std::pair<int, int>;
+  struct CellState
+  {
+    int hits = 0;
+    std::uint32_t lastSeen = 0;  // number of the frame
+  };
+  struct Track
+  {
+    SurfaceKind kind = SurfaceKind::Horizontal;
+    Plane plane;          // in the map
+    unsigned frames = 0;  // that showed it
+    std::uint32_t lastSeen = 0;
+    std::map<Cell, CellState> cells;
+  };
+  struct FloorVote
+  {
+    double height = 0, sensorHeight = 0;  // in the map [m]
+  };
+
+  void voteForFloor(const Plane& plane_map, const mrpt::poses::CPose3D& T_map_sensor);
+  void fuse(const SurfacePatch& patch_map, double range, std::vector<bool>& taken);
+  void takeBack(const FrameSurfaces& frame, const mrpt::poses::CPose3D& T_map_sensor);
+  void forget();
+  static bool isConfirmed(const Track& track);
+  static Cell cellOf(const Track& track, const Eigen::Vector3d& p_map);
+  static Eigen::Vector3f pointOf(const Track& track, const Cell& cell);
+
+  std::uint32_t frame_ = 0;
+  std::vector<Track> tracks_;
+  std::deque<FloorVote> floorVotes_;
+  double sensorHeight_ = 0;  // of the latest frame [m]
+};
+
+}  // namespace quadmap

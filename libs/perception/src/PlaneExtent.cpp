@@ -1,0 +1,75 @@
+#include "PlaneExtent.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace quadmap
+{
+namespace
+{
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/** Andrew's monotone chain: the corners of the convex hull, counter-clockwise. */
+std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points)
+{
+  std::sort(
+      points.begin(), points.end(),
+      [](const auto& a, const auto& b)
+      { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::vector<Eigen::Vector2d> hull;
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    const std::size_t start = hull.size();
+    for (const auto& p : points)
+    {
+      while (hull.size() >= start + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();  // the first one of the other pass
+    std::reverse(points.begin(), points.end());
+  }
+  if (hull.empty()) hull.push_back(points.front());
+  return hull;
+}
+
+double distanceToSegment(
+    const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  const Eigen::Vector2d d = b - a;
+  const double length2 = d.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * d).norm();
+}
+
+}  // namespace
+
+PlaneExtent::PlaneExtent(const Eigen::Vector3d& normal, const std::vector<Eigen::Vector3d>& points)
+{
+  along_.row(0) = normal.unitOrthogonal();
+  along_.row(1) = normal.cross(Eigen::Vector3d(along_.row(0)));
+  std::vector<Eigen::Vector2d> flat;
+  for (const auto& p : points) flat.push_back(along_ * p);
+  corners_ = convexHull(std::move(flat));
+}
+
+double PlaneExtent::outside(const Eigen::Vector3d& p) const
+{
+  if (isEverywhere()) return -std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d q = along_ * p;
+  double nearest = std::numeric_limits<double>::infinity();
+  bool isInside = corners_.size() > 2;
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+  {
+    const Eigen::Vector2d &a = corners_[i], &b = corners_[(i + 1) % corners_.size()];
+    nearest = std::min(nearest, distanceToSegment(q, a, b));
+    isInside = isInside && cross(b - a, q - a) >= 0;
+  }
+  return isInside ? -nearest : nearest;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace quadmap
+{
+/** How far a surface reaches: the convex hull of where it was seen, in coordinates along it. Things
+ * that stand on a surface hide parts of it; the hull closes them. */
+class PlaneExtent
+{
+ public:
+  PlaneExtent() = default;  //!< Reaches everywhere, as a floor does
+
+  /** \param normal Unit normal of the surface. \param points At least one [m]. */
+  PlaneExtent(const Eigen::Vector3d& normal, const std::vector<Eigen::Vector3d>& points);
+
+  /** How far the foot of a point is outside [m]; negative inside. */
+  double outside(const Eigen::Vector3d& p) const;
+
+  bool isEverywhere() const { return corners_.empty(); }
+
+ private:
+  Eigen::Matrix<double, 2, 3> along_ = Eigen::Matrix<double, 2, 3>::Zero();
+  std::vector<Eigen::Vector2d> corners_;  // counter-clockwise
+};
+
+}  // namespace quadmap

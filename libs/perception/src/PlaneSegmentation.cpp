@@ -1,0 +1,223 @@
+#include "PlaneSegmentation.h"
+
+#include <pcl/features/integral_image_normal.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/edge_aware_plane_comparator.h>
+#include <pcl/segmentation/organized_multi_plane_segmentation.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace quadmap
+{
+namespace
+{
+using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
+using PclNormals = pcl::PointCloud<pcl::Normal>;
+
+constexpr int kPlaneStride = 2;           // of the cloud's cells: 160x120 for the usual sensors
+constexpr std::size_t kMaxSamples = 600;  // of a plane: 5 cm apart on a large table
+
+PclCloud::Ptr reducedCloud(const DepthCloud& cloud)
+{
+  auto out = std::make_shared<PclCloud>();
+  out->width = static_cast<unsigned>(cloud.columns() / kPlaneStride);
+  out->height = static_cast<unsigned>(cloud.rows() / kPlaneStride);
+  out->is_dense = false;
+  out->points.reserve(out->width * out->height);
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  for (unsigned r = 0; r < out->height; ++r)
+    for (unsigned c = 0; c < out->width; ++c)
+    {
+      const int cc = static_cast<int>(c) * kPlaneStride, rr = static_cast<int>(r) * kPlaneStride;
+      if (cloud.valid(cc, rr))
+      {
+        const Eigen::Vector3f p = cloud.point(cc, rr);
+        out->points.emplace_back(p.x(), p.y(), p.z());
+      }
+      else
+        out->points.emplace_back(nan, nan, nan);
+    }
+  return out;
+}
+
+using NormalEstimation = pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal>;
+
+void configure(NormalEstimation& estimation, const PclCloud::Ptr& cloud)
+{
+  estimation.setNormalEstimationMethod(estimation.COVARIANCE_MATRIX);
+  estimation.setMaxDepthChangeFactor(0.03f);
+  estimation.setNormalSmoothingSize(8.0f);
+  estimation.setInputCloud(cloud);
+}
+
+/** Connects cells of one plane, but not around the edges of objects: smoothed normals turn there
+ * step by step, and planes that leak into each other are lost. */
+pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>::Ptr edgeAwareComparator(
+    NormalEstimation& estimation)
+{
+  auto comparator = pcl::make_shared<pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>>(
+      estimation.getDistanceMap());
+  comparator->setCurvatureThreshold(0.05f);   // a plane at 3 m shows 0.04 by its noise
+  comparator->setDistanceMapThreshold(2.0f);  // cells between a plane and a depth edge
+  return comparator;
+}
+
+}  // namespace
+
+int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tolerance) const
+{
+  const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+  int best = -1;
+  double bestDistance = tolerance;
+  for (int dr = -2; dr <= 2; dr += 2)  // the segmentation leaves out the rim of each plane
+    for (int dc = -2; dc <= 2; dc += 2)
+    {
+      const int cc = c / kPlaneStride + dc, rr = r / kPlaneStride + dr;
+      if (cc < 0 || rr < 0 || cc >= columns_ || rr >= rows_) continue;
+      const int label = labels_[static_cast<std::size_t>(rr * columns_ + cc)];
+      if (label < 0) continue;
+      const double distance =
+          std::abs(planes[static_cast<std::size_t>(label)].plane.signedDistance(p));
+      if (distance < bestDistance)
+      {
+        bestDistance = distance;
+        best = label;
+      }
+    }
+  return best;
+}
+
+std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange& range) const
+{
+  std::vector<double> inside(planes.size(), 0.0);
+  for (int r = range.r0 / kPlaneStride; r < std::min(rows_, range.r1 / kPlaneStride); ++r)
+    for (int c = range.c0 / kPlaneStride; c < std::min(columns_, range.c1 / kPlaneStride); ++c)
+    {
+      const int label = labels_[static_cast<std::size_t>(r * columns_ + c)];
+      if (label >= 0) inside[static_cast<std::size_t>(label)] += 1.0;
+    }
+  const double cells = static_cast<double>(labels_.size());
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    inside[i] = planes[i].share > 0 ? inside[i] / (planes[i].share * cells) : 0.0;
+  return inside;
+}
+
+PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options)
+{
+  const auto points = reducedCloud(cloud);
+  NormalEstimation estimation;
+  configure(estimation, points);
+  const auto normals = pcl::make_shared<PclNormals>();
+  estimation.compute(*normals);
+  const double cells = static_cast<double>(points->size());
+
+  pcl::OrganizedMultiPlaneSegmentation<pcl::PointXYZ, pcl::Normal, pcl::Label> segmentation;
+  segmentation.setMinInliers(static_cast<unsigned>(std::max(30.0, options.planeMinArea * cells)));
+  segmentation.setComparator(edgeAwareComparator(estimation));
+  segmentation.setAngularThreshold(0.10);
+  segmentation.setDistanceThreshold(0.03);
+  segmentation.setMaximumCurvature(0.02);
+  segmentation.setInputCloud(points);
+  segmentation.setInputNormals(normals);
+  std::vector<pcl::ModelCoefficients> coefficients;
+  std::vector<pcl::PointIndices> inliers;
+  segmentation.segment(coefficients, inliers);
+
+  std::vector<std::size_t> order(inliers.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(
+      order.begin(), order.end(),
+      [&](auto a, auto b) { return inliers[a].indices.size() > inliers[b].indices.size(); });
+
+  PlaneSegmentation out;
+  out.columns_ = static_cast<int>(points->width);
+  out.rows_ = static_cast<int>(points->height);
+  out.labels_.assign(points->size(), -1);
+  for (const std::size_t i : order)
+  {
+    const auto& v = coefficients[i].values;
+    ScenePlane plane;
+    plane.plane.n = Eigen::Vector3d(v[0], v[1], v[2]);
+    const double norm = plane.plane.n.norm();
+    if (!(norm > 1e-6)) continue;
+    plane.plane.n /= norm;
+    plane.plane.d = v[3] / norm;
+    if (plane.plane.d < 0) plane.plane = {-plane.plane.n, -plane.plane.d};  // towards the camera
+    const std::size_t step = 1 + inliers[i].indices.size() / kMaxSamples;
+    for (std::size_t k = 0; k < inliers[i].indices.size(); k += step)
+      plane.samples.push_back((*points)[static_cast<std::size_t>(inliers[i].indices[k])]
+                                  .getVector3fMap()
+                                  .cast<double>());
+    for (const int index : inliers[i].indices)
+    {
+      plane.centroid += (*points)[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
+      out.labels_[static_cast<std::size_t>(index)] = static_cast<int>(out.planes.size());
+    }
+    plane.centroid /= static_cast<double>(inliers[i].indices.size());
+    plane.share = static_cast<double>(inliers[i].indices.size()) / cells;
+    out.planes.push_back(std::move(plane));
+  }
+  out.findRims(cloud, options);
+  return out;
+}
+
+void PlaneSegmentation::findRims(const DepthCloud& cloud, const PerceptionOptions& options)
+{
+  // The ends of every row and column; the hull's corners are among them.
+  struct Span
+  {
+    int first = -1, last = -1;
+  };
+  constexpr int kMaxGrowth = 6;  // cells of the cloud; the segmentation stays off depth edges
+  const auto grow = [&](ScenePlane& plane, int c, int r, int dc, int dr)
+  {
+    c *= kPlaneStride;
+    r *= kPlaneStride;
+    for (int i = 0; i < kMaxGrowth && cloud.inside(c + dc, r + dr) && cloud.valid(c + dc, r + dr);
+         ++i, c += dc, r += dr)
+    {
+      const Eigen::Vector3d p = cloud.point(c + dc, r + dr).cast<double>();
+      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+      if (std::abs(plane.plane.signedDistance(p)) > tolerance) break;
+    }
+    if (cloud.valid(c, r)) plane.rim.push_back(cloud.point(c, r).cast<double>());
+  };
+  const auto scan = [&](int lines, int length, bool alongRows)
+  {
+    std::vector<Span> spans(planes.size());
+    for (int line = 0; line < lines; ++line)
+    {
+      std::fill(spans.begin(), spans.end(), Span());
+      for (int i = 0; i < length; ++i)
+      {
+        const int label = labels_[static_cast<std::size_t>(
+            alongRows ? line * columns_ + i : i * columns_ + line)];
+        if (label < 0) continue;
+        Span& span = spans[static_cast<std::size_t>(label)];
+        if (span.first < 0) span.first = i;
+        span.last = i;
+      }
+      for (std::size_t k = 0; k < spans.size(); ++k)
+      {
+        if (spans[k].first < 0) continue;
+        if (alongRows)
+        {
+          grow(planes[k], spans[k].first, line, -1, 0);
+          grow(planes[k], spans[k].last, line, 1, 0);
+        }
+        else
+        {
+          grow(planes[k], line, spans[k].first, 0, -1);
+          grow(planes[k], line, spans[k].last, 0, 1);
+        }
+      }
+    }
+  };
+  scan(rows_, columns_, true);
+  scan(columns_, rows_, false);
+}
+
+}  // namespace quadmap
