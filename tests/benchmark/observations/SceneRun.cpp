@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "quadmap/perception/FloorTracker.h"
 #include "quadmap/perception/FramePerception.h"
+#include "quadmap/perception/RoomPlanes.h"
 
 namespace quadmap::observations
 {
@@ -80,7 +80,7 @@ void runScene(
     simulator::Scene scene = simulator::readScene(simulator::findScene(run.scene));
     scene.options.camera.resize(run.width, run.height);
     const simulator::Simulator room(std::move(scene), labels, seed);
-    FloorTracker floor;
+    RoomPlanes known;
     for (std::size_t i = 0; i < room.frameCount(); i += run.framesStep)
     {
       ObservedFrame frame;
@@ -92,9 +92,9 @@ void runScene(
       frame.boxes = *frame.simulated.objects;
       const Eigen::Vector3d up_sensor =
           frame.T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
-      const auto candidate =
-          perception.measure(scan, frame.boxes, up_sensor, floor.inSensor(frame.T_map_sensor));
-      if (candidate) floor.add(*candidate, frame.T_map_sensor);
+      const auto surfaces =
+          perception.measure(scan, frame.boxes, up_sensor, known.around(frame.T_map_sensor));
+      known.add(surfaces, frame.T_map_sensor);
       frame.truth = truthOf(frame, room.scene(), labels);
       visit(frame);
     }
