@@ -43,7 +43,24 @@ struct Cli
   TCLAP::ValueArg<std::string> resolution{
       "",    "resolution", "Image size instead of the scene's, same width of view.", false, "",
       "WxH", line.args()};
+  TCLAP::ValueArg<std::string> detections{
+      "",
+      "detections",
+      "What the detector gives instead of what the scene says: boxes; boxes with masks; or labels "
+      "of pixels in the range scans, named by classes or instances.",
+      false,
+      "boxes",
+      "KIND",
+      line.args()};
 };
+
+simulator::DetectorOutput detectorOutput(const std::string& name)
+{
+  const auto output = simulator::detectorOutputOf(name);
+  if (!output)
+    throw cli::UsageError("--detections " + name + ": must be boxes, masks, classes or instances");
+  return *output;
+}
 
 /** A number the user typed. \exception cli::UsageError */
 unsigned long long wholeNumber(
@@ -106,6 +123,8 @@ void run(Cli& cli)
     scene.options.trajectory.frames =
         static_cast<int>(wholeNumber("--frames", cli.frames.getValue(), 2, 100000));
   if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options);
+  if (cli.detections.isSet())
+    scene.options.detector.output = detectorOutput(cli.detections.getValue());
   scene.options.scaleNoise(noise);
 
   const simulator::Simulator simulator(std::move(scene), LabelTable::installed(), seed);

@@ -178,6 +178,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"", "[odometry]\nx = 2\n", {"[odometry]", "\"x\""}},
         BadScene{"", "[detector]\nmissRate = 1.1\n", {"[detector]", "missRate"}},
         BadScene{"", "[detector]\nx = 2\n", {"[detector]", "\"x\""}},
+        BadScene{"", "[detector]\noutput = faces\n", {"[detector]", "output=faces"}},
+        BadScene{"frames = 5", "kind = fly", {"[trajectory]", "kind=fly"}},
+        BadScene{"frames = 5", "kind = drive", {"[trajectory]", "waypoint1", "heading"}},
+        BadScene{"", "[camera left]\nposition = 0 0\n", {"[camera left]", "position=0 0"}},
         BadScene{"", "nonsense\n", {"key = value"}}));
 
 TEST(Scene, NamesAreLookedUpAndPathsAreTakenAsTheyAre)

@@ -219,7 +219,8 @@ TEST(SimulateProgram, RejectsWrongCallsWithStatusTwo)
         "home -o x.rawlog --noise 11", "home -o x.rawlog --noise nan",
         "home -o x.rawlog --frames 1", "home -o x.rawlog --frames many",
         "home -o x.rawlog --resolution 320", "home -o x.rawlog --resolution 10x10",
-        "home -o x.rawlog --resolution 320x", "home -o x.rawlog --unknown"})
+        "home -o x.rawlog --resolution 320x", "home -o x.rawlog --detections faces",
+        "home -o x.rawlog --unknown"})
   {
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(2, result.status) << arguments;

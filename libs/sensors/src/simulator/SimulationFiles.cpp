@@ -71,7 +71,7 @@ void write(
     writer.writePose(time, kGroundTruthLabel, simulator.truePoses()[index]);
   }
   writer.write(*frame.scan);
-  writer.write(*frame.objects);
+  if (!labelsPixels(simulator.scene().options.detector.output)) writer.write(*frame.objects);
 }
 
 }  // namespace

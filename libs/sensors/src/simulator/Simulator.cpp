@@ -6,6 +6,7 @@
 
 #include "quadmap/sensors/simulator/CameraPath.h"
 #include "quadmap/sensors/simulator/DepthNoise.h"
+#include "quadmap/sensors/simulator/DetectorMask.h"
 #include "quadmap/sensors/simulator/SimulatedOdometry.h"
 
 namespace quadmap::simulator
@@ -113,6 +114,13 @@ SimulatedFrame Simulator::frame(std::size_t index) const
   result.objects->cameraParams = result.scan->cameraParams;
   result.objects->sensorPose = result.scan->sensorPose;
   Detections found = detector_.detect(result.visible, rendered.camera, random);
+  const DetectorOptions& detector = scene_.options.detector;
+  if (detector.output != DetectorOutput::Boxes)
+  {
+    RandomStream maskRandom(seed_, Purpose::Mask, index);
+    addMasks(found, rendered, detector, maskRandom);
+  }
+  if (labelsPixels(detector.output)) labelPixels(found, scene_, detector.output, *result.scan);
   result.objects->objects = std::move(found.boxes);
   result.truthOfBox = std::move(found.truth);
   return result;

@@ -22,7 +22,23 @@ Motion motionOf(const Entry& e)
   e.reject("must be walk, drive or approach");
 }
 
+DetectorOutput outputOf(const Entry& e)
+{
+  const auto output = detectorOutputOf(e.text);
+  if (!output) e.reject("must be boxes, masks, classes or instances");
+  return *output;
+}
+
 }  // namespace
+
+std::optional<DetectorOutput> detectorOutputOf(const std::string& name)
+{
+  if (name == "boxes") return DetectorOutput::Boxes;
+  if (name == "masks") return DetectorOutput::Masks;
+  if (name == "classes") return DetectorOutput::Classes;
+  if (name == "instances") return DetectorOutput::Instances;
+  return std::nullopt;
+}
 
 void CameraOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& c, const std::string& section)
@@ -137,8 +153,10 @@ void DetectorOptions::loadFromConfigFile(
 {
   rejectUnknownKeys(
       c, section,
-      {"jitter", "minVisible", "minSize", "missRate", "occludedMissRate", "falseAlarms",
-       "flipRate"});
+      {"jitter", "minVisible", "minSize", "missRate", "occludedMissRate", "falseAlarms", "flipRate",
+       "output", "maskJitter"});
+  if (const auto e = entryOf(c, section, "output")) output = outputOf(*e);
+  readNumber(c, section, "maskJitter", maskJitter, 0, 50);
   readNumber(c, section, "jitter", jitter, 0, 100);
   readNumber(c, section, "minVisible", minVisible, 0, 1);
   readNumber(c, section, "minSize", minSize, 1, 1000);
@@ -166,7 +184,8 @@ void SimulatorOptions::scaleNoise(double factor)
        {&camera.colorNoise, &depthNoise.axialBase, &depthNoise.axialGrowth,
         &depthNoise.disparityStep, &depthNoise.lateral, &odometry.translationPerMetre,
         &odometry.rotationPerMetre_deg, &odometry.translationPerRadian,
-        &odometry.rotationPerRadian_deg, &odometry.scale, &detector.jitter, &detector.falseAlarms})
+        &odometry.rotationPerRadian_deg, &odometry.scale, &detector.jitter, &detector.maskJitter,
+        &detector.falseAlarms})
     *sigma *= factor;
   for (double* share :
        {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts, &detector.missRate,

@@ -11,7 +11,8 @@ enum class Purpose : std::uint64_t
   Depth = 1,
   Color,
   Detector,
-  Odometry
+  Odometry,
+  Mask
 };
 
 /** Random numbers that depend on nothing but (seed, purpose, frame): frames may be made in any

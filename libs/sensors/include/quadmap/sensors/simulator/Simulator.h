@@ -19,7 +19,9 @@ namespace quadmap::simulator
 struct SimulatedFrame
 {
   mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< sensorLabel: the camera's name
-  CObservationObjects::Ptr objects;              //!< The same label and time stamp
+  /** The same label and time stamp. When the detector labels pixels these are in the scan, and the
+   * boxes are here for comparison only, not in the files. */
+  CObservationObjects::Ptr objects;
   /** For each box of `objects` which of Scene::objects it shows; none: a false alarm. */
   std::vector<std::optional<std::size_t>> truthOfBox;
   std::vector<VisibleObject> visible;  //!< Before the detector's errors

@@ -4,6 +4,7 @@
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,24 @@ struct OdometryOptions : public mrpt::config::CLoadableOptions
       const mrpt::config::CConfigFileBase& c, const std::string& section) override;
 };
 
+/** What a detector says of an object it found. */
+enum class DetectorOutput
+{
+  Boxes,
+  Masks,     //!< Boxes with masks
+  Classes,   //!< No boxes: pixelLabels of the scan, named by label
+  Instances  //!< No boxes: pixelLabels of the scan, named by label and number
+};
+
+/** Are there labels of pixels instead of boxes? */
+inline bool labelsPixels(DetectorOutput output)
+{
+  return output == DetectorOutput::Classes || output == DetectorOutput::Instances;
+}
+
+/** Of "boxes", "masks", "classes" and "instances"; nothing for other names. */
+std::optional<DetectorOutput> detectorOutputOf(const std::string& name);
+
 /** INI section [detector]. Sizes in pixels hold for images 640 px wide and scale with the width. */
 struct DetectorOptions : public mrpt::config::CLoadableOptions
 {
@@ -106,7 +125,9 @@ struct DetectorOptions : public mrpt::config::CLoadableOptions
   double missRate = 0.05;    //!< Share of fully visible objects missed, 0..1
   double occludedMissRate = 0.4;  //!< Share missed when just minVisible is left, 0..1
   double falseAlarms = 0.05;      //!< Boxes around nothing per frame, 0..10
-  double flipRate = 0.03;         //!< Share of boxes with a label the object is mistaken for, 0..1
+  DetectorOutput output = DetectorOutput::Boxes;  //!< boxes, masks, classes or instances
+  double maskJitter = 1.5;  //!< Sigma of the border of a mask [px at 640], 0..50: a stride 4 grid's
+  double flipRate = 0.03;   //!< Share of boxes with a label the object is mistaken for, 0..1
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& c, const std::string& section) override;
