@@ -4,6 +4,7 @@
 set(CMAKE_DISABLE_FIND_PACKAGE_VTK TRUE)
 
 find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
 foreach(module poses img obs maps opengl graphs tclap)
   find_package(mrpt-${module} REQUIRED)
 endforeach()

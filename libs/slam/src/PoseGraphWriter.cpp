@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "PoseAngles.h"
 #include "quadmap/obs/OutputFile.h"
 
 namespace quadmap
@@ -78,18 +79,6 @@ double centreSigma(const CompleteMeasurement& m, int axis)
   const double sigmaPlus = isKnown(plus) ? plus.sigma : half;
   const double sigmaMinus = isKnown(minus) ? minus.sigma : half;
   return 0.5 * std::hypot(sigmaPlus, sigmaMinus);
-}
-
-/** How turns about the axes of the turned frame follow from (yaw, pitch, roll) of its pose. */
-Eigen::Matrix3d localTurnsPerAngle(const CPose3D& pose)
-{
-  const double sp = std::sin(pose.pitch()), cp = std::cos(pose.pitch());
-  const double sr = std::sin(pose.roll()), cr = std::cos(pose.roll());
-  Eigen::Matrix3d J;
-  J << -sp, 0, 1,      //
-      sr * cp, cr, 0,  //
-      cr * cp, -sr, 0;
-  return J;
 }
 
 /** Information of T_robot_obj, in MRPT's order, positions along the robot's axes.

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ceres/cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "quadmap/slam/graph/FactorGraph.h"
+
+namespace quadmap
+{
+/** The free part of a graph as a problem for Ceres. It works on the graph's own blocks. */
+class GraphProblem
+{
+ public:
+  /** \param folded Views before firstFree enter as what was folded of them, else as they are. */
+  GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folded);
+
+  FactorGraph::Summary solve();
+  FactorGraph::Marginals marginals(bool withObjects);
+
+ private:
+  void addFloor();
+  void addStep(const FactorGraph::Step& step);
+  void addView(std::size_t pose, const FactorGraph::View& view);
+  double* poseBlock(std::size_t index);
+  double* objectBlock(ObjectId id);
+
+  FactorGraph& graph_;
+  std::size_t firstFree_;
+  bool folded_;
+  std::unique_ptr<ceres::Manifold> poseManifold_, freeManifold_;
+  ceres::Problem problem_;
+  std::map<std::size_t, double*> poses_;  // in the problem
+  std::map<ObjectId, double*> objects_;
+};
+
+}  // namespace quadmap
