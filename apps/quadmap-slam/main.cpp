@@ -8,6 +8,7 @@
 #include "../common/CommandLine.h"
 #include "quadmap/review/KeyframeContent.h"
 #include "quadmap/review/SceneBuilder.h"
+#include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/RawlogRun.h"
 
 namespace
@@ -101,7 +102,8 @@ std::string writeSceneOf(const SlamResult& result, const std::string& directory)
   cloud.maxKeyframes = 60;
   SceneContent content;
   content.objects = result.map.toRecords();
-  for (const auto& keyframe : result.keyframes) content.trajectory.push_back(keyframe.T_map_robot);
+  for (const auto& node : poseNodesOf(result.keyframes))
+    content.trajectory.push_back(node.T_map_robot);
   addKeyframes(directory + "/map.simplemap", cloud, content);
   const std::string path = directory + "/scene.3Dscene";
   writeScene(*SceneBuilder().scene(content), path);
@@ -122,11 +124,17 @@ void printObjects(const std::vector<ObjectRecord>& objects)
 
 void printSummary(const RawlogRunSummary& summary)
 {
-  const auto& counts = summary.result.counts;
+  const auto& bySensor = summary.result.countsBySensor;
+  const auto counts = summary.result.counts();
   printObjects(summary.result.map.toRecords());
+  if (bySensor.size() > 1)
+    for (const auto& [sensor, c] : bySensor)
+      std::printf(
+          "%s: %zu frames, %zu keyframes, %zu boxes\n", sensor.c_str(), c.frames, c.keyframes,
+          c.boxes);
   std::printf(
-      "%zu frames, %zu keyframes, %zu boxes, %zu objects\n", counts.frames,
-      summary.result.keyframes.size(), counts.boxes, summary.result.map.confirmedObjects().size());
+      "%zu frames, %zu keyframes, %zu boxes, %zu objects\n", counts.frames, counts.keyframes,
+      counts.boxes, summary.result.map.confirmedObjects().size());
   for (const auto& file : summary.files) std::printf("wrote %s\n", file.c_str());
 }
 

@@ -343,11 +343,13 @@ TEST_F(QuadmapSlam, CtrlCLeavesValidFilesOfWhatWasDone)
           &pid, program.c_str(), &quiet, nullptr, const_cast<char**>(arguments.data()), environ),
       0);
   posix_spawn_file_actions_destroy(&quiet);
-  const auto spoolHasData = [&]
+  const auto spoolHasData = [&]  // the file has no name, but the program has it open
   {
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(out, ignored))
-      if (entry.file_size(ignored) > 0) return true;
+    const std::string open = "/proc/" + std::to_string(pid) + "/fd";
+    for (const auto& entry : std::filesystem::directory_iterator(open, ignored))
+      if (std::filesystem::read_symlink(entry, ignored).string().find(out + "/.keyframes") == 0)
+        return std::filesystem::file_size(entry, ignored) > 0;
     return false;
   };
   for (int i = 0; i < 3000 && !spoolHasData(); ++i)

@@ -312,8 +312,8 @@ TEST_F(RawlogRun, TwoSensorsAreKeyframedEachForItself)
   request.configuration.keyframes.every = 2;
   const auto all = runOnRawlog(request);
   EXPECT_EQ(all.result.keyframes.size(), 4u);
-  EXPECT_EQ(all.result.counts.frames, 8u);
-  EXPECT_EQ(all.result.counts.boxes, 4u);
+  EXPECT_EQ(all.result.counts().frames, 8u);
+  EXPECT_EQ(all.result.counts().boxes, 4u);
   request.sensorLabel = "rear";
   EXPECT_EQ(runOnRawlog(request).result.keyframes.size(), 2u);
 }

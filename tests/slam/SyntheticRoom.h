@@ -20,6 +20,7 @@ struct SyntheticRoom
       mrpt::poses::CPose3D(0.2, -0.1, 0.3, 0.35, 0, 0), {0.4, 0.25, 0.3}
   };
   std::string label = "suitcase";
+  std::string sensor = "camera";
   mrpt::poses::CPose3D T_robot_camera{0.1, 0, 1.3, 0, 0.45, 0};  // looks down a little
   PinholeCamera camera{260, 260, 159.5, 119.5, 320, 240};
 
@@ -62,7 +63,7 @@ struct SyntheticRoom
   {
     auto scan = mrpt::obs::CObservation3DRangeScan::Create();
     scan->timestamp = stamp(time);
-    scan->sensorLabel = "camera";
+    scan->sensorLabel = sensor;
     scan->sensorPose = T_robot_camera;
     scan->cameraParams.ncols = camera.width;
     scan->cameraParams.nrows = camera.height;

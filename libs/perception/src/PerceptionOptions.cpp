@@ -43,7 +43,7 @@ constexpr NumberOption kNumbers[] = {
 void PerceptionOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& config, const std::string& section)
 {
-  std::set<std::string> known = {"planeMaxTilt_deg", "minPoints"};
+  std::set<std::string> known = {"planeMaxTilt_deg", "minPoints", "minLabelPixels"};
   for (const auto& option : kNumbers) known.insert(option.key);
   rejectUnknownKeys(config, section, known);
 
@@ -53,6 +53,7 @@ void PerceptionOptions::loadFromConfigFile(
   readNumber(config, section, "planeMaxTilt_deg", tilt_deg, 0.1, 45);
   planeMaxTilt = mrpt::DEG2RAD(tilt_deg);
   readNumber(config, section, "minPoints", minPoints, 10, 1000000);
+  readNumber(config, section, "minLabelPixels", minLabelPixels, 1, 1000000);
   if (maxRange <= minRange)
     throw std::invalid_argument(
         "[" + section + "] maxRange=" + std::to_string(maxRange) + ": must be > minRange");
@@ -64,6 +65,7 @@ void PerceptionOptions::saveToConfigFile(
   for (const auto& option : kNumbers) config.write(section, option.key, this->*option.member);
   config.write(section, "planeMaxTilt_deg", mrpt::RAD2DEG(planeMaxTilt));
   config.write(section, "minPoints", minPoints);
+  config.write(section, "minLabelPixels", minLabelPixels);
 }
 
 }  // namespace quadmap

@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -16,7 +16,6 @@ namespace quadmap
 {
 using mrpt::img::CImage;
 using mrpt::obs::CObservation3DRangeScan;
-using mrpt::obs::CSensoryFrame;
 
 namespace
 {
@@ -68,13 +67,18 @@ CObservation3DRangeScan::Ptr storedForm(const CObservation3DRangeScan& scan)
 
 }  // namespace
 
-KeyframeSpool::KeyframeSpool(const std::string& directory) :
-    file_(directory + "/keyframes.spool"),
-    descriptor_(::open(file_.temporaryPath().c_str(), O_RDWR | O_CLOEXEC))
+KeyframeSpool::KeyframeSpool(const std::string& directory) : directory_(directory)
 {
-  if (descriptor_ < 0)
-    throw std::runtime_error(
-        file_.temporaryPath() + ": cannot be written: " + std::strerror(errno));
+  std::string path = directory + "/.keyframes.XXXXXX";
+  descriptor_ = ::mkostemp(path.data(), O_CLOEXEC);
+  if (descriptor_ < 0) fail("cannot be written", errno);
+  ::unlink(path.c_str());
+}
+
+void KeyframeSpool::fail(const char* what, int error) const
+{
+  throw std::runtime_error(
+      directory_ + ": the temporary file of keyframes " + what + ": " + std::strerror(error));
 }
 
 KeyframeSpool::~KeyframeSpool()
@@ -86,14 +90,8 @@ void KeyframeSpool::append(const CObservation3DRangeScan& scan, const CObservati
 {
   const JpegSerialization jpeg;
   KeyframeBlocks blocks;
-  {
-    CSensoryFrame frame;
-    frame.insert(storedForm(scan));
-    blocks.scan = write(gzipMember(archiveBytes(frame), kFastCompression));
-  }
-  CSensoryFrame frame;
-  if (objects) frame.insert(CObservationObjects::Create(*objects));
-  blocks.objects = write(gzipMember(archiveBytes(frame), kBestCompression));
+  blocks.scan = write(gzipMember(archiveBytes(*storedForm(scan)), kFastCompression));
+  if (objects) blocks.objects = write(gzipMember(archiveBytes(*objects), kBestCompression));
   keyframes_.push_back(blocks);
 }
 
@@ -102,19 +100,21 @@ KeyframeSpool::Bytes KeyframeSpool::scanMember(std::size_t keyframe) const
   return read(keyframes_.at(keyframe).scan);
 }
 
-KeyframeSpool::Bytes KeyframeSpool::objectsMember(std::size_t keyframe) const
+std::optional<KeyframeSpool::Bytes> KeyframeSpool::objectsMember(std::size_t keyframe) const
 {
-  return read(keyframes_.at(keyframe).objects);
+  const auto& block = keyframes_.at(keyframe).objects;
+  if (!block) return std::nullopt;
+  return read(*block);
 }
 
 CObservationObjects::Ptr KeyframeSpool::objects(std::size_t keyframe) const
 {
-  const Bytes bytes = gunzipMember(objectsMember(keyframe));
+  const auto member = objectsMember(keyframe);
+  if (!member) return nullptr;
+  const Bytes bytes = gunzipMember(*member);
   mrpt::io::CMemoryStream memory;
   memory.assignMemoryNotOwn(bytes.data(), bytes.size());
-  CSensoryFrame frame;
-  mrpt::serialization::archiveFrom(memory) >> frame;
-  return frame.getObservationByClass<CObservationObjects>();
+  return mrpt::serialization::archiveFrom(memory).ReadObject<CObservationObjects>();
 }
 
 KeyframeSpool::Block KeyframeSpool::write(const Bytes& bytes)
@@ -125,9 +125,7 @@ KeyframeSpool::Block KeyframeSpool::write(const Bytes& bytes)
     const auto n = ::pwrite(
         descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(end_ + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0)
-      throw std::runtime_error(
-          file_.temporaryPath() + ": cannot be written: " + std::strerror(n < 0 ? errno : ENOSPC));
+    if (n <= 0) fail("cannot be written", n < 0 ? errno : ENOSPC);
     done += static_cast<std::size_t>(n);
   }
   const Block block{end_, bytes.size()};
@@ -145,9 +143,7 @@ KeyframeSpool::Bytes KeyframeSpool::read(const Block& block) const
         descriptor_, bytes.data() + done, bytes.size() - done,
         static_cast<off_t>(block.offset + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0)
-      throw std::runtime_error(
-          file_.temporaryPath() + ": cannot be read: " + std::strerror(n < 0 ? errno : EIO));
+    if (n <= 0) fail("cannot be read", n < 0 ? errno : EIO);
     done += static_cast<std::size_t>(n);
   }
   return bytes;

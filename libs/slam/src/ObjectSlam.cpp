@@ -57,38 +57,46 @@ ObjectSlam::ObjectSlam(
 
 bool ObjectSlam::addFrame(const RgbdFrame& frame)
 {
-  ++result_.counts.frames;
-  const auto T_map_robot = odometry_.poseOf(frame);
-  result_.counts.framesWithoutPose = odometry_.framesWithoutPose();
-  if (T_map_robot)
+  const bool isFirst = result_.countsBySensor.empty();
+  SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
+  ++counts.frames;
+  if (const auto T_map_robot = odometry_.poseOf(frame))
   {
     firstWithoutPose_.reset();
     return addPosedFrame(frame, *T_map_robot);
   }
-  if (result_.counts.frames == 1) firstWithoutPose_ = frame;
+  ++counts.framesWithoutPose;
+  if (isFirst) firstWithoutPose_ = frame;
   return false;
 }
 
 void ObjectSlam::finish()
 {
-  const std::size_t missing = result_.counts.framesWithoutPose;
-  if (missing > 0 && missing == result_.counts.frames)
+  const std::size_t missing = result_.counts().framesWithoutPose;
+  if (missing > 0 && missing == result_.counts().frames)
   {
     if (missing > 1 || configuration_.slam.odometry != PoseSource::Auto)
       throw std::runtime_error(odometry_.whyNoPoses());
     warn("no odometry, but a single image: its robot pose is the origin of the map");
-    result_.counts.framesWithoutPose = 0;
+    result_.countsBySensor[firstWithoutPose_->scan->sensorLabel].framesWithoutPose = 0;
     addPosedFrame(*firstWithoutPose_, CPose3D());
   }
   else if (missing > 0)
     warn(mrpt::format(
-        "%zu of %zu images have no pose and were left out", missing, result_.counts.frames));
-  if (result_.counts.keyframesWithoutDepth > 0)
-    warn(mrpt::format(
-        "%zu of %zu keyframes have no valid depth at all", result_.counts.keyframesWithoutDepth,
-        result_.keyframes.size()));
+        "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
+  warnOfMissingDepth();
   const auto scope = times_.measure("consolidation");
   result_.map.consolidate();
+}
+
+void ObjectSlam::warnOfMissingDepth()
+{
+  const bool several = result_.countsBySensor.size() > 1;
+  for (const auto& [sensor, counts] : result_.countsBySensor)
+    if (counts.keyframesWithoutDepth > 0)
+      warn(mrpt::format(
+          "%zu of %zu keyframes%s have no valid depth at all", counts.keyframesWithoutDepth,
+          counts.keyframes, several ? (" of " + sensor).c_str() : ""));
 }
 
 bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robot)
@@ -107,14 +115,19 @@ bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robo
     spool_.append(*frame.scan, boxes.get());
   }
   if (boxes) insertIntoMap(*boxes, T_map_robot);
-  if (!frame.objects) ++result_.counts.keyframesWithoutBoxes;
-  if (!hasDepth(*frame.scan)) ++result_.counts.keyframesWithoutDepth;
+  SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
+  ++counts.keyframes;
+  if (boxes) counts.boxes += boxes->objects.size();
+  if (!frame.objects) ++counts.keyframesWithoutBoxes;
+  if (frame.objectsFromPixelLabels) ++counts.keyframesFromPixelLabels;
+  if (!hasDepth(*frame.scan)) ++counts.keyframesWithoutDepth;
   MRPT_LOG_DEBUG_FMT(
       "keyframe %zu: record %zu (%s), %zu boxes, %zu objects in the map", result_.keyframes.size(),
       frame.record, frame.scan->sensorLabel.c_str(), boxes ? boxes->objects.size() : 0,
       result_.map.objects().size());
   result_.keyframes.push_back(
-      {frame.record, frame.time(), T_map_robot, T_map_robot, odometry_.keyframeStep()});
+      {frame.record, frame.scan->sensorLabel, frame.time(), T_map_robot, T_map_robot,
+       odometry_.keyframeStep()});
   return true;
 }
 
@@ -147,7 +160,6 @@ void ObjectSlam::insertIntoMap(const CObservationObjects& boxes, const CPose3D& 
 
 void ObjectSlam::count(const CObservationObjects& boxes)
 {
-  result_.counts.boxes += boxes.objects.size();
   for (const auto& object : boxes.objects)
   {
     LabelCounts& counts = result_.labels[labels_.canonical(object.label)];

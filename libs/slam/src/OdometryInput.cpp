@@ -10,9 +10,7 @@ std::optional<mrpt::poses::CPose3D> OdometryInput::poseOf(const RgbdFrame& frame
   sawGroundTruth_ = sawGroundTruth_ || frame.T_world_robot;
   const auto& pose = source_ == PoseSource::GroundTruth ? frame.T_world_robot : frame.T_odom_robot;
   latest_.reset();
-  if (!pose)
-    ++framesWithoutPose_;
-  else
+  if (pose)
     latest_.emplace(*pose, frame.odometryCovariance.value_or(mrpt::math::CMatrixDouble66()));
   return pose;
 }

@@ -106,34 +106,39 @@ class GraphText
  public:
   GraphText(
       std::ostream& out,
+      const std::vector<PoseNode>& nodes,
       const SlamResult& result,
       const KeyframeSpool& spool,
       const PoseUncertaintyOptions& uncertainty) :
-      out_(out), result_(result), spool_(spool), uncertainty_(uncertainty)
+      out_(out),
+      nodes_(nodes),
+      result_(result),
+      spool_(spool),
+      uncertainty_(uncertainty),
+      nodeOf_(nodeOfEachKeyframe(nodes))
   {
     out_.precision(10);
   }
 
   void write()
   {
-    const auto& keyframes = result_.keyframes;
-    for (std::size_t k = 0; k < keyframes.size(); ++k)
+    for (std::size_t n = 0; n < nodes_.size(); ++n)
     {
-      writeNode(out_, k, keyframes[k].T_map_robot);
-      if (k == 0) out_ << "FIX 0\n";
+      writeNode(out_, n, nodes_[n].T_map_robot);
+      if (n == 0) out_ << "FIX 0\n";
     }
     for (const MapObject* object : result_.map.confirmedObjects())
-      writeNode(out_, keyframes.size() + object->id, object->object.pose());
-    for (std::size_t k = 1; k < keyframes.size(); ++k) writeOdometry(k);
+      writeNode(out_, nodes_.size() + object->id, object->object.pose());
+    for (std::size_t n = 1; n < nodes_.size(); ++n) writeOdometry(n);
     for (const auto& decision : result_.decisions) writeMeasurement(decision);
   }
 
  private:
-  void writeOdometry(std::size_t k)
+  void writeOdometry(std::size_t n)
   {
-    const auto step = odometryStep(
-        uncertainty_, result_.keyframes[k - 1].T_odom_robot, result_.keyframes[k].T_odom_robot);
-    writeEdge(out_, k - 1, k, step.mean, step.cov.asEigen().inverse());
+    const auto step =
+        odometryStep(uncertainty_, nodes_[n - 1].T_odom_robot, nodes_[n].T_odom_robot);
+    writeEdge(out_, n - 1, n, step.mean, step.cov.asEigen().inverse());
   }
 
   void writeMeasurement(const BoxDecision& box)
@@ -145,13 +150,14 @@ class GraphText
     const auto& measurement = boxes_->objects.at(box.decision.box).measurement;
     if (!measurement.complete) return;
 
-    const CPose3D& T_map_robot = result_.keyframes[box.keyframe].T_map_robot;
+    const std::size_t node = nodeOf_[box.keyframe];
+    const CPose3D& T_map_robot = nodes_[node].T_map_robot;
     const CPose3D T_robot_measured =
         boxes_->sensorPose + measurement.complete->object_sensor.pose();
     const CPose3D T_robot_obj =
         turnedLike(T_map_robot + T_robot_measured, object->object.pose()) - T_map_robot;
     writeEdge(
-        out_, box.keyframe, result_.keyframes.size() + object->id, T_robot_obj,
+        out_, node, nodes_.size() + object->id, T_robot_obj,
         measurementInformation(
             *measurement.complete, T_robot_measured.getRotationMatrix().asEigen(), T_robot_obj));
   }
@@ -164,9 +170,11 @@ class GraphText
   }
 
   std::ostream& out_;
+  const std::vector<PoseNode>& nodes_;
   const SlamResult& result_;
   const KeyframeSpool& spool_;
   const PoseUncertaintyOptions& uncertainty_;
+  std::vector<std::size_t> nodeOf_;  //!< Each keyframe
   CObservationObjects::Ptr boxes_;
   std::size_t boxesOf_ = 0;
 };
@@ -175,13 +183,14 @@ class GraphText
 
 void writePoseGraph(
     const std::string& path,
+    const std::vector<PoseNode>& nodes,
     const SlamResult& result,
     const KeyframeSpool& spool,
     const PoseUncertaintyOptions& uncertainty)
 {
   OutputFile file(path);
   std::ofstream out(file.temporaryPath());
-  GraphText(out, result, spool, uncertainty).write();
+  GraphText(out, nodes, result, spool, uncertainty).write();
   out.close();
   if (!out) throw std::runtime_error(path + ": cannot be written");
   file.commit();

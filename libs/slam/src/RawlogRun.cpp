@@ -83,6 +83,9 @@ class RawlogRun
     options.objectsFile = request.objectsFile;
     options.sensorLabel = request.sensorLabel;
     options.keepGoing = request.keepGoing;
+    if (request.configuration.slam.method != SlamMethod::Odometry)
+      options.pixelLabelClasses = LabelTable::installed();
+    options.minLabelPixels = request.configuration.perception.minLabelPixels;
     options.maxBoxDelay = request.configuration.input.maxBoxDelay;
     options.maxOdometryGap = request.configuration.input.maxOdometryGap;
     return options;
@@ -124,7 +127,7 @@ class RawlogRun
   void requireContent(bool interrupted)
   {
     const std::string& file = request_.rawlog;
-    if (slam_.result().counts.frames == 0)
+    if (slam_.result().counts().frames == 0)
     {
       if (interrupted) throw std::runtime_error(file + ": interrupted before the first image");
       const std::string sensor =
@@ -136,7 +139,8 @@ class RawlogRun
     if (!wantsBoxes || source_.hasBoxes() || interrupted) return;
     const std::string text =
         file +
-        ": no object boxes, neither in it nor beside it; import them with the images "
+        ": no object boxes, neither in it nor beside it, and no pixel labels; import them with the "
+        "images "
         "(quadmap-import --detections), name their file with --objects, or use --method odometry";
     if (!request_.keepGoing) throw std::runtime_error(text);
     slam_.warn(text);

@@ -25,22 +25,35 @@ Json rounded(double value, int decimals)
   return std::round(value * scale) / scale + 0.0;  // no negative zero
 }
 
-Json inputJson(const RunRecord& run)
+Json countsJson(const SlamCounts& counts)
 {
-  const SlamCounts& counts = run.result.counts;
   return {
-      {                   "file",               run.input.file},
-      {           "objects_file",        run.input.objectsFile},
-      {                 "sensor",        run.input.sensorLabel},
-      {                "records",            run.input.records},
-      {               "odometry",       run.input.odometryKind},
-      {            "interrupted",        run.input.interrupted},
-      {                 "frames",                counts.frames},
-      {    "frames_without_pose",     counts.framesWithoutPose},
-      {              "keyframes",  run.result.keyframes.size()},
-      {"keyframes_without_boxes", counts.keyframesWithoutBoxes},
-      {"keyframes_without_depth", counts.keyframesWithoutDepth}
+      {                     "frames",                   counts.frames},
+      {        "frames_without_pose",        counts.framesWithoutPose},
+      {                  "keyframes",                counts.keyframes},
+      {    "keyframes_without_boxes",    counts.keyframesWithoutBoxes},
+      {    "keyframes_without_depth",    counts.keyframesWithoutDepth},
+      {"keyframes_from_pixel_labels", counts.keyframesFromPixelLabels},
+      {                      "boxes",                    counts.boxes}
   };
+}
+
+Json inputJson(const RunRecord& run, std::size_t poses)
+{
+  Json sensors = Json::object();
+  for (const auto& [label, counts] : run.result.countsBySensor) sensors[label] = countsJson(counts);
+  Json json = {
+      {        "file",         run.input.file},
+      {"objects_file",  run.input.objectsFile},
+      {      "sensor",  run.input.sensorLabel},
+      {     "records",      run.input.records},
+      {    "odometry", run.input.odometryKind},
+      { "interrupted",  run.input.interrupted},
+  };
+  json.update(countsJson(run.result.counts()));
+  json["poses"] = poses;
+  json["sensors"] = sensors;
+  return json;
 }
 
 Json configurationJson(const SlamConfiguration& configuration)
@@ -68,8 +81,8 @@ Json boxesJson(const SlamResult& result)
         { "reasons",  counts.reasons}
     };
   return {
-      {   "total", result.counts.boxes},
-      {"by_label",              labels}
+      {   "total", result.counts().boxes},
+      {"by_label",                labels}
   };
 }
 
@@ -122,7 +135,10 @@ const char* nameOf(MeasurementKind kind)
 class AssociationLines
 {
  public:
-  AssociationLines(std::ostream& out, const RunRecord& run) : out_(out), run_(run) {}
+  AssociationLines(std::ostream& out, const std::vector<PoseNode>& nodes, const RunRecord& run) :
+      out_(out), run_(run), poseOf_(nodeOfEachKeyframe(nodes))
+  {
+  }
 
   void write()
   {
@@ -152,8 +168,9 @@ class AssociationLines
       addDecision(list.at(decisions[next_].decision.box), decisions[next_].decision);
     return {
         {"keyframe",                     k},
+        {    "pose",            poseOf_[k]},
         {  "record",       keyframe.record},
-        {  "sensor",     boxes.sensorLabel},
+        {  "sensor",       keyframe.sensor},
         {    "time", rounded(keyframe.time,6)},
         {   "boxes",                  list                     }
     };
@@ -169,23 +186,24 @@ class AssociationLines
 
   std::ostream& out_;
   const RunRecord& run_;
-  std::size_t next_ = 0;  //!< Decision
+  std::vector<std::size_t> poseOf_;  //!< Each keyframe
+  std::size_t next_ = 0;             //!< Decision
   bool anyLine_ = false;
 };
 
 }  // namespace
 
-void writeReport(const std::string& path, const RunRecord& run)
+void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, const RunRecord& run)
 {
   const Json head = {
       {      "program",                           "quadmap-slam"},
       {      "version",                              run.version},
-      {        "input",                           inputJson(run)},
-      {"configuration",     configurationJson(run.configuration)},
+      {        "input",                            inputJson(run,nodes.size())},
+      {"configuration",     configurationJson(run.configuration)                                        },
       {        "boxes",                    boxesJson(run.result)},
-      {      "objects", run.result.map.confirmedObjects().size()},
+      {      "objects", run.result.map.confirmedObjects().size()                                        },
       {     "warnings",                      run.result.warnings},
-      {      "dropped",         problemsJson(run.input.problems)},
+      {      "dropped",         problemsJson(run.input.problems)                                        },
       {       "timing",                    timingJson(run.times)}
   };
   std::string start = text(head, 2);
@@ -194,7 +212,7 @@ void writeReport(const std::string& path, const RunRecord& run)
   OutputFile file(path);
   std::ofstream out(file.temporaryPath());
   out << start << ",\n  \"associations\": [";
-  AssociationLines(out, run).write();
+  AssociationLines(out, nodes, run).write();
   out << "\n  ]\n}\n";
   out.close();
   if (!out) throw std::runtime_error(path + ": cannot be written");

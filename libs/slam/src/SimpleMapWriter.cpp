@@ -1,6 +1,7 @@
 #include "quadmap/slam/SimpleMapWriter.h"
 
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <stdexcept>
@@ -11,18 +12,63 @@ namespace quadmap
 {
 namespace
 {
-/** Stands for a CSimpleMap in an archive. Version 1 of that class is the number of keyframes, then
- * for each its pose and its sensory frame; later releases of MRPT read it too. */
-class StreamedSimpleMap : public mrpt::serialization::CSerializable
+/** Stands for another class in an archive, to write what never was one object. */
+class StandIn : public mrpt::serialization::CSerializable
+{
+ public:
+  StandIn(const mrpt::rtti::TRuntimeClassId* id, std::uint8_t version) : id_(id), version_(version)
+  {
+  }
+  const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override { return id_; }
+  mrpt::rtti::CObject* clone() const override { throw std::logic_error("only for writing"); }
+
+ protected:
+  std::uint8_t serializeGetVersion() const override { return version_; }
+  void serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) override
+  {
+    throw std::logic_error("only for writing");
+  }
+
+ private:
+  const mrpt::rtti::TRuntimeClassId* id_;
+  std::uint8_t version_;
+};
+
+/** A CSensoryFrame of observations that are compressed already. Version 2 of that class is their
+ * number, then the observations. */
+class StreamedSensoryFrame : public StandIn
+{
+ public:
+  StreamedSensoryFrame(std::vector<KeyframeSpool::Bytes> members, GzipFileWriter& file) :
+      StandIn(CLASS_ID(mrpt::obs::CSensoryFrame), 2), members_(std::move(members)), file_(file)
+  {
+  }
+
+ protected:
+  void serializeTo(mrpt::serialization::CArchive& out) const override
+  {
+    out << static_cast<std::uint32_t>(members_.size());
+    for (const auto& member : members_) file_.appendMember(member);
+  }
+
+ private:
+  std::vector<KeyframeSpool::Bytes> members_;
+  GzipFileWriter& file_;  //!< Below the archive
+};
+
+/** A CSimpleMap. Version 1 of that class is the number of keyframes, then for each its pose and its
+ * sensory frame; later releases of MRPT read it too. */
+class StreamedSimpleMap : public StandIn
 {
  public:
   StreamedSimpleMap(
-      const std::vector<Keyframe>& keyframes,
+      const std::vector<PoseNode>& nodes,
       const KeyframeSpool& spool,
       SimpleMapContent content,
       PoseCovarianceChain covariances,
       GzipFileWriter& file) :
-      keyframes_(keyframes),
+      StandIn(CLASS_ID(mrpt::maps::CSimpleMap), 1),
+      nodes_(nodes),
       spool_(spool),
       content_(content),
       covariances_(std::move(covariances)),
@@ -30,50 +76,46 @@ class StreamedSimpleMap : public mrpt::serialization::CSerializable
   {
   }
 
-  const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override
-  {
-    return CLASS_ID(mrpt::maps::CSimpleMap);
-  }
-  mrpt::rtti::CObject* clone() const override { throw std::logic_error("only for writing"); }
-
  protected:
-  uint8_t serializeGetVersion() const override { return 1; }
   void serializeTo(mrpt::serialization::CArchive& out) const override
   {
     PoseCovarianceChain covariances = covariances_;
-    out << static_cast<uint32_t>(keyframes_.size());
-    for (std::size_t k = 0; k < keyframes_.size(); ++k)
-    {
-      out << covariances.next(keyframes_[k].T_map_robot);
-      file_.appendMember(
-          content_ == SimpleMapContent::Scans ? spool_.scanMember(k) : spool_.objectsMember(k));
-    }
-  }
-  void serializeFrom(mrpt::serialization::CArchive&, uint8_t) override
-  {
-    throw std::logic_error("only for writing");
+    out << static_cast<std::uint32_t>(nodes_.size());
+    for (const auto& node : nodes_)
+      out << covariances.next(node.T_map_robot) << StreamedSensoryFrame(membersOf(node), file_);
   }
 
  private:
-  const std::vector<Keyframe>& keyframes_;
+  std::vector<KeyframeSpool::Bytes> membersOf(const PoseNode& node) const
+  {
+    std::vector<KeyframeSpool::Bytes> members;
+    for (const std::size_t k : node.keyframes)
+      if (content_ == SimpleMapContent::Scans)
+        members.push_back(spool_.scanMember(k));
+      else if (auto boxes = spool_.objectsMember(k); boxes)
+        members.push_back(std::move(*boxes));
+    return members;
+  }
+
+  const std::vector<PoseNode>& nodes_;
   const KeyframeSpool& spool_;
   SimpleMapContent content_;
   PoseCovarianceChain covariances_;
-  GzipFileWriter& file_;  //!< Below the archive, for the members that are compressed already
+  GzipFileWriter& file_;
 };
 
 }  // namespace
 
 void writeSimpleMap(
     const std::string& path,
-    const std::vector<Keyframe>& keyframes,
+    const std::vector<PoseNode>& nodes,
     const KeyframeSpool& spool,
     SimpleMapContent content,
     PoseCovarianceChain covariances)
 {
   GzipFileWriter file(path);
   auto archive = mrpt::serialization::archiveFrom(file);
-  archive << StreamedSimpleMap(keyframes, spool, content, std::move(covariances), file);
+  archive << StreamedSimpleMap(nodes, spool, content, std::move(covariances), file);
   file.commit();
 }
 

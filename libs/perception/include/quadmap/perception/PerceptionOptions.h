@@ -19,6 +19,10 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double planeMaxTilt = 0.17;   //!< A horizontal plane's normal to up [rad]; INI `planeMaxTilt_deg`
   double planeTolerance = 0.015;  //!< A point this near to its support belongs to it [m], > 0
 
+  /** Groups of fewer pixels with one of a scan's pixelLabels are no object [px], >= 1: 10 x 10 are
+   * too few to measure anything. */
+  int minLabelPixels = 100;
+
   double boxMargin = 0.05;         //!< Detector boxes are enlarged by this share of their size
   /** Gap between parts of one object: a share of its size, at most `clusterTolerance`, and at
    * least `clusterToleranceGrowth` times the range, where the depth camera's pixels are as far

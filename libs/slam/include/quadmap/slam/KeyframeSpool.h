@@ -4,19 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "quadmap/obs/CObservationObjects.h"
-#include "quadmap/obs/OutputFile.h"
 
 namespace quadmap
 {
 /** The images and boxes of all keyframes in a temporary file, so that memory does not grow with
- * their number. The file goes with the object.
+ * their number. The file has no name: it is gone when the program ends, however that happens.
  *
- * Each keyframe is a CSensoryFrame with the range scan and one with the boxes, each a gzip member
- * of its own: a .simplemap file takes them over as they are. */
+ * Each observation is a gzip member of its own: a .simplemap file takes them over as they are. */
 class KeyframeSpool
 {
  public:
@@ -36,8 +35,9 @@ class KeyframeSpool
 
   std::size_t size() const { return keyframes_.size(); }
 
-  Bytes scanMember(std::size_t keyframe) const;     //!< gzip of a CSensoryFrame with the scan
-  Bytes objectsMember(std::size_t keyframe) const;  //!< gzip of a CSensoryFrame with the boxes
+  Bytes scanMember(std::size_t keyframe) const;  //!< gzip of the CObservation3DRangeScan
+  /** gzip of the CObservationObjects; nothing when nobody looked. */
+  std::optional<Bytes> objectsMember(std::size_t keyframe) const;
 
   /** The boxes of a keyframe; null when nobody looked. */
   CObservationObjects::Ptr objects(std::size_t keyframe) const;
@@ -49,12 +49,14 @@ class KeyframeSpool
   };
   struct KeyframeBlocks
   {
-    Block scan, objects;
+    Block scan;
+    std::optional<Block> objects;
   };
+  [[noreturn]] void fail(const char* what, int error) const;
   Block write(const Bytes& bytes);
   Bytes read(const Block& block) const;
 
-  OutputFile file_;  //!< Never committed: removed in the end
+  std::string directory_;
   int descriptor_ = -1;
   std::uint64_t end_ = 0;
   std::vector<KeyframeBlocks> keyframes_;

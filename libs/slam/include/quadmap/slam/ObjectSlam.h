@@ -55,6 +55,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
       const RgbdFrame& frame, CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_sensor);
   void insertIntoMap(const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot);
   void count(const CObservationObjects& boxes);
+  void warnOfMissingDepth();
   void warnOfUnknownLabels(const CObservationObjects& boxes);
 
   SlamConfiguration configuration_;

@@ -3,7 +3,6 @@
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
-#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -31,8 +30,6 @@ class OdometryInput
    * definite. Nothing for the first keyframe. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> keyframeStep();
 
-  std::size_t framesWithoutPose() const { return framesWithoutPose_; }
-
   /** What to tell the user when no frame got a pose. */
   std::string whyNoPoses() const;
 
@@ -40,7 +37,6 @@ class OdometryInput
   PoseSource source_;
   PoseUncertaintyOptions uncertainty_;
   std::optional<mrpt::poses::CPose3DPDFGaussian> latest_, keyframe_;  //!< Poses, as given
-  std::size_t framesWithoutPose_ = 0;
   bool sawOdometry_ = false, sawGroundTruth_ = false;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "quadmap/slam/KeyframeSpool.h"
+#include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamResult.h"
 
@@ -10,14 +12,16 @@ namespace quadmap
 {
 /** Writes the graph of the run in the text format of mrpt::graphs::CNetworkOfPoses3DInf.
  *
- * Nodes: keyframe k has the id k (T_map_robot); object i has the id keyframes + i (T_map_obj).
- * Edges: odometry between consecutive keyframes, and T_robot_obj of every complete measurement the
- * map took for a confirmed object. What a measurement does not know (a hidden side, the yaw of a
- * round object) has little information. Partial measurements are planes: no edge can hold
- * them.
- * \exception std::runtime_error If the file cannot be written. */
+ * Nodes: robot poses have the ids 0, 1, ... in the order of time (T_map_robot), one for all cameras
+ * of a pose; object i has the id poses + i (T_map_obj).
+ * Edges: odometry between consecutive poses, and T_robot_obj of every complete measurement the
+ * map took for a confirmed object, so that several cameras may give several. What a measurement
+ * does not know (a hidden side, the yaw of a round object) has little information. Partial
+ * measurements are planes: no edge can hold them. \exception std::runtime_error If the file cannot
+ * be written. */
 void writePoseGraph(
     const std::string& path,
+    const std::vector<PoseNode>& nodes,
     const SlamResult& result,
     const KeyframeSpool& spool,
     const PoseUncertaintyOptions& uncertainty);

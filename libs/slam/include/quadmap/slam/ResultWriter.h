@@ -6,6 +6,7 @@
 #include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/slam/KeyframeSpool.h"
 #include "quadmap/slam/ModuleTimes.h"
+#include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
 
@@ -37,6 +38,6 @@ struct RunRecord
 std::vector<std::string> writeResult(const std::string& directory, const RunRecord& run);
 
 /** report.json. Everything that differs between two runs on the same input is under "timing". */
-void writeReport(const std::string& path, const RunRecord& run);
+void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, const RunRecord& run);
 
 }  // namespace quadmap

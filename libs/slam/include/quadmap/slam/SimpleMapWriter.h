@@ -3,8 +3,8 @@
 #include <string>
 
 #include "quadmap/slam/KeyframeSpool.h"
+#include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/PoseUncertainty.h"
-#include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
 {
@@ -15,12 +15,12 @@ enum class SimpleMapContent
   Objects  //!< CObservationObjects
 };
 
-/** Writes an mrpt::maps::CSimpleMap with the poses of the result and the observations of the spool,
- * keyframe by keyframe: it is never in memory as a whole.
+/** Writes an mrpt::maps::CSimpleMap with a sensory frame per node, that is one for all cameras of a
+ * pose, and the observations of the spool; it is never in memory as a whole.
  * \exception std::runtime_error If the file cannot be written. */
 void writeSimpleMap(
     const std::string& path,
-    const std::vector<Keyframe>& keyframes,
+    const std::vector<PoseNode>& nodes,
     const KeyframeSpool& spool,
     SimpleMapContent content,
     PoseCovarianceChain covariances);

@@ -14,10 +14,12 @@
 
 namespace quadmap
 {
-/** A frame whose objects were looked at. Its images and boxes are in the KeyframeSpool. */
+/** An image of one sensor whose objects were looked at. It and its boxes are in the KeyframeSpool.
+ */
 struct Keyframe
 {
   std::size_t record = 0;  //!< Of the range scan in its rawlog
+  std::string sensor;      //!< Its label
   double time = 0;         //!< [s]
   mrpt::poses::CPose3D T_map_robot;
   mrpt::poses::CPose3D T_odom_robot;  //!< As given by the input
@@ -40,24 +42,31 @@ struct LabelCounts
   std::map<std::string, std::size_t> reasons;  //!< "complete: ..." -> how often
 };
 
+/** Of one sensor, or of all together. */
 struct SlamCounts
 {
-  std::size_t frames = 0;                 //!< RGB-D frames that reached the pipeline
-  std::size_t framesWithoutPose = 0;      //!< ... and were left out for that
-  std::size_t keyframesWithoutBoxes = 0;  //!< Nobody looked for objects
-  std::size_t keyframesWithoutDepth = 0;  //!< Not one valid depth
+  std::size_t frames = 0;             //!< RGB-D frames that reached the pipeline
+  std::size_t framesWithoutPose = 0;  //!< ... and were left out for that
+  std::size_t keyframes = 0;
+  std::size_t keyframesWithoutBoxes = 0;     //!< Nobody looked for objects
+  std::size_t keyframesWithoutDepth = 0;     //!< Not one valid depth
+  std::size_t keyframesFromPixelLabels = 0;  //!< Their boxes were made of the scan's pixelLabels
   std::size_t boxes = 0;
+
+  SlamCounts& operator+=(const SlamCounts& other);
 };
 
 /** Everything a run found out, except what is in the KeyframeSpool. */
 struct SlamResult
 {
   CQuadricObjectMap map;
-  std::vector<Keyframe> keyframes;
+  std::vector<Keyframe> keyframes;     //!< In the order of the input; see poseNodesOf()
   std::vector<BoxDecision> decisions;  //!< In the order of keyframes and boxes
-  SlamCounts counts;
+  std::map<std::string, SlamCounts> countsBySensor;
   std::map<std::string, LabelCounts> labels;
   std::vector<std::string> warnings;
+
+  SlamCounts counts() const;  //!< Of all sensors
 };
 
 }  // namespace quadmap
