@@ -99,6 +99,7 @@ void CQuadricObjectMap::internal_clear()
   room_ = RoomPlanes();
   objectOfInstance_.clear();
   lastDecisions_.clear();
+  unknownLabels_.clear();
 }
 
 MapObject& CQuadricObjectMap::require(ObjectId id)

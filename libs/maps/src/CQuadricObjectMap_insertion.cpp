@@ -4,6 +4,7 @@
 
 #include "InsertionFrame.h"
 #include "quadmap/geometry/Projection.h"
+#include "quadmap/obs/PixelLabels.h"
 #include "quadmap/perception/FramePerception.h"
 
 namespace quadmap
@@ -48,13 +49,13 @@ double sizeDeviation(const Ellipsoid& object, const LabelProperties& label)
   return ratio.log().abs().maxCoeff() / label.sizeSpread;
 }
 
-/** Has boxes, and perception has looked at none of them. */
+/** Has perception not looked at it? It measures every box, and the depth of a frame without any. */
 bool needsMeasuring(const CObservationObjects& obs)
 {
-  return !obs.objects.empty() &&
-         std::all_of(
-             obs.objects.begin(), obs.objects.end(),
-             [](const DetectedObject& d) { return d.measurement.kind == MeasurementKind::None; });
+  const bool noneMeasured = std::all_of(
+      obs.objects.begin(), obs.objects.end(),
+      [](const DetectedObject& d) { return d.measurement.kind == MeasurementKind::None; });
+  return noneMeasured && (!obs.objects.empty() || obs.coarseDepth.empty());
 }
 
 }  // namespace
@@ -63,6 +64,7 @@ bool CQuadricObjectMap::internal_insertObservation(
     const mrpt::obs::CObservation& obs, const std::optional<const mrpt::poses::CPose3D>& robotPose)
 {
   const auto T_map_robot = robotPose.value_or(mrpt::poses::CPose3D());
+  lastDecisions_.clear();
   std::optional<FramePairing::Frame> frame;
   if (const auto* boxes = dynamic_cast<const CObservationObjects*>(&obs); boxes)
   {
@@ -70,7 +72,14 @@ bool CQuadricObjectMap::internal_insertObservation(
     frame = pairing_.add(*boxes, T_map_robot);
   }
   else if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&obs); scan)
+  {
     frame = pairing_.add(*scan);
+    const auto labelled =
+        frame ? nullptr
+              : boxesFromPixelLabels(
+                    *scan, *labels_, perceptionOptions.minLabelPixels, unknownLabels_);
+    if (labelled) frame = pairing_.add(*labelled, T_map_robot);
+  }
   return frame && insertFrame(std::move(*frame));
 }
 
@@ -88,6 +97,8 @@ bool CQuadricObjectMap::insertFrame(FramePairing::Frame frame)
 bool CQuadricObjectMap::insertObjects(
     const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose)
 {
+  for (const auto& detected : obs.objects)
+    if (!labels_->properties(detected.label).known) unknownLabels_.insert(detected.label);
   Frame frame = frameOf(obs, robotPose);
   associate(frame);
   std::set<ObjectId> touched;

@@ -9,11 +9,6 @@ namespace
 /** Observations of one frame follow each other closely; a scan takes a megabyte or more. */
 constexpr std::size_t kWaiting = 4;
 
-bool sameFrame(const mrpt::obs::CObservation& a, const mrpt::obs::CObservation& b)
-{
-  return a.timestamp == b.timestamp && a.sensorLabel == b.sensorLabel;
-}
-
 template <typename Item>
 void keep(std::deque<Item>& items, Item item)
 {
@@ -26,30 +21,34 @@ void keep(std::deque<Item>& items, Item item)
 std::optional<FramePairing::Frame> FramePairing::add(const mrpt::obs::CObservation3DRangeScan& scan)
 {
   auto copy = std::make_shared<const mrpt::obs::CObservation3DRangeScan>(scan);
+  auto& waiting = boxes_[scan.sensorLabel];
   const auto it = std::find_if(
-      boxes_.begin(), boxes_.end(), [&](const auto& w) { return sameFrame(w.boxes, scan); });
-  if (it == boxes_.end())
+      waiting.begin(), waiting.end(),
+      [&](const auto& w) { return w.boxes.timestamp == scan.timestamp; });
+  if (it == waiting.end())
   {
-    keep(scans_, std::move(copy));
+    keep(scans_[scan.sensorLabel], std::move(copy));
     return {};
   }
   Frame frame{std::move(copy), it->boxes, it->robotPose};
-  boxes_.erase(it);
+  waiting.erase(it);
   return frame;
 }
 
 std::optional<FramePairing::Frame> FramePairing::add(
     const CObservationObjects& boxes, const mrpt::poses::CPose3D& robotPose)
 {
+  auto& waiting = scans_[boxes.sensorLabel];
   const auto it = std::find_if(
-      scans_.begin(), scans_.end(), [&](const auto& scan) { return sameFrame(*scan, boxes); });
-  if (it == scans_.end())
+      waiting.begin(), waiting.end(),
+      [&](const auto& scan) { return scan->timestamp == boxes.timestamp; });
+  if (it == waiting.end())
   {
-    keep(boxes_, WaitingBoxes{boxes, robotPose});
+    keep(boxes_[boxes.sensorLabel], WaitingBoxes{boxes, robotPose});
     return {};
   }
   Frame frame{*it, boxes, robotPose};
-  scans_.erase(it);
+  waiting.erase(it);
   return frame;
 }
 

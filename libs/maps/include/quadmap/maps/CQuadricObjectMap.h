@@ -31,7 +31,9 @@ using mrpt::maps::CMetricMap;  // the serialization macros need it here
  *
  * insertObservation() takes CObservationObjects with their measurements, and boxes without
  * measurements together with the CObservation3DRangeScan of the same frame (equal sensor label and
- * time stamp, one after the other in either order). It returns true when an object was touched.
+ * time stamp, one after the other in either order; any number of sensors in any order). A scan with
+ * pixelLabels whose boxes have not come before it is its own boxes. It returns true when an object
+ * was touched.
  *
  * Threads: const methods may run concurrently; anything that changes the map needs the caller's
  * lock. */
@@ -56,6 +58,10 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   const LabelTable& labels() const { return *labels_; }
   /** For the observations inserted from now on. */
   void setLabels(LabelTable labels);
+
+  /** Labels of inserted boxes and pixels that the table does not know. Such boxes were used with
+   *  neutral properties, such pixels were not. Not stored with the map. */
+  const std::set<std::string>& unknownLabels() const { return unknownLabels_; }
 
   using Objects = std::map<ObjectId, MapObject>;
   const Objects& objects() const;                          //!< All, confirmed or not
@@ -126,6 +132,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   RoomPlanes room_;  // what the scans measured here showed
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
+  std::set<std::string> unknownLabels_;
   std::shared_ptr<const LabelTable> labels_;
 
   void internal_clear() override;

@@ -4,14 +4,17 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <deque>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "quadmap/obs/CObservationObjects.h"
 
 namespace quadmap
 {
 /** Finds the range scan and the boxes of the same frame (equal sensor label and time stamp) when
- * they arrive one after the other, in either order. Keeps the last few that wait for a partner. */
+ * they arrive one after the other, in either order. Keeps the last few of each sensor that wait for
+ * a partner. */
 class FramePairing
 {
  public:
@@ -34,8 +37,8 @@ class FramePairing
     CObservationObjects boxes;
     mrpt::poses::CPose3D robotPose;
   };
-  std::deque<mrpt::obs::CObservation3DRangeScan::ConstPtr> scans_;
-  std::deque<WaitingBoxes> boxes_;
+  std::map<std::string, std::deque<mrpt::obs::CObservation3DRangeScan::ConstPtr>> scans_;
+  std::map<std::string, std::deque<WaitingBoxes>> boxes_;  // both by sensor
 };
 
 }  // namespace quadmap
