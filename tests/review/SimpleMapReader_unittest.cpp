@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "../obs/TemporaryFolder.h"
 #include "SampleScene.h"
 #include "quadmap/review/KeyframeContent.h"
@@ -65,6 +68,27 @@ TEST_F(SimpleMapFile, TakesOnlySomeKeyframesWhenThereAreMany)
   EXPECT_EQ(content.cameras.size(), static_cast<std::size_t>(kKeyframes));
   for (const CloudPoint& p : content.cloud)
     EXPECT_TRUE(std::abs(p.position.x() - 2) < 0.01 || std::abs(p.position.x() - 5) < 0.01);
+}
+
+TEST_F(SimpleMapFile, TakesSomeOfEachCamera)
+{
+  mrpt::maps::CSimpleMap map;  // two cameras take turns
+  for (int i = 0; i < 8; ++i)
+  {
+    const auto scan = scanOfWall();
+    scan->sensorLabel = i % 2 == 0 ? "front" : "rear";
+    addKeyframe(map, CPose3D(3 * (i % 2), 0, 0, 0, 0, 0), scan);
+  }
+  ASSERT_TRUE(map.saveToFile(path_));
+  CloudOptions options;
+  options.maxKeyframes = 4;
+  SceneContent content;
+  addKeyframes(path_, options, content);
+  for (const double wall : {2.0, 5.0})
+    EXPECT_TRUE(std::any_of(
+        content.cloud.begin(), content.cloud.end(),
+        [&](const CloudPoint& p) { return std::abs(p.position.x() - wall) < 0.01; }))
+        << wall;
 }
 
 TEST_F(SimpleMapFile, TruncatedIsReportedWithItsKeyframe)

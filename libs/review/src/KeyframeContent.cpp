@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "quadmap/review/SimpleMapReader.h"
 
@@ -49,6 +51,7 @@ void addKeyframes(
   SimpleMapReader reader(simpleMapPath);
   CloudCollector collector(options.cellSize, options.maxPoints);
   const std::size_t step = (reader.size() + options.maxKeyframes - 1) / options.maxKeyframes;
+  std::map<std::string, std::size_t> imagesOfSensor;  // each camera contributes
   for (std::size_t i = 0; const auto keyframe = reader.next(); ++i)
   {
     const mrpt::poses::CPose3D T_map_robot = keyframe->pose->getMeanVal();
@@ -57,7 +60,7 @@ void addKeyframes(
       const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
       if (!scan) continue;
       content.cameras.push_back(cameraOf(*scan, T_map_robot));
-      if (i % step != 0) continue;
+      if (imagesOfSensor[scan->sensorLabel]++ % step != 0) continue;
       try
       {
         scan->load();  // images that are kept in files of their own
