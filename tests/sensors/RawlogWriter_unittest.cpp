@@ -150,7 +150,7 @@ TEST(RawlogWriter, KeepsTheOldFileWhenTheDiskIsFull)
     options.external = external;
     const std::string error = errorOnFullDisk(file, options);
     EXPECT_NE(
-        error.find(external ? "x_Images/camera_" : "x.rawlog: cannot write"), std::string::npos)
+        error.find(external ? "x_Images/camera_" : "x.rawlog: cannot be written"), std::string::npos)
         << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     EXPECT_EQ(readFile(file), "old");
@@ -161,7 +161,7 @@ TEST(RawlogWriter, KeepsTheOldFileWhenTheDiskIsFull)
 TEST(RawlogWriter, ReportsADiskThatIsFullAtTheLastByteOnly)
 {
   const TemporaryFolder folder;
-  // One pose: everything is still in zlib's buffer when the file is closed.
+  // One pose: everything is still in memory when the file is closed.
   std::string error;
   {
     const FileSizeLimit full(20);
@@ -173,7 +173,7 @@ TEST(RawlogWriter, ReportsADiskThatIsFullAtTheLastByteOnly)
           writer.finish();
         });
   }
-  EXPECT_NE(error.find("x.rawlog: cannot write: "), std::string::npos) << error;
+  EXPECT_NE(error.find("x.rawlog: cannot be written: "), std::string::npos) << error;
   EXPECT_EQ(folder.fileCount(), 0u);
 }
 

@@ -15,7 +15,6 @@ namespace
 {
 constexpr int kGzipFormat = 16;  //!< Added to zlib's window bits: gzip header and checksum
 constexpr int kMemoryLevel = 8;  //!< zlib's default
-constexpr int kFileLevel = 6;    //!< Of the small parts between members
 constexpr std::size_t kPendingLimit = 1 << 20;  //!< Compressed in pieces of this size [bytes]
 
 }  // namespace
@@ -69,8 +68,8 @@ std::vector<std::uint8_t> archiveBytes(const mrpt::serialization::CSerializable&
   return {first, first + memory.getTotalBytesCount()};
 }
 
-GzipFileWriter::GzipFileWriter(const std::string& path) :
-    file_(path), out_(std::fopen(file_.temporaryPath().c_str(), "wb"))
+GzipFileWriter::GzipFileWriter(const std::string& path, int level) :
+    file_(path), level_(level), out_(std::fopen(file_.temporaryPath().c_str(), "wb"))
 {
   if (!out_) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
 }
@@ -94,20 +93,33 @@ void GzipFileWriter::appendMember(const std::vector<std::uint8_t>& member)
   writeRaw(member);
 }
 
-void GzipFileWriter::commit()
+void GzipFileWriter::requireWritten() const
 {
-  flushPending();
-  if (std::fclose(out_) != 0 && error_ == 0) error_ = errno;
-  out_ = nullptr;
   if (error_ != 0)
     throw std::runtime_error(file_.finalPath() + ": cannot be written: " + std::strerror(error_));
+}
+
+void GzipFileWriter::close()
+{
+  if (out_)
+  {
+    flushPending();
+    if (std::fclose(out_) != 0 && error_ == 0) error_ = errno;
+    out_ = nullptr;
+  }
+  requireWritten();
+}
+
+void GzipFileWriter::commit()
+{
+  close();
   file_.commit();
 }
 
 void GzipFileWriter::flushPending()
 {
   if (pending_.empty()) return;
-  writeRaw(gzipMember(pending_, kFileLevel));
+  writeRaw(gzipMember(pending_, level_));
   pending_.clear();
 }
 

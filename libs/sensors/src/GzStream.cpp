@@ -15,10 +15,10 @@ constexpr unsigned kBufferBytes = 1u << 17;
 constexpr std::size_t kHeadBytes = 160;        // more than the longest class name MRPT can write
 constexpr std::size_t kChunkBytes = 1u << 30;  // zlib counts in unsigned int
 
-gzFile openOrThrow(const std::string& path, const std::string& mode)
+gzFile openOrThrow(const std::string& path)
 {
   errno = 0;
-  gzFile file = gzopen(path.c_str(), mode.c_str());
+  gzFile file = gzopen(path.c_str(), "rb");
   if (!file)
     throw std::runtime_error(
         path + ": cannot open: " + (errno ? std::strerror(errno) : "out of memory"));
@@ -37,7 +37,7 @@ GzInput::GzInput(const std::string& path)
 {
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(path + ": is a directory, not a file");
-  file_ = openOrThrow(path, "rb");
+  file_ = openOrThrow(path);
   fileBytes_ = std::filesystem::file_size(path);
 }
 
@@ -112,61 +112,6 @@ std::size_t GzInput::Write(const void*, std::size_t)
 std::uint64_t GzInput::Seek(std::int64_t, TSeekOrigin)
 {
   throw std::logic_error("GzInput: cannot seek");
-}
-
-GzOutput::GzOutput(const std::string& path, int level) :
-    file_(openOrThrow(path, "wb" + std::to_string(std::clamp(level, 0, 9))))
-{
-}
-
-GzOutput::~GzOutput()
-{
-  if (file_) gzclose_w(file_);
-}
-
-void GzOutput::fail(int zlibError)
-{
-  failure_ = "cannot write: " + errorText(zlibError);
-  throw std::runtime_error(failure_);
-}
-
-void GzOutput::close()
-{
-  if (!file_) return;
-  errno = 0;
-  const int error = gzclose_w(file_);
-  file_ = nullptr;
-  if (error != Z_OK) fail(error);
-}
-
-std::size_t GzOutput::Write(const void* buffer, std::size_t count)
-{
-  const auto* bytes = static_cast<const char*>(buffer);
-  for (std::size_t done = 0; done < count;)
-  {
-    const auto want = static_cast<unsigned>(std::min(count - done, kChunkBytes));
-    errno = 0;
-    const int written = gzwrite(file_, bytes + done, want);
-    if (written <= 0)
-    {
-      int error = Z_OK;
-      gzerror(file_, &error);
-      fail(error);
-    }
-    done += static_cast<std::size_t>(written);
-  }
-  position_ += count;
-  return count;
-}
-
-std::size_t GzOutput::Read(void*, std::size_t)
-{
-  throw std::logic_error("GzOutput: is write only");
-}
-
-std::uint64_t GzOutput::Seek(std::int64_t, TSeekOrigin)
-{
-  throw std::logic_error("GzOutput: cannot seek");
 }
 
 }  // namespace quadmap

@@ -46,33 +46,4 @@ class GzInput : public mrpt::io::CStream
   std::string head_, failure_;
 };
 
-/** Writes a gzip file whose bytes depend on the data only (no time stamp in its header), and
- * reports every failed write, that of the last bytes included. */
-class GzOutput : public mrpt::io::CStream
-{
- public:
-  /** \exception std::runtime_error If the file cannot be created. */
-  GzOutput(const std::string& path, int level);
-  ~GzOutput() override;
-  GzOutput(const GzOutput&) = delete;
-  GzOutput& operator=(const GzOutput&) = delete;
-
-  /** Writes what is still buffered. \exception std::runtime_error If that fails (disk full). */
-  void close();
-
-  std::size_t Read(void* buffer, std::size_t count) override;
-  std::size_t Write(const void* buffer, std::size_t count) override;
-  std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
-  std::uint64_t getTotalBytesCount() const override { return position_; }
-  std::uint64_t getPosition() const override { return position_; }
-  const std::string& failure() const { return failure_; }  //!< Empty while nothing failed
-
- private:
-  [[noreturn]] void fail(int zlibError);
-
-  gzFile file_ = nullptr;
-  std::uint64_t position_ = 0;
-  std::string failure_;
-};
-
 }  // namespace quadmap

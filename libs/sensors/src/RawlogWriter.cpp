@@ -10,9 +10,7 @@
 #include <stdexcept>
 
 #include "ExternalImages.h"
-#include "GzStream.h"
-#include "RecordReader.h"
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/obs/GzipStream.h"
 
 namespace quadmap
 {
@@ -44,48 +42,11 @@ class JpegSetting
   int quality_;
 };
 
-/** One compressed file of MRPT objects. */
-class ArchiveFile
+void writeTo(GzipFileWriter& file, const mrpt::serialization::CSerializable& object)
 {
- public:
-  ArchiveFile(const std::string& path, int gzLevel) :
-      output_(path), stream_(output_.temporaryPath(), gzLevel)
-  {
-  }
-
-  void write(const mrpt::serialization::CSerializable& object)
-  try
-  {
-    mrpt::serialization::archiveFrom(stream_) << object;
-  }
-  catch (const std::exception& e)
-  {
-    fail(e);
-  }
-
-  void close()
-  try
-  {
-    stream_.close();
-  }
-  catch (const std::exception& e)
-  {
-    fail(e);
-  }
-
-  void commit() { output_.commit(); }
-
- private:
-  /** The user knows the final name, not the temporary one. */
-  [[noreturn]] void fail(const std::exception& e)
-  {
-    const std::string why = stream_.failure().empty() ? rootMessage(e) : stream_.failure();
-    throw std::runtime_error(output_.finalPath() + ": " + why);
-  }
-
-  OutputFile output_;
-  GzOutput stream_;
-};
+  mrpt::serialization::archiveFrom(file) << object;
+  file.requireWritten();
+}
 
 RawlogWriterOptions checked(RawlogWriterOptions options)
 {
@@ -108,9 +69,9 @@ struct RawlogWriter::Impl
 
   std::string file;
   RawlogWriterOptions options;
-  ArchiveFile rawlog;
-  std::unique_ptr<ArchiveFile> sidecar;    // made for the first boxes
-  std::unique_ptr<ExternalImages> images;  // null: embedded
+  GzipFileWriter rawlog;
+  std::unique_ptr<GzipFileWriter> sidecar;  // made for the first boxes
+  std::unique_ptr<ExternalImages> images;   // null: embedded
 };
 
 RawlogWriter::RawlogWriter(std::string file, RawlogWriterOptions options) :
@@ -124,15 +85,15 @@ void RawlogWriter::write(mrpt::obs::CObservation3DRangeScan& scan)
 {
   if (impl_->images) impl_->images->moveOut(scan, impl_->options.jpegQuality);
   const JpegSetting jpeg(impl_->options.jpegQuality);
-  impl_->rawlog.write(scan);
+  writeTo(impl_->rawlog, scan);
 }
 
 void RawlogWriter::write(const CObservationObjects& boxes)
 {
   if (!impl_->sidecar)
     impl_->sidecar =
-        std::make_unique<ArchiveFile>(objectsFileOf(impl_->file), impl_->options.gzLevel);
-  impl_->sidecar->write(boxes);
+        std::make_unique<GzipFileWriter>(objectsFileOf(impl_->file), impl_->options.gzLevel);
+  writeTo(*impl_->sidecar, boxes);
 }
 
 void RawlogWriter::writePose(
@@ -144,7 +105,7 @@ void RawlogWriter::writePose(
   pose.timestamp = time;
   pose.sensorLabel = label;
   pose.pose.mean = T_parent_robot;
-  impl_->rawlog.write(pose);
+  writeTo(impl_->rawlog, pose);
 }
 
 void RawlogWriter::finish()

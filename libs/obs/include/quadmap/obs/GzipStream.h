@@ -29,13 +29,20 @@ std::vector<std::uint8_t> archiveBytes(const mrpt::serialization::CSerializable&
 class GzipFileWriter : public mrpt::io::CStream
 {
  public:
-  explicit GzipFileWriter(const std::string& path);
+  /** \param level Of the bytes that are not members already: 0 (none) to 9 (smallest). */
+  explicit GzipFileWriter(const std::string& path, int level = 6);
   ~GzipFileWriter() override;
 
   void appendMember(const std::vector<std::uint8_t>& member);
 
-  /** \exception std::runtime_error If this or an earlier write failed. Archives would wrap an
-   *  exception of Write() in a call stack, so that it waits until here. */
+  /** Archives would wrap an exception of Write() in a call stack, so that it waits until here.
+   *  \exception std::runtime_error If a write failed so far. */
+  void requireWritten() const;
+
+  /** Writes what is still in memory. \exception std::runtime_error If a write failed. */
+  void close();
+
+  /** Closes, and gives the file its name. \exception std::runtime_error If a write failed. */
   void commit();
 
   size_t Write(const void* buffer, size_t count) override;
@@ -52,6 +59,7 @@ class GzipFileWriter : public mrpt::io::CStream
   void writeRaw(const std::vector<std::uint8_t>& bytes);
 
   OutputFile file_;
+  int level_;
   std::FILE* out_ = nullptr;
   int error_ = 0;                      //!< errno of the first write that failed
   std::vector<std::uint8_t> pending_;  //!< Not compressed yet
