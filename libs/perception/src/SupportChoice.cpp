@@ -1,6 +1,7 @@
 #include "SupportChoice.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace quadmap
 {
@@ -14,17 +15,38 @@ struct Relation
   double insideBelow = 0;  // of the inside: clearly below
 };
 
+/** Down in the image at the middle of a box; a camera may be mounted any way round. */
+Eigen::Vector2d downInImage(
+    const PinholeCamera& camera, const Eigen::Vector3d& up, const ImageBox& box)
+{
+  const Eigen::Vector3d ray = camera.ray(box.centerX(), box.centerY());
+  const Eigen::Vector2d down(
+      camera.fx * (ray.x() * up.z() - up.x()), camera.fy * (ray.y() * up.z() - up.y()));
+  return down.norm() > 0 ? down.normalized() : Eigen::Vector2d::UnitY();
+}
+
 Relation relate(
     const DepthCloud& cloud,
     const Plane& plane,
     const ImageBox& box,
+    const Eigen::Vector3d& up,
     const PerceptionOptions& options)
 {
   const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
   const auto inner = cloud.cellsOf(box);
-  const auto outer = cloud.cellsOf({box.x1 - reach, box.centerY(), box.x2 + reach, box.y2 + reach});
+  const auto outer =
+      cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
+  const Eigen::Vector2d down = downInImage(cloud.camera(), up, box);
+  const double halfHeight =
+      0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
+  const auto depthBelowMiddle = [&](int c, int r)
+  {
+    return down.x() * (c * cloud.stride() - box.centerX()) +
+           down.y() * (r * cloud.stride() - box.centerY());
+  };
   // The lowest tenth of the box shows the support as often as the object.
-  const auto core = cloud.cellsOf({box.x1, box.y1, box.x2, box.y2 - 0.1 * box.height()});
+  const auto isCore = [&](int c, int r)
+  { return inner.contains(c, r) && depthBelowMiddle(c, r) < 0.8 * halfHeight; };
 
   int ring = 0, ringOn = 0, inside = 0, above = 0, below = 0;
   const auto count = [&](int c, int r)
@@ -33,7 +55,7 @@ Relation relate(
     const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
     const double distance = plane.signedDistance(p);
     const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(p.z());
-    if (core.contains(c, r))
+    if (isCore(c, r))
     {
       ++inside;
       if (distance > tolerance) ++above;
@@ -45,9 +67,9 @@ Relation relate(
       if (std::abs(distance) < tolerance) ++ringOn;
     }
   };
-  for (int r = std::min(inner.r0, outer.r0); r < std::max(inner.r1, outer.r1); r += 2)
-    for (int c = std::min(inner.c0, outer.c0); c < std::max(inner.c1, outer.c1); c += 2)
-      if (cloud.inside(c, r) && (core.contains(c, r) || outer.contains(c, r))) count(c, r);
+  for (int r = outer.r0; r < outer.r1; r += 2)
+    for (int c = outer.c0; c < outer.c1; c += 2)
+      if (isCore(c, r) || depthBelowMiddle(c, r) >= 0) count(c, r);
 
   const auto share = [](int part, int all) { return all > 0 ? double(part) / all : 0.0; };
   return {share(ringOn, ring), share(above, inside), share(below, inside)};
@@ -70,7 +92,7 @@ std::optional<int> chooseSupport(
   double bestScore = 0;
   for (const int i : planes.horizontal)
   {
-    const Relation relation = relate(cloud, planes.plane(i).plane, box, options);
+    const Relation relation = relate(cloud, planes.plane(i).plane, box, planes.up, options);
     if (relation.ringOn < kMinRing || relation.insideAbove < kMinAbove) continue;
     if (relation.insideBelow > kMaxBelow) continue;
     const double score = relation.ringOn * (1.0 - relation.insideBelow);
