@@ -52,7 +52,8 @@ struct Cli
   TCLAP::ValueArg<std::string> odometry{
       "",
       "odometry",
-      "Where poses come from; auto: from the rawlog's odometry, none needed for a single image.",
+      "Where poses come from; auto: from the rawlog's odometry, none needed for images of one "
+      "moment.",
       false,
       "auto",
       &sources,

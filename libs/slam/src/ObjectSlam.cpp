@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace quadmap
 {
@@ -57,17 +58,33 @@ ObjectSlam::ObjectSlam(
 
 bool ObjectSlam::addFrame(const RgbdFrame& frame)
 {
-  const bool isFirst = result_.countsBySensor.empty();
   SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
   ++counts.frames;
   if (const auto T_map_robot = odometry_.poseOf(frame))
   {
-    firstWithoutPose_.reset();
+    hasOneMoment_ = false;
+    withoutPose_.clear();
     return addPosedFrame(frame, *T_map_robot);
   }
   ++counts.framesWithoutPose;
-  if (isFirst) firstWithoutPose_ = frame;
+  keepWhileOneMoment(frame);
   return false;
+}
+
+void ObjectSlam::keepWhileOneMoment(const RgbdFrame& frame)
+{
+  constexpr double kMoment = 0.1;  // [s]
+  const auto isAnother = [&](const RgbdFrame& other)
+  {
+    return other.scan->sensorLabel == frame.scan->sensorLabel ||
+           std::abs(other.time() - frame.time()) > kMoment;
+  };
+  hasOneMoment_ =
+      hasOneMoment_ && std::none_of(withoutPose_.begin(), withoutPose_.end(), isAnother);
+  if (hasOneMoment_)
+    withoutPose_.push_back(frame);
+  else
+    withoutPose_.clear();
 }
 
 void ObjectSlam::finish()
@@ -75,11 +92,18 @@ void ObjectSlam::finish()
   const std::size_t missing = result_.counts().framesWithoutPose;
   if (missing > 0 && missing == result_.counts().frames)
   {
-    if (missing > 1 || configuration_.slam.odometry != PoseSource::Auto)
+    if (!hasOneMoment_ || configuration_.slam.odometry != PoseSource::Auto)
       throw std::runtime_error(odometry_.whyNoPoses());
-    warn("no odometry, but a single image: its robot pose is the origin of the map");
-    result_.countsBySensor[firstWithoutPose_->scan->sensorLabel].framesWithoutPose = 0;
-    addPosedFrame(*firstWithoutPose_, CPose3D());
+    warn(
+        missing == 1
+            ? "no odometry, but a single image: its robot pose is the origin of the map"
+            : "no odometry, but images of a single moment: the robot pose is the origin of "
+              "the map");
+    for (const auto& frame : withoutPose_)
+    {
+      result_.countsBySensor[frame.scan->sensorLabel].framesWithoutPose = 0;
+      addPosedFrame(frame, CPose3D());
+    }
   }
   else if (missing > 0)
     warn(mrpt::format(

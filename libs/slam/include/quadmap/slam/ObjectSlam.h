@@ -2,10 +2,10 @@
 
 #include <mrpt/system/COutputLogger.h>
 
-#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/FramePerception.h"
@@ -51,6 +51,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
 
  private:
   bool addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_map_robot);
+  void keepWhileOneMoment(const RgbdFrame& frame);
   void measureBoxes(
       const RgbdFrame& frame, CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_sensor);
   void insertIntoMap(const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot);
@@ -67,7 +68,8 @@ class ObjectSlam : public mrpt::system::COutputLogger
   OdometryInput odometry_;
   SlamResult result_;
   ModuleTimes times_;
-  std::optional<RgbdFrame> firstWithoutPose_;  //!< While no frame had a pose
+  bool hasOneMoment_ = true;            //!< No frame had a pose, and all are of one moment:
+  std::vector<RgbdFrame> withoutPose_;  //!< these; each of another sensor
   std::set<std::string> unknownLabels_;
 };
 

@@ -16,7 +16,7 @@ enum class SlamMethod
 /** Where the poses of the frames come from. */
 enum class PoseSource
 {
-  Auto,        //!< The rawlog's odometry; a rawlog of a single frame needs none
+  Auto,        //!< The rawlog's odometry; a rawlog of a single moment needs none
   Rawlog,      //!< The rawlog's odometry
   GroundTruth  //!< The rawlog's "ground_truth" poses
 };
