@@ -126,7 +126,7 @@ TEST_F(SeveralCameras, OnAStandingRobotShareItsPose)
   mrpt::graphs::CNetworkOfPoses3DInf graph;
   graph.loadFromTextFile(output("pose-graph.graph"));
   ASSERT_EQ(graph.nodeCount(), 7u);
-  EXPECT_EQ(graph.edgeCount(), 5u + 18u) << "a measurement for each camera that saw it";
+  EXPECT_EQ(graph.edgeCount(), 5u + 6u) << "MRPT keeps one edge between two nodes";
   const auto scans = simpleMap("map.simplemap"), objects = simpleMap("objects.simplemap");
   ASSERT_EQ(scans.size(), 6u);
   ASSERT_EQ(objects.size(), 6u);
@@ -211,11 +211,10 @@ TEST_F(SeveralCameras, ReportCountsEachSensor)
 {
   const auto cameras = fourCameras();
   Records records = stopAndLook(cameras);
-  for (std::size_t i = 27; i < records.size(); i += 9)  // the second camera dies half way
-  {
-    records[i + 3] = samplePose(kStart + 100, {}, "ground_truth");  // changes nothing
-    records[i + 4] = records[i + 3];
-  }
+  for (std::size_t i = 45; i >= 27; i -= 9)  // the second camera dies half way
+    records.erase(
+        records.begin() + static_cast<std::ptrdiff_t>(i) + 3,
+        records.begin() + static_cast<std::ptrdiff_t>(i) + 5);
   run(records);
   const auto r = report();
   EXPECT_EQ(r["input"]["frames"], 21);

@@ -1,10 +1,13 @@
 #include "quadmap/slam/PoseGraphWriter.h"
 
 #include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
 #include <mrpt/poses/Lie/SO.h>
 
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <utility>
 
 #include "PoseAngles.h"
 #include "quadmap/obs/OutputFile.h"
@@ -101,6 +104,39 @@ Matrix6 measurementInformation(
   return information;
 }
 
+/** What several cameras of one pose measured of one object, as one edge: MRPT keeps only one
+ * between two nodes. The mean is weighted by information. */
+class FusedEdge
+{
+ public:
+  void add(const CPose3D& T_robot_obj, const Matrix6& information)
+  {
+    if (information_.isZero()) first_ = T_robot_obj;
+    Vector6 difference;
+    for (unsigned i = 0; i < 6; ++i)
+    {
+      difference[i] = T_robot_obj[i] - first_[i];
+      if (i >= 3) difference[i] = mrpt::math::wrapToPi(difference[i]);
+    }
+    information_ += information;
+    weighted_ += information * difference;
+  }
+
+  CPose3D mean() const
+  {
+    const Vector6 d = information_.ldlt().solve(weighted_);
+    return {first_[0] + d[0], first_[1] + d[1], first_[2] + d[2],
+            first_[3] + d[3], first_[4] + d[4], first_[5] + d[5]};
+  }
+  const Matrix6& information() const { return information_; }
+
+ private:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  CPose3D first_;
+  Matrix6 information_ = Matrix6::Zero();
+  Vector6 weighted_ = Vector6::Zero();  //!< Sum of information times difference to `first_`
+};
+
 class GraphText
 {
  public:
@@ -130,7 +166,9 @@ class GraphText
     for (const MapObject* object : result_.map.confirmedObjects())
       writeNode(out_, nodes_.size() + object->id, object->object.pose());
     for (std::size_t n = 1; n < nodes_.size(); ++n) writeOdometry(n);
-    for (const auto& decision : result_.decisions) writeMeasurement(decision);
+    for (const auto& decision : result_.decisions) addMeasurement(decision);
+    for (const auto& [nodes, edge] : measurements_)
+      writeEdge(out_, nodes.first, nodes.second, edge.mean(), edge.information());
   }
 
  private:
@@ -141,7 +179,7 @@ class GraphText
     writeEdge(out_, n - 1, n, step.mean, step.cov.asEigen().inverse());
   }
 
-  void writeMeasurement(const BoxDecision& box)
+  void addMeasurement(const BoxDecision& box)
   {
     const MapObject* object =
         box.decision.object ? result_.map.find(*box.decision.object) : nullptr;
@@ -156,8 +194,8 @@ class GraphText
         boxes_->sensorPose + measurement.complete->object_sensor.pose();
     const CPose3D T_robot_obj =
         turnedLike(T_map_robot + T_robot_measured, object->object.pose()) - T_map_robot;
-    writeEdge(
-        out_, node, nodes_.size() + object->id, T_robot_obj,
+    measurements_[{node, nodes_.size() + object->id}].add(
+        T_robot_obj,
         measurementInformation(
             *measurement.complete, T_robot_measured.getRotationMatrix().asEigen(), T_robot_obj));
   }
@@ -174,7 +212,8 @@ class GraphText
   const SlamResult& result_;
   const KeyframeSpool& spool_;
   const PoseUncertaintyOptions& uncertainty_;
-  std::vector<std::size_t> nodeOf_;  //!< Each keyframe
+  std::vector<std::size_t> nodeOf_;                                        //!< Each keyframe
+  std::map<std::pair<std::size_t, std::size_t>, FusedEdge> measurements_;  //!< By their nodes
   CObservationObjects::Ptr boxes_;
   std::size_t boxesOf_ = 0;
 };

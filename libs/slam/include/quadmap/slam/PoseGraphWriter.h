@@ -14,11 +14,11 @@ namespace quadmap
  *
  * Nodes: robot poses have the ids 0, 1, ... in the order of time (T_map_robot), one for all cameras
  * of a pose; object i has the id poses + i (T_map_obj).
- * Edges: odometry between consecutive poses, and T_robot_obj of every complete measurement the
- * map took for a confirmed object, so that several cameras may give several. What a measurement
- * does not know (a hidden side, the yaw of a round object) has little information. Partial
- * measurements are planes: no edge can hold them. \exception std::runtime_error If the file cannot
- * be written. */
+ * Edges: odometry between consecutive poses, and T_robot_obj of the complete measurements the map
+ * took for a confirmed object; those of several cameras are one edge. What a measurement does not
+ * know (a hidden side, the yaw of a round object) has little information. Partial measurements are
+ * planes: no edge can hold them.
+ * \exception std::runtime_error If the file cannot be written. */
 void writePoseGraph(
     const std::string& path,
     const std::vector<PoseNode>& nodes,
