@@ -182,6 +182,8 @@ std::optional<ObjectView> viewOf(
   if (m.kind == MeasurementKind::Complete && m.complete &&
       setCuboid(*m.complete, T_map_sensor, properties.support, noise, view))
   {
+    if (properties.dominantDirection && !view.yawDefined)
+      view.faceExponent = properties.shapeExponent;
     if (m.edges) weakenCutFaces(*m.edges, T_map_sensor, view);
     view.centerCovariance = cuboidCenterCovariance(view);
   }

@@ -45,8 +45,8 @@ HalfWidth halfWidth(const UprightShape& object, const Eigen::Vector3d& n, double
   return w;
 }
 
-/** r = n.(c_face - t) - h_2(n): positive when the object is smaller than the face says [m].
- * \param n The face's outward normal. */
+/** r = n.(c_face - t) - h_q(n), q = 2 with a heading: positive when the object is smaller than the
+ * face says [m]. \param n The face's outward normal. */
 double faceGap(
     const ObjectView& view,
     std::size_t face,
@@ -54,7 +54,7 @@ double faceGap(
     const UprightShape& object,
     HalfWidth& width)
 {
-  width = halfWidth(object, n, 2.0);
+  width = halfWidth(object, n, view.faceExponent);
   return view.faceOffset(face, n) - n.dot(object.center) - width.h;
 }
 

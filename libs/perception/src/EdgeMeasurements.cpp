@@ -86,7 +86,8 @@ std::array<EdgeMeasurement, 4> measureEdges(
     const auto edge = static_cast<BoxEdge>(i);
     const bool upright = edge == BoxEdge::Left || edge == BoxEdge::Right;
     out[i].plane_sensor = planes[i];
-    out[i].sigmaAngle = options.edgeSigma / std::abs(upright ? camera.fx : camera.fy);
+    out[i].sigmaAngle =
+        options.edgeSigmaIn(camera.width) / std::abs(upright ? camera.fx : camera.fy);
     if (nearBorder(camera, box, edge, options.borderMargin))
       out[i].state = EdgeState::NearImageBorder;
     else if (

@@ -4,6 +4,7 @@
 
 #include "CuboidFit.h"
 #include "EdgeMeasurements.h"
+#include "FacesInBox.h"
 #include "ModelChoice.h"
 #include "SeedPoint.h"
 #include "SupportChoice.h"
@@ -70,8 +71,10 @@ void FramePerception::Impl::tryComplete(
     ObjectMeasurement& out) const
 {
   CompleteMeasurement complete = fitCuboid(cloud, planes, object, task.label, options);
-  const BoxFit fit =
-      bestFit(cloud, complete.object_sensor, object, task.detection->box, options.edgeSigma);
+  const ImageBox& box = task.detection->box;
+  const double edgeSigma = options.edgeSigmaIn(cloud.camera().width);
+  weakenFacesInsideBox(cloud.camera(), box, edgeSigma, complete);
+  const BoxFit fit = bestFit(cloud, complete.object_sensor, object, box, edgeSigma);
   out.projectedIoU = fit.iou;
   if (fit.tolerantIoU < options.minCompleteIoU)
     out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);

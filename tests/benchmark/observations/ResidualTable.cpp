@@ -128,7 +128,7 @@ void addComplete(
     if (face.kind == FaceKind::Unknown) continue;
     const Plane inwards{-view.faceNormal(f), view.faceOffset(f)};
     out.add(
-        faceFactor(view, f), tangencyResidual(inwards, object), face.sigma,
+        faceFactor(view, f), tangencyResidual(inwards, object, view.faceExponent), face.sigma,
         face.kind == FaceKind::AtLeast);
   }
   if (view.yawDefined && truth.orientationDefined)

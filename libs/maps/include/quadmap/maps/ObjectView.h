@@ -45,6 +45,9 @@ struct ObjectView
   double yawSigma = 0;                                  //!< [rad]
   Eigen::Vector3d halfSizes = Eigen::Vector3d::Ones();  //!< [m]; partial: typical ones
   std::array<FaceMeasurement, kFaces> faces;            //!< All Unknown when not complete
+  /** Of the h_q the faces touch: 2, and the label's when the cuboid was measured without a heading:
+   * then its faces touch the object's corners. */
+  double faceExponent = 2.0;
 
   std::vector<Edge> edges;  //!< The usable box edges
 

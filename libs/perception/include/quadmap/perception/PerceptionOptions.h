@@ -39,12 +39,17 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double borderMargin = 30.0;   //!< Box edges nearer to the image border are unusable [px]
   double occlusionStrip = 8.0;  //!< Width of the strip outside an edge that is looked at [px]
   double occlusionShare = 0.5;  //!< An edge with more nearer depth along it is occluded
-  double edgeSigma = 6.0;       //!< Standard deviation of a detector's box edge [px], > 0
+  /** Standard deviation of a detector's box edge [px of an image 640 px wide], > 0: detectors look
+   * at images of one size, whatever the camera's. */
+  double edgeSigma = 6.0;
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& config, const std::string& section) override;
   void saveToConfigFile(
       mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+
+  /** edgeSigma in an image of another width [px]. */
+  double edgeSigmaIn(unsigned imageWidth) const { return edgeSigma * imageWidth / 640.0; }
 
   /** Standard deviation of a depth [m]. */
   double depthSigma(double z) const

@@ -1,0 +1,284 @@
+#include "FaceEstimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "FaceSigmas.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
+constexpr std::size_t kTop = 4;
+constexpr double kAway = 0.25;  // cosine from which a side is turned away
+
+Eigen::Index axisOf(std::size_t face) { return static_cast<Eigen::Index>(face / 2); }
+
+/** Extent of the middle 90 % of some values. */
+double spread(const std::vector<double>& values)
+{
+  return values.empty() ? 0.0 : quantile(values, 0.95) - quantile(values, 0.05);
+}
+
+}  // namespace
+
+FaceEstimator::FaceEstimator(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ObjectCloud& object,
+    const LevelCloud& level,
+    double yaw,
+    const PerceptionOptions& options) :
+    cloud_(cloud),
+    planes_(planes),
+    object_(object),
+    options_(options),
+    range_(level.medianRange),
+    cells_(level.cells)
+{
+  R_obj_optical_ =
+      Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * level.R_level_optical;
+  const Eigen::Matrix3d R_obj_level = R_obj_optical_ * level.R_level_optical.transpose();
+  for (std::size_t i = 0; i < level.points.size(); ++i)
+  {
+    points_.push_back(R_obj_level * level.points[i]);
+    normals_.push_back(
+        level.normals[i] ? Eigen::Vector3d(R_obj_level * *level.normals[i])
+                         : Eigen::Vector3d::Zero());
+    centroid_ += points_.back();
+  }
+  centroid_ /= static_cast<double>(points_.size());
+  mask_.assign(static_cast<std::size_t>(cloud.columns() * cloud.rows()), false);
+  for (const auto& cell : object.cells) mask_[maskIndex(cell.c, cell.r)] = true;
+}
+
+Eigen::Vector3d FaceEstimator::normalOf(std::size_t face) const
+{
+  return (face % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(axisOf(face));
+}
+
+double FaceEstimator::facingAway(std::size_t face) const
+{
+  return normalOf(face).dot(centroid_.normalized());
+}
+
+double FaceEstimator::lowestSeen() const
+{
+  std::vector<double> z;
+  for (const auto& p : points_) z.push_back(p.z());
+  return quantile(std::move(z), kTailShare);
+}
+
+FaceEstimate FaceEstimator::face(std::size_t face) const
+{
+  constexpr double kMaxCutTop = 0.15;  // of the lines up through the object
+  const Outline lines = outlineTowards(face);
+  auto out = surface(face);
+  if (!out) out = outline(face, lines);
+  // The upper part of a thing need not be as wide as the lower one (a chair's back): when some of
+  // it goes on beyond what is seen, its height is open.
+  if (face == kTop && cutShare(lines, face, -1e9) > kMaxCutTop) out->worth.kind = FaceKind::AtLeast;
+  return *out;
+}
+
+std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
+{
+  constexpr double kMinCosine = 0.85;
+  // What lies deeper is another part (the apron below a table's edge).
+  const double shellDepth = std::max(0.03, 4.0 * options_.depthSigma(range_));  // [m]
+  const Eigen::Vector3d n = normalOf(face);
+  std::vector<double> all, shell;
+  for (const auto& p : points_) all.push_back(n.dot(p));
+  const double extreme = quantile(all, 1.0 - kTailShare);
+  const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
+  double shift = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (n.dot(normals_[i]) > kMinCosine && all[i] > extreme - shellDepth)
+    {
+      shell.push_back(all[i]);
+      shift += points_[i][across];
+    }
+  const double count = static_cast<double>(shell.size());
+  if (count < std::max(20.0, 0.03 * static_cast<double>(all.size()))) return {};
+  FaceEstimate out;
+  out.source = FaceSource::Surface;
+  out.shift = shift / count;
+  out.position = median(shell);
+  out.worth = {FaceKind::Measured, surfaceSigma(range_, options_)};
+
+  // What stands out of the top (a handle) belongs to the object.
+  if (face != kTop) return out;
+  constexpr double kMinOut = 0.01, kMinShare = 0.01;  // [m], of the surface
+  const double noise = std::max(madSigma(shell), options_.depthSigma(range_));
+  std::vector<double> beyond;
+  for (const double x : all)
+    if (x > out.position + std::max(kMinOut, 3.5 * noise)) beyond.push_back(x);
+  if (static_cast<double>(beyond.size()) > std::max(6.0, kMinShare * count))
+  {
+    out.position = quantile(std::move(beyond), 0.9);
+    out.worth.sigma = std::hypot(out.worth.sigma, protrusionSigma(cell()));
+  }
+  return out;
+}
+
+std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, double radius) const
+{
+  constexpr double kMinCosine = 0.85, kMinPoints = 20;
+  const Eigen::Vector3d n = normalOf(face);
+  std::vector<double> outermost;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (const double cosine = n.dot(normals_[i]); cosine > kMinCosine)
+      outermost.push_back(n.dot(points_[i]) + radius * (1.0 - cosine));
+  if (static_cast<double>(outermost.size()) < kMinPoints) return {};
+  FaceEstimate out;
+  out.source = FaceSource::Surface;
+  out.position = median(std::move(outermost));
+  out.worth = {FaceKind::Measured, roundSurfaceSigma(range_, radius, options_)};
+  return out;
+}
+
+/** Cuts the object into lines of cells that run in the image as the outward normal does. */
+FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
+{
+  constexpr double kStep = 0.05;  // [m]
+  const Eigen::Vector3d n = normalOf(face);
+  const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
+  const Eigen::Vector3d ahead = middle + kStep * R_obj_optical_.transpose() * n;
+  Outline out;
+  const auto& camera = cloud_.camera();
+  if (ahead.z() < 0.1) return out;
+  const Eigen::Vector2d step =
+      (camera.project(ahead) - camera.project(middle)) / static_cast<double>(cloud_.stride());
+  const double cells = step.norm();
+  out.metresPerCell = kStep / std::max(cells, 1e-3);
+  const Eigen::Vector2d across(-step.y() / std::max(cells, 1e-9), step.x() / std::max(cells, 1e-9));
+
+  std::map<int, Line> lines;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    const int line =
+        static_cast<int>(std::floor(across.dot(Eigen::Vector2d(cells_[i].c, cells_[i].r))));
+    const Line candidate{i, n.dot(points_[i])};
+    const auto [it, isNew] = lines.try_emplace(line, candidate);
+    if (!isNew && candidate.along > it->second.along) it->second = candidate;
+  }
+  for (const auto& [key, line] : lines) out.lines.push_back(line);
+  std::sort(
+      out.lines.begin(), out.lines.end(),
+      [](const Line& a, const Line& b) { return a.along > b.along; });
+  return out;
+}
+
+/** Share of the lines reaching `from` at least whose end is not the object's. */
+double FaceEstimator::cutShare(const Outline& outline, std::size_t face, double from) const
+{
+  const Eigen::Vector3d ahead = 0.05 * R_obj_optical_.transpose() * normalOf(face);
+  int cut = 0, all = 0;
+  for (const auto& line : outline.lines)
+  {
+    if (line.along < from) break;
+    ++all;
+    cut += isCut(cells_[line.last], ahead) ? 1 : 0;
+  }
+  return all > 0 ? static_cast<double>(cut) / all : 1.0;
+}
+
+/** A face that shows by its outline only. */
+FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) const
+{
+  constexpr double kRim = 0.03, kMaxCut = 0.3;  // [m], share
+  constexpr double kStrayLines = 0.04;          // share; flying pixels
+  constexpr double kMaxMetresPerCell = 0.05;    // coarser outlines say nothing [m]
+  FaceEstimate out;
+  if (outline.lines.empty())  // right behind the camera's plane
+  {
+    for (const auto& p : points_) out.position = std::max(out.position, normalOf(face).dot(p));
+    out.worth = {FaceKind::AtLeast, outlineSigma(kMaxMetresPerCell, range_, options_)};
+    return out;
+  }
+  const std::size_t stray = std::min(
+      outline.lines.size() - 1,
+      static_cast<std::size_t>(1.0 + kStrayLines * static_cast<double>(outline.lines.size())));
+  const double outermost = outline.lines[stray].along;
+  const double away = facingAway(face);
+  out.source = away > kAway ? FaceSource::FarEdge : FaceSource::Outline;
+  const double perCell = std::min(outline.metresPerCell, kMaxMetresPerCell);
+  out.position =
+      outermost + outlineShift(away, perCell) - outlineNoise(away, options_.depthSigma(range_));
+  const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
+  double count = 0;
+  for (const auto& line : outline.lines)
+  {
+    if (line.along < outermost - kRim) break;
+    out.shift += points_[line.last][across];
+    ++count;
+  }
+  out.shift /= count;
+  const bool isOpen = cutShare(outline, face, outermost - kRim) > kMaxCut ||
+                      (away > kAway && !leadsUp(face, outermost));
+  out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
+  out.worth.sigma = face == kTop                        ? topEdgeSigma(perCell, range_, options_)
+                    : out.source == FaceSource::FarEdge ? farEdgeSigma(perCell, range_, options_)
+                                                        : outlineSigma(perCell, range_, options_);
+  return out;
+}
+
+/** A side that is turned away counts when a surface is seen that leads up to it and that is no mere
+ * rim, as the top of a cabinet for its back; the back of a chair hides what is behind it. */
+bool FaceEstimator::leadsUp(std::size_t face, double position) const
+{
+  constexpr double kRim = 0.03, kMinProfile = 0.3, kMinDepth = 0.05;  // [m], share, [m]
+  constexpr double kMinBreadth = 0.35;                                // of the width across
+  const Eigen::Vector3d n = normalOf(face);
+  const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
+  int profile = 0, rim = 0;
+  std::vector<double> depth, width;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    width.push_back(points_[i][across]);
+    if (normals_[i].isZero()) continue;
+    const bool inProfile = std::abs(n.dot(normals_[i])) < 0.5;
+    if (inProfile) depth.push_back(n.dot(points_[i]));
+    if (n.dot(points_[i]) < position - kRim) continue;
+    ++rim;
+    profile += inProfile ? 1 : 0;
+  }
+  return profile > kMinProfile * rim &&
+         spread(depth) > std::max(kMinDepth, kMinBreadth * spread(width));
+}
+
+/** Does the object go on beyond a cell at its rim: at the image border, behind something nearer, or
+ * on a surface that the box or the cluster cut off? \param ahead_optical Where it would go on. */
+bool FaceEstimator::isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const
+{
+  const Eigen::Vector3d p = cloud_.point(cell.c, cell.r).cast<double>();
+  const Eigen::Vector3d ahead = p + ahead_optical;
+  if (ahead.z() < 0.05) return true;
+  const auto& camera = cloud_.camera();
+  const Eigen::Vector2d step = camera.project(ahead) - camera.project(p);
+  if (step.norm() < 1e-6) return false;
+  const Eigen::Vector2d direction = step.normalized();
+  constexpr int kReach = 10;  // cells
+  constexpr int kBorder = 3;  // cells; the sensor's own rim is empty
+  for (int i = 1; i <= kReach; ++i)
+  {
+    const int c = static_cast<int>(std::lround(cell.c + i * direction.x()));
+    const int r = static_cast<int>(std::lround(cell.r + i * direction.y()));
+    if (c < kBorder || r < kBorder || c >= cloud_.columns() - kBorder ||
+        r >= cloud_.rows() - kBorder)
+      return true;
+    if (mask_[maskIndex(c, r)] || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
+    const Eigen::Vector3d q = cloud_.point(c, r).cast<double>();
+    const double tolerance = 0.03 + 3.0 * options_.depthSigma(p.z());
+    if (object_.support &&
+        std::abs(planes_.plane(*object_.support).plane.signedDistance(q)) < tolerance)
+      return false;
+    return q.z() < p.z() + tolerance;
+  }
+  return false;
+}
+
+}  // namespace quadmap

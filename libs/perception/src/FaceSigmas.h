@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cmath>
+
+#include "quadmap/perception/PerceptionOptions.h"
+
+namespace quadmap
+{
+// Standard deviations of faces [m], fitted to simulated scenes with known truth; the table
+// `observation_tables residuals` (doc/benchmarks.md) shows how well they hold.
+
+/** How far an object reaches, on average, beyond its outermost cells [m]: half a cell, and more
+ * where its surface is seen at a flat angle, because depth is missing along edges.
+ * \param away Cosine between the face's normal and the line of sight: > 0 faces away.
+ * \param perCell Step of one cell along the normal [m]. */
+inline double outlineShift(double away, double perCell)
+{
+  if (away < -0.25)
+    return 0.0;  // the outermost point is no end of a line, but a point nearer to us
+  return (away > 0.25 ? 1.2 : 0.5) * perCell;
+}
+
+/** How far depth noise moves the outermost of some points along a face's normal [m]. */
+inline double outlineNoise(double away, double depthSigma)
+{
+  constexpr double kSigmas = 1.6;  // of the largest of some ten points
+  return std::abs(away) > 0.25 ? kSigmas * std::abs(away) * depthSigma : 0.0;
+}
+
+/** What the outline of something round loses besides: its surface turns away from the camera. */
+inline double roundShift(double cell) { return 0.5 * cell; }
+inline double roundOutlineSigma(double radius, double outline)
+{
+  return std::hypot(0.05 * radius, outline);
+}
+
+/** A face by its own points: hardly any noise is left in the median of many; the steps of the
+ * sensor's depth and what is not quite flat are. */
+inline double surfaceSigma(double range, const PerceptionOptions& options)
+{
+  return std::hypot(0.003, 0.5 * options.depthSigma(range));
+}
+
+/** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
+inline double protrusionSigma(double cell) { return std::hypot(0.005, cell); }
+
+inline double roundSurfaceSigma(double range, double radius, const PerceptionOptions& options)
+{
+  return std::hypot(0.08 * radius, surfaceSigma(range, options));
+}
+
+/** The far side of something as deep as it is wide. \param near Of its near side [m]. */
+inline double roundFarSigma(double radius, double near) { return std::hypot(0.25 * radius, near); }
+
+/** A side by its outline. \param perCell Step of one cell along the face's normal [m]. */
+inline double outlineSigma(double perCell, double range, const PerceptionOptions& options)
+{
+  return std::hypot(std::hypot(0.003, 0.45 * perCell), 0.4 * options.depthSigma(range));
+}
+
+/** The same of a side that is turned away. */
+inline double farEdgeSigma(double perCell, double range, const PerceptionOptions& options)
+{
+  return std::hypot(std::hypot(0.004, 0.35 * perCell), 0.6 * options.depthSigma(range));
+}
+
+/** The same of the top. */
+inline double topEdgeSigma(double perCell, double range, const PerceptionOptions& options)
+{
+  return std::hypot(std::hypot(0.002, 0.3 * perCell), 0.25 * options.depthSigma(range));
+}
+
+/** A plane of many points, below the object. */
+inline double supportSigma(double range, const PerceptionOptions& options)
+{
+  return std::hypot(0.003, 0.15 * options.depthSigma(range));
+}
+
+}  // namespace quadmap
