@@ -161,6 +161,43 @@ TEST(CQuadricObjectMap, WhatIsNotSeenAgainIsNotReported)
   EXPECT_EQ(map.objects().begin()->second.missCount, 30u);
 }
 
+TEST(CQuadricObjectMap, BoxesThatCannotBeUsedAreNoMisses)
+{
+  const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto T = SyntheticCamera::lookAt({2.5, 0, 1.4}, {0, 0, 0.5});
+  struct Case
+  {
+    const char* what;
+    std::string label;
+    double shift;  // of the box [px]
+    unsigned misses;
+  };
+  for (const Case& c : {
+           Case{"a rejected box of its own", "chair",   0,  0u},
+           {     "a label taken for it", "couch",   0,  0u},
+           {         "some other thing",   "cup",   0, 10u},
+           { "a rejected box elsewhere", "chair", 250, 10u}
+  })
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(9);
+    walkAround(map, camera, world, 6);
+    for (int i = 0; i < 10; ++i)
+    {
+      auto obs = camera.observe(T, world);
+      ASSERT_EQ(obs.objects.size(), 1u);
+      auto& box = obs.objects[0];
+      box.label = c.label;
+      box.box.x1 += c.shift;
+      box.box.x2 += c.shift;
+      box.measurement = {};
+      box.measurement.kind = MeasurementKind::Rejected;
+      map.insertObservation(obs, T);
+    }
+    EXPECT_EQ(map.objects().begin()->second.missCount, c.misses) << c.what;
+  }
+}
+
 TEST(CQuadricObjectMap, HiddenObjectsAreNotMissed)
 {
   const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};

@@ -118,8 +118,10 @@ CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
   for (std::size_t k = 0; k < obs.objects.size(); ++k)
   {
     const DetectedObject& detected = obs.objects[k];
+    const bool sure = detected.score >= insertionOptions.minScore;
     frame.allBoxes.push_back(detected.box);
-    if (detected.score < insertionOptions.minScore) continue;
+    frame.allLabels.push_back(sure ? labels_->canonical(detected.label) : "");
+    if (!sure) continue;
     if (hasBetterTwin(obs.objects, k, insertionOptions.agreement)) continue;
     auto view = viewOf(
         detected, frame.geometry.T_map_sensor,
@@ -235,10 +237,37 @@ void CQuadricObjectMap::countMisses(const Frame& frame, const std::set<ObjectId>
   {
     if (touched.count(id) != 0) continue;
     if (!shouldBeVisible(object.object, frame.geometry, existence)) continue;
+    if (isShownByAFreeBox(object, frame)) continue;
     ++object.missCount;
     object.existenceLogOdds = std::max(-existence.maxLogOdds, object.existenceLogOdds + miss);
     object.confirmed = isConfirmed(object);
   }
+}
+
+bool CQuadricObjectMap::isShownByAFreeBox(const MapObject& object, const Frame& frame) const
+{
+  // Half of a box of the part that is seen lies in the object's outline, and is no speck in it.
+  constexpr double kMinInside = 0.5, kMinIoU = 0.2;
+  const auto& camera = frame.geometry.camera;
+  auto outline = projectedBox(
+      object.object, frame.geometry, labels_->properties(object.label()).shapeExponent);
+  if (!outline) return false;
+  *outline = outline->clipped(camera.width, camera.height);
+  for (std::size_t k = 0; k < frame.allBoxes.size(); ++k)
+  {
+    const bool taken = std::any_of(
+        lastDecisions_.begin(), lastDecisions_.end(),
+        [&](const Decision& d) { return d.box == k && d.object; });
+    if (taken || frame.allLabels[k].empty()) continue;
+    const ImageBox& box = frame.allBoxes[k];
+    const double iou = imageBoxIoU(box, *outline);
+    const double shared = iou / (1 + iou) * (box.area() + outline->area());
+    if (iou >= kMinIoU && shared >= kMinInside * box.area() &&
+        labelAgreement(object, frame.allLabels[k], *labels_) >=
+            insertionOptions.existence.minLabelShare)
+      return true;
+  }
+  return false;
 }
 
 void CQuadricObjectMap::estimate(MapObject& object, bool restart)

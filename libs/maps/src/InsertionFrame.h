@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
@@ -11,7 +12,9 @@ struct CQuadricObjectMap::Frame
 {
   FrameGeometry geometry;
   mrpt::Clock::time_point time;
-  std::vector<ImageBox> allBoxes;  // of the observation
+  // All boxes of the observation; a label is empty where the detector is not sure enough.
+  std::vector<ImageBox> allBoxes;
+  std::vector<std::string> allLabels;
 
   // The usable measurements; `decisions` has the same order.
   std::vector<std::size_t> boxes;  // index in the observation

@@ -149,6 +149,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void associate(Frame& frame) const;
   void joinOrStart(const Frame& frame, std::set<ObjectId>& touched);
   void countMisses(const Frame& frame, const std::set<ObjectId>& touched);
+  /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
+  bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;
   ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
   void addView(MapObject& object, const WaitingList::Entry& entry);
   void mergeOverlapping(std::set<ObjectId> touched);
