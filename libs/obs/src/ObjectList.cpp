@@ -118,6 +118,8 @@ ObjectRecord readRecord(const Json& object)
   record.object = readEllipsoid(object, record.orientationDefined);
   if (object.contains("frames_visible"))
     record.framesVisible = readCount(object["frames_visible"], "frames_visible");
+  if (object.contains("from")) record.from = readFinite(object["from"], "from");
+  if (object.contains("to")) record.to = readFinite(object["to"], "to");
   if (object.contains("observations"))
     record.observations = readCount(object["observations"], "observations");
   if (object.contains("existence")) record.existence = readFinite(object["existence"], "existence");
@@ -186,6 +188,8 @@ Json jsonOf(const ObjectRecord& record)
   j["rotation"] = jsonOf(record.object.rotation());
   j["orientation_defined"] = record.orientationDefined;
   if (record.framesVisible) j["frames_visible"] = *record.framesVisible;
+  if (record.from) j["from"] = *record.from;
+  if (record.to) j["to"] = *record.to;
   if (record.observations) j["observations"] = *record.observations;
   if (record.existence) j["existence"] = *record.existence;
   if (!record.labelCounts.empty()) j["label_counts"] = record.labelCounts;

@@ -142,8 +142,11 @@ std::unique_ptr<Way> wayOf(const Scene& scene, Motion kind)
 }
 
 /** Places along the way at which to be at some instants so that the pace is even. */
-std::vector<double> evenPace(const Way& way, bool closed, int frames, const std::vector<double>& at)
+std::vector<double> evenPace(
+    const Way& way, const TrajectoryOptions& options, const std::vector<double>& at)
 {
+  const bool closed = options.kind == Motion::Walk;
+  const int frames = options.frames, rounds = options.rounds;
   const std::size_t steps = way.length() * kSamplesPerWaypoint;
   std::vector<double> effort{0};
   Waypoint last = way.viewAt(0);
@@ -161,7 +164,7 @@ std::vector<double> evenPace(const Way& way, bool closed, int frames, const std:
   for (const double instant : at)
   {
     // An open way ends with the last frame.
-    const double wanted = closed ? effort.back() * std::fmod(instant, frames) / frames
+    const double wanted = closed ? effort.back() * std::fmod(instant * rounds, frames) / frames
                                  : effort.back() * std::min(1.0, instant / (frames - 1));
     const auto next = std::upper_bound(effort.begin(), effort.end(), wanted);
     const auto i = std::min(static_cast<std::size_t>(next - effort.begin()), steps) - 1;
@@ -185,41 +188,52 @@ mrpt::poses::CPose3D handHeld(const Waypoint& view, const TrajectoryOptions& opt
   return {view.eye.x(), view.eye.y(), z, yaw, pitch, roll};
 }
 
+/** When something happens. */
+struct Moment
+{
+  double frame;  // since the start
+  double time;   // the same [s]
+};
+
 /** \param below What is to be free reaches from p down by this [m]. */
-void checkFree(const Scene& scene, const Eigen::Vector3d& p, double below, double instant)
+void checkFree(const Scene& scene, const Eigen::Vector3d& p, double below, const Moment& moment)
 {
   const Eigen::Vector3d& size = scene.room.size;
   const bool inside = std::abs(p.x()) < size.x() / 2 && std::abs(p.y()) < size.y() / 2 &&
                       p.z() > 0 && p.z() < size.z();
   if (!inside)
     throw std::runtime_error(mrpt::format(
-        "[trajectory] frame %g is outside the room, at (%.2f, %.2f, %.2f)", instant, p.x(), p.y(),
-        p.z()));
+        "[trajectory] frame %g is outside the room, at (%.2f, %.2f, %.2f)", moment.frame, p.x(),
+        p.y(), p.z()));
   for (const auto& object : scene.objects)
   {
+    if (!object.standsAt(moment.time)) continue;
     const Ellipsoid box = object.truth();
     const Eigen::Vector3d q = box.rotation().transpose() * (p - box.center());
     const Eigen::Vector3d reach = box.semiAxes() + Eigen::Vector3d(0, 0, below);
     const bool beside = std::abs(q.x()) > reach.x() || std::abs(q.y()) > reach.y();
     if (!beside && q.z() < reach.z() && q.z() > -box.semiAxes().z())
       throw std::runtime_error(mrpt::format(
-          "[trajectory] frame %g is inside [object %s], at (%.2f, %.2f, %.2f)", instant,
+          "[trajectory] frame %g is inside [object %s], at (%.2f, %.2f, %.2f)", moment.frame,
           object.name.c_str(), p.x(), p.y(), p.z()));
   }
 }
 
 void checkCameras(
-    const Scene& scene, const mrpt::poses::CPose3D& T_world_robot, Motion kind, double instant)
+    const Scene& scene,
+    const mrpt::poses::CPose3D& T_world_robot,
+    Motion kind,
+    const Moment& moment)
 {
   double top = 0;
   for (const auto& camera : scene.options.cameras())
   {
     const auto p = (T_world_robot + camera.T_robot_camera()).translation();
-    checkFree(scene, {p.x, p.y, p.z}, 0, instant);
+    checkFree(scene, {p.x, p.y, p.z}, 0, moment);
     top = std::max(top, p.z);
   }
   if (kind == Motion::Drive)
-    checkFree(scene, {T_world_robot.x(), T_world_robot.y(), top}, top, instant);
+    checkFree(scene, {T_world_robot.x(), T_world_robot.y(), top}, top, moment);
 }
 
 }  // namespace
@@ -230,7 +244,7 @@ std::vector<mrpt::poses::CPose3D> robotPath(
   const auto way = wayOf(scene, options.kind);
   TrajectoryOptions motion = options;
   if (options.kind == Motion::Drive) motion.bob = motion.sway_deg = 0;
-  const auto places = evenPace(*way, options.kind == Motion::Walk, options.frames, instants);
+  const auto places = evenPace(*way, options, instants);
 
   std::vector<mrpt::poses::CPose3D> path;
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -241,8 +255,9 @@ std::vector<mrpt::poses::CPose3D> robotPath(
       throw std::runtime_error(mrpt::format(
           "[trajectory] frame %g looks straight up or down (eye and target too close?)",
           instants[i]));
-    path.push_back(handHeld(view, motion, options.duration * instants[i] / options.frames));
-    checkCameras(scene, path.back(), options.kind, instants[i]);
+    const double time = options.duration * instants[i] / options.frames;
+    path.push_back(handHeld(view, motion, time));
+    checkCameras(scene, path.back(), options.kind, {instants[i], time});
   }
   return path;
 }

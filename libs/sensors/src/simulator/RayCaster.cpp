@@ -103,8 +103,13 @@ PixelRect boundsOf(const View& view, const PinholeCamera& camera)
 class FrameRenderer
 {
  public:
-  FrameRenderer(const Scene& scene, const PinholeCamera& camera, const mrpt::poses::CPose3D& pose) :
+  FrameRenderer(
+      const Scene& scene,
+      const PinholeCamera& camera,
+      const mrpt::poses::CPose3D& pose,
+      double time) :
       scene_(scene),
+      time_(time),
       T_world_camera_(pose),
       T_world_optical_(pose + T_sensor_optical()),
       rays_(inverseOf(camera)),
@@ -164,6 +169,12 @@ class FrameRenderer
   {
     const SceneObject& o = scene_.objects[static_cast<std::size_t>(object)];
     views_.emplace_back();
+    if (!o.standsAt(time_))
+    {
+      out_.outlinePixels.push_back(0);
+      out_.outline.emplace_back();
+      return;
+    }
     for (const auto& part : o.parts)
     {
       const Transform T_world_prim(o.T_world_obj + part.T_obj_prim);
@@ -282,6 +293,7 @@ class FrameRenderer
   }
 
   const Scene& scene_;
+  const double time_;
   const mrpt::poses::CPose3D T_world_camera_;
   const Transform T_world_optical_;
   const Matrix3d rays_;  // (u, v, 1) to the direction with z = 1 in `optical`
@@ -295,9 +307,9 @@ class FrameRenderer
 
 }  // namespace
 
-RenderedFrame RayCaster::render(const mrpt::poses::CPose3D& T_world_camera) const
+RenderedFrame RayCaster::render(const mrpt::poses::CPose3D& T_world_camera, double time) const
 {
-  return FrameRenderer(scene_, camera_, T_world_camera).render();
+  return FrameRenderer(scene_, camera_, T_world_camera, time).render();
 }
 
 }  // namespace quadmap::simulator

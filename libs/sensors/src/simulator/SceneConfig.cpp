@@ -60,11 +60,14 @@ void SceneConfig::add(const std::string& path)
   file.getAllSections(sections);
   for (const auto& section : sections)
   {
-    if (section == kInclude || !fileOfSection_.emplace(section, path).second) continue;
-    sections_.push_back(section);
+    if (section == kInclude) continue;
+    const std::string name = "[" + section + "]";
+    if (fileOf_.emplace(name, path).second) sections_.push_back(section);
     std::vector<std::string> keys;
     file.getAllKeys(section, keys);
-    for (const auto& key : keys) config_.write(section, key, file.read_string(section, key, ""));
+    for (const auto& key : keys)
+      if (fileOf_.emplace(name + " " + key, path).second)
+        config_.write(section, key, file.read_string(section, key, ""));
   }
   for (const auto& included : filesIncludedBy(file, path))
     if (std::find(files_.begin(), files_.end(), included) == files_.end()) add(included);
@@ -72,10 +75,15 @@ void SceneConfig::add(const std::string& path)
 
 std::string SceneConfig::fileOf(const std::string& message) const
 {
-  const auto end = message.find(']');
-  if (message.empty() || message[0] != '[' || end == std::string::npos) return files_.front();
-  const auto found = fileOfSection_.find(message.substr(1, end - 1));
-  return found == fileOfSection_.end() ? files_.front() : found->second;
+  const auto section = message.find(']');
+  if (message.empty() || message[0] != '[' || section == std::string::npos) return files_.front();
+  const auto key = message.find_first_of("=: ", section + 2);
+  for (const auto end : {key, section + 1})
+  {
+    const auto found = fileOf_.find(message.substr(0, end));
+    if (found != fileOf_.end()) return found->second;
+  }
+  return files_.front();
 }
 
 }  // namespace quadmap::simulator

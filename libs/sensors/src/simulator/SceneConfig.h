@@ -9,8 +9,8 @@
 namespace quadmap::simulator
 {
 /** The sections of a scene file and of the files it includes, as if they stood in one. Included
- * files are looked for beside the file that names them, then among the installed scenes. A section
- * that several files have is that of the file nearest to the top, as a whole. */
+ * files are looked for beside the file that names them, then among the installed scenes. A key
+ * that several files have counts in the one nearest to the top. */
 class SceneConfig
 {
  public:
@@ -20,7 +20,7 @@ class SceneConfig
   const mrpt::config::CConfigFileBase& config() const { return config_; }
   const std::vector<std::string>& sections() const { return sections_; }
 
-  /** Which file a message that begins with "[SECTION]" is about. */
+  /** Which file a message that begins with "[SECTION] KEY" or with "[SECTION]" is about. */
   std::string fileOf(const std::string& message) const;
 
  private:
@@ -28,8 +28,8 @@ class SceneConfig
 
   mrpt::config::CConfigFileMemory config_;
   std::vector<std::string> sections_;
-  std::map<std::string, std::string> fileOfSection_;
-  std::vector<std::string> files_;  // those read so far; the first is the scene's own
+  std::map<std::string, std::string> fileOf_;  // by "[SECTION]" and "[SECTION] KEY"
+  std::vector<std::string> files_;             // those read so far; the first is the scene's own
 };
 
 }  // namespace quadmap::simulator

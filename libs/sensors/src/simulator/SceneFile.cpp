@@ -48,7 +48,8 @@ class SceneReader
   }
 
  private:
-  static constexpr double kFar = 100;  // no coordinate of a room is larger [m]
+  static constexpr double kFar = 100;      // no coordinate of a room is larger [m]
+  static constexpr double kLongest = 1e5;  // no recording is longer [s]
 
   /** Sections "[kind NAME]". */
   std::vector<std::string> sectionsOf(const std::string& kind) const
@@ -92,14 +93,17 @@ class SceneReader
     return required(section, key).vector(min, max);
   }
 
-  /** The keys of a section that start with `prefix`, the rest of them known. */
-  std::vector<std::string> keysStartingWith(
-      const std::string& prefix, const std::string& section, std::set<std::string> known) const
+  /** The keys of a section that start with one of the prefixes; the rest of them known. */
+  std::vector<std::string> keysOf(
+      const std::string& section,
+      const std::vector<std::string>& prefixes,
+      std::set<std::string> known) const
   {
     std::vector<std::string> keys, result;
     file_.getAllKeys(section, keys);
     for (const auto& key : keys)
-      if (key.compare(0, prefix.size(), prefix) == 0) result.push_back(key);
+      for (const auto& prefix : prefixes)
+        if (key.compare(0, prefix.size(), prefix) == 0) result.push_back(key);
     known.insert(result.begin(), result.end());
     rejectUnknownKeys(file_, section, known);
     return result;
@@ -156,7 +160,7 @@ class SceneReader
   void readModel(const std::string& section)
   {
     Parts& parts = models_[nameOf(section)];
-    for (const auto& key : keysStartingWith("part", section, {}))
+    for (const auto& key : keysOf(section, {"part"}, {}))
       parts.push_back(partOf(required(section, key)));
     if (parts.empty()) throw std::invalid_argument("[" + section + "] has no part");
   }
@@ -198,17 +202,43 @@ class SceneReader
     double yaw_deg = 0;
     readNumber(file_, section, "yaw_deg", yaw_deg, -360, 360);
     readFlag(file_, section, "orientation_defined", object.orientationDefined);
+    readNumber(file_, section, "from", object.from, 0, kLongest);
+    readNumber(file_, section, "to", object.to, 0, kLongest);
+    if (!(object.from < object.to))
+      throw std::invalid_argument("[" + section + "] from: must be before `to`");
     object.T_world_obj = mrpt::poses::CPose3D(
         position.x(), position.y(), position.z(), mrpt::DEG2RAD(yaw_deg), 0, 0);
 
     if (const auto e = entryOf(file_, section, "model")) object.parts = modelOf(*e);
     const std::set<std::string> known{
-        "label", "model", "position", "yaw_deg", "orientation_defined"};
-    for (const auto& key : keysStartingWith("part", section, known))
-      object.parts.push_back(partOf(required(section, key)));
+        "label", "model", "position", "yaw_deg", "orientation_defined", "from", "to"};
+    std::vector<std::string> moves;
+    for (const auto& key : keysOf(section, {"part", "move"}, known))
+      if (key.compare(0, 4, "move") == 0)
+        moves.push_back(key);
+      else
+        object.parts.push_back(partOf(required(section, key)));
     if (object.parts.empty())
       throw std::invalid_argument("[" + section + "] has neither a model nor a part");
+    std::sort(moves.begin(), moves.end());
+    for (const auto& key : moves) stayUntilMoved(object, required(section, key));
     scene_.objects.push_back(std::move(object));
+  }
+
+  /** time x y z yaw_deg: ends the stay at the last place and begins one at the next. */
+  void stayUntilMoved(SceneObject& object, const Entry& e)
+  {
+    const auto words = wordsOf(e.text);
+    if (words.size() != 5) e.reject("expected: time [s], x y z, yaw in degrees");
+    const double time = e.number(words[0], 0, kLongest);
+    if (!(time > object.from && time < object.to))
+      e.reject("must come later than what is before it, and earlier than `to`");
+    SceneObject before = object;
+    before.to = object.from = time;
+    scene_.objects.push_back(std::move(before));
+    const Eigen::Vector3d p = e.vector(words, 1, -kFar, kFar);
+    object.T_world_obj = mrpt::poses::CPose3D(
+        p.x(), p.y(), p.z(), mrpt::DEG2RAD(e.number(words[4], -360, 360)), 0, 0);
   }
 
   const Parts& modelOf(const Entry& e) const

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <future>
 #include <thread>
@@ -34,6 +35,9 @@ std::vector<ObjectRecord> truthOf(const Scene& scene, const std::vector<unsigned
     record.object = object.truth();
     record.orientationDefined = object.orientationDefined;
     record.framesVisible = framesVisible[i];
+    const double start = scene.options.trajectory.startTime;
+    if (std::isfinite(object.from)) record.from = start + object.from;
+    if (std::isfinite(object.to)) record.to = start + object.to;
     truth.push_back(std::move(record));
   }
   return truth;

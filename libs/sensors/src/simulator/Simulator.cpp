@@ -101,8 +101,10 @@ double Simulator::time(std::size_t frame) const
 SimulatedFrame Simulator::frame(std::size_t index) const
 {
   const CameraOptions& by = camera(index);
-  const RenderedFrame rendered =
-      RayCaster(scene_, by.pinhole()).render(T_world_robot_[index] + by.T_robot_camera());
+  const RenderedFrame rendered = RayCaster(scene_, by.pinhole())
+                                     .render(
+                                         T_world_robot_[index] + by.T_robot_camera(),
+                                         time(index) - scene_.options.trajectory.startTime);
   SimulatedFrame result;
   result.scan = scanOf(rendered, index);
   result.visible = visibleObjects(scene_, rendered, scene_.options.detector);

@@ -92,8 +92,8 @@ void CameraOptions::resize(int newWidth, int newHeight)
 void TrajectoryOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& c, const std::string& section)
 {
-  std::set<std::string> known{"kind", "frames",   "duration", "startTime",
-                              "bob",  "sway_deg", "stepRate"};
+  std::set<std::string> known{"kind",      "frames", "rounds",   "duration",
+                              "startTime", "bob",    "sway_deg", "stepRate"};
   std::vector<std::string> keys;
   c.getAllKeys(section, keys);
   for (const auto& key : keys)
@@ -101,6 +101,9 @@ void TrajectoryOptions::loadFromConfigFile(
   rejectUnknownKeys(c, section, known);
   if (const auto e = entryOf(c, section, "kind")) kind = motionOf(*e);
   readNumber(c, section, "frames", frames, 2, 100000);
+  readNumber(c, section, "rounds", rounds, 1, 100);
+  if (rounds > 1 && kind != Motion::Walk)
+    throw std::invalid_argument("[" + section + "] rounds: only a walk is closed");
   readNumber(c, section, "duration", duration, 0.1, 100000);
   readNumber(c, section, "startTime", startTime, 0, 4e9);
   readNumber(c, section, "bob", bob, 0, 0.3);

@@ -19,7 +19,10 @@ struct ObjectRecord
   Ellipsoid object;  //!< JSON: center, size (full edge lengths of the cuboid), rotation
   bool orientationDefined = true;
 
-  std::optional<unsigned> framesVisible;        //!< Ground truth: frames in which it can be seen
+  std::optional<unsigned> framesVisible;  //!< Ground truth: frames in which it can be seen
+  /** Ground truth: it stands there while from <= time < to [s since 1970]; none: from or to ever.
+   */
+  std::optional<double> from, to;
   std::optional<unsigned> observations;         //!< Map: measurements that made it
   std::optional<double> existence;              //!< Map: probability that it exists, in [0, 1]
   std::map<std::string, unsigned> labelCounts;  //!< Map: how often it was called what

@@ -36,8 +36,9 @@ class RayCaster
   /** \param scene Must outlive the caster. */
   RayCaster(const Scene& scene, const PinholeCamera& camera) : scene_(scene), camera_(camera) {}
 
-  /** May run concurrently. \param T_world_camera Camera frame x forward, y left, z up. */
-  RenderedFrame render(const mrpt::poses::CPose3D& T_world_camera) const;
+  /** May run concurrently. \param T_world_camera Camera frame x forward, y left, z up.
+   *  \param time Of what stands where [s since the start]. */
+  RenderedFrame render(const mrpt::poses::CPose3D& T_world_camera, double time = 0) const;
 
  private:
   const Scene& scene_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,14 @@ struct SceneObject
   std::string name;   //!< In the scene file
   std::string label;  //!< Empty: furniture that no detector knows; it occludes, and has no truth
   mrpt::poses::CPose3D T_world_obj;
+  /** It stands there while from <= time < to [s since the start]. Furniture that is moved is in the
+   * scene several times. */
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
   bool orientationDefined = true;
   std::vector<Primitive> parts;  //!< Never empty
+
+  bool standsAt(double time) const { return from <= time && time < to; }
 
   /** The tight cuboid of all parts along the axes of `obj`. */
   Ellipsoid truth() const;
@@ -66,7 +73,7 @@ struct Scene
   SimulatorOptions options;          //!< What the file says about the simulation
 };
 
-/** Reads a scene file; share/quadmap/scenes/home.ini documents its sections and keys.
+/** Reads a scene file; doc/guide/write-a-scene.md tells its sections and keys.
  * \exception std::runtime_error On a file that cannot be read or a value that makes no sense; the
  * message names file, section and key. */
 Scene readScene(const std::string& path);

@@ -50,6 +50,7 @@ struct TrajectoryOptions : public mrpt::config::CLoadableOptions
 {
   Motion kind = Motion::Walk;  //!< walk, drive or approach
   int frames = 180;            //!< Of each camera for the whole way, 2..100000
+  int rounds = 1;              //!< A walk goes round so many times in all, 1..100
   double duration = 45;        //!< Of the whole way [s], 0.1..100000: a slow walk around a room
   double startTime = 1.6e9;  //!< Of the first frame [s since 1970], 0..4e9: fixed, so reproducible
   double bob = 0.02;         //!< Amplitude of the up and down of the steps [m], 0..0.3

@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "SceneFixture.h"
+#include "quadmap/sensors/simulator/Simulator.h"
+
+namespace quadmap::simulator
+{
+namespace
+{
+class InstalledScene : public testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(InstalledScene, StandsInItsRoomWithLabelsADetectorKnows)
+{
+  const Scene scene = readScene(findScene(GetParam()));
+  const LabelTable labels = LabelTable::installed();
+  for (const auto& object : scene.objects)
+  {
+    if (object.label.empty()) continue;
+    EXPECT_TRUE(labels.properties(object.label).known) << object.name << ": " << object.label;
+    EXPECT_EQ(object.label, labels.canonical(object.label)) << object.name;
+    const Ellipsoid truth = object.truth();
+    EXPECT_GE(truth.center().z() - truth.semiAxes().z(), -1e-3) << object.name << " sinks";
+    const Eigen::Vector3d corner = truth.cuboidCorners().cwiseAbs().rowwise().maxCoeff();
+    EXPECT_TRUE((corner.array().head<2>() <= 0.5 * scene.room.size.array().head<2>()).all())
+        << object.name << " is in the wall";
+  }
+  EXPECT_NO_THROW(Simulator(scene, labels, 1)) << "the way is free";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    InstalledScene,
+    testing::Values(
+        "home",
+        "office",
+        "robot-home",
+        "robot-home-four",
+        "cluttered-desk",
+        "corridor",
+        "lifelong"));
+
+std::size_t labelledIn(const Scene& scene)
+{
+  return static_cast<std::size_t>(std::count_if(
+      scene.objects.begin(), scene.objects.end(),
+      [](const SceneObject& o) { return !o.label.empty(); }));
+}
+
+TEST(InstalledScenes, AreWhatTheirNamesSay)
+{
+  EXPECT_EQ(10U, labelledIn(readScene(findScene("robot-home"))));
+  EXPECT_EQ(2U, readScene(findScene("robot-home")).options.cameras().size());
+  EXPECT_EQ(4U, readScene(findScene("robot-home-four")).options.cameras().size());
+  EXPECT_EQ(31U, labelledIn(readScene(findScene("cluttered-desk")))) << "thirty and the desk";
+  EXPECT_GE(readScene(findScene("corridor")).room.size.x(), 20);
+  EXPECT_EQ(3, readScene(findScene("lifelong")).options.trajectory.rounds);
+}
+
+const std::string kMovingCup =
+    "[object cup]\nlabel = cup\nposition = 1.5 0 1.3\nfrom = 10\nto = 40\n"
+    "move1 = 20  1.5 0.4 1.3  30\nmove2 = 30  1.5 -0.4 1.3  0\n"
+    "part1 = box 0 0 0 0.2 0.2 0.2 grey\n";
+
+TEST(SceneOverTime, ObjectsComeMoveAndGo)
+{
+  const Scene scene = sceneFromText(kRoomText + kMovingCup);
+  ASSERT_EQ(3U, scene.objects.size()) << "one for each place";
+  const PinholeCamera camera = smallCamera();
+  const RayCaster caster(scene, camera);
+  for (const auto& [time, column] : {
+           std::pair{ 5.0,  -1},
+           {10.0,  80},
+           {19.9,  80},
+           {20.0,  45},
+           {30.0, 115},
+           {39.9, 115},
+           {40.0,  -1}
+  })
+  {
+    const RenderedFrame frame = caster.render(lookingAhead(), time);
+    const auto visible = visibleObjects(scene, frame, DetectorOptions());
+    ASSERT_EQ(column < 0 ? 0U : 1U, visible.size()) << time;
+    if (column < 0) continue;
+    // 0.4 m at 1.4 m, f = 131 px: 37 px to the side; the box shows its sides too.
+    EXPECT_NEAR(column, visible[0].box.centerX(), 4) << time;
+  }
+}
+
+TEST(SceneOverTime, TruthSaysWhenWhatStoodWhere)
+{
+  const TemporaryFolder folder;
+  Scene scene = sceneFromText(kRoomText + kMovingCup);
+  scene.options.resize(64, 64);
+  scene.options.trajectory.frames = 50;
+  scene.options.trajectory.duration = 50;
+  simulateToFiles(Simulator(scene, LabelTable::installed(), 1), folder.path("a.rawlog"));
+  const auto truth = readObjectsJson(folder.path("a.objects.gt.json"));
+  ASSERT_EQ(3U, truth.size());
+  const double start = scene.options.trajectory.startTime;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(start + 10.0 * double(i + 1), truth[i].from.value_or(0));
+    EXPECT_EQ(start + 10.0 * double(i + 2), truth[i].to.value_or(0));
+    EXPECT_LE(truth[i].framesVisible.value_or(99), 10U) << "a frame a second";
+  }
+  EXPECT_NEAR(0.4, truth[1].object.center().y(), 1e-9);
+  const auto lasting =
+      objectsToJson({readObjectsJson(QUADMAP_SOURCE_DIR "/rawlogs/home.objects.gt.json")[0]});
+  EXPECT_EQ(std::string::npos, lasting.find("\"from\"")) << "what always stands there";
+}
+
+TEST(SceneOverTime, RejectsTimesThatMakeNoSense)
+{
+  for (const auto& [find, replacement] : {
+           std::pair{   "to = 40",     "to = 5"},
+           {"move2 = 30", "move2 = 15"},
+           {"move2 = 30", "move2 = 45"},
+           {   "1.3  30",        "1.3"}
+  })
+  {
+    std::string text = kRoomText + kMovingCup;
+    text.replace(text.find(find), std::string(find).size(), replacement);
+    EXPECT_NE(std::string::npos, errorOf([&] { sceneFromText(text); }).find("[object cup]"));
+  }
+  EXPECT_NE(
+      std::string::npos,
+      errorOf([] { sceneFromText(kRoomText + "kind = approach\nrounds = 2\n"); }).find("rounds"));
+}
+
+TEST(SceneOverTime, RoundsRepeatTheWay)
+{
+  Scene scene = sceneFromText(kRoomText + "bob = 0\nsway_deg = 0\nrounds = 3\n");
+  scene.options.trajectory.frames = 30;
+  const auto truth = Simulator(scene, LabelTable::installed(), 1).truePoses();
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_LT((truth[i] - truth[i + 10]).norm(), 1e-9);
+  EXPECT_GT((truth[0] - truth[5]).norm(), 0.2);
+}
+
+}  // namespace
+}  // namespace quadmap::simulator
