@@ -124,7 +124,7 @@ void setPartialPosition(
     const Eigen::Vector3d onSurface = composed(T_map_sensor, *seed);
     direction = (onSurface - view.camera).normalized();
     view.center = onSurface + 0.5 * depth * direction;
-    alongRay = 0.05 + 0.35 * depth;
+    alongRay = 0.05 + 0.5 * depth;
   }
   else
   {
@@ -133,7 +133,7 @@ void setPartialPosition(
     view.center = view.camera + kBlindRange * direction;
     alongRay = kBlindRangeSigma;
   }
-  const double acrossRay = 0.05 + 0.25 * size.mean();
+  const double acrossRay = 0.05 + 0.3 * size.mean();
   view.centerCovariance =
       acrossRay * acrossRay * Eigen::Matrix3d::Identity() +
       (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();

@@ -220,6 +220,12 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   const bool isOpen = cutShare(outline, face, outermost - kRim) > kMaxCut ||
                       (away > kAway && !leadsUp(face, outermost));
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
+  if (isOpen)  // a slanted cut leaves few lines their ends; nothing is known beyond them
+  {
+    std::vector<double> all;
+    for (const auto& p : points_) all.push_back(normalOf(face).dot(p));
+    out.position = std::max(outermost, quantile(std::move(all), 1.0 - kTailShare));
+  }
   out.worth.sigma = face == kTop                        ? topEdgeSigma(perCell, range_, options_)
                     : out.source == FaceSource::FarEdge ? farEdgeSigma(perCell, range_, options_)
                                                         : outlineSigma(perCell, range_, options_);

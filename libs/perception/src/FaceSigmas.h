@@ -38,7 +38,7 @@ inline double roundOutlineSigma(double radius, double outline)
  * sensor's depth and what is not quite flat are. */
 inline double surfaceSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.003, 0.5 * options.depthSigma(range));
+  return std::hypot(0.003, 0.4 * options.depthSigma(range));
 }
 
 /** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
@@ -55,13 +55,13 @@ inline double roundFarSigma(double radius, double near) { return std::hypot(0.25
 /** A side by its outline. \param perCell Step of one cell along the face's normal [m]. */
 inline double outlineSigma(double perCell, double range, const PerceptionOptions& options)
 {
-  return std::hypot(std::hypot(0.003, 0.45 * perCell), 0.4 * options.depthSigma(range));
+  return std::hypot(std::hypot(0.003, 0.35 * perCell), 0.35 * options.depthSigma(range));
 }
 
 /** The same of a side that is turned away. */
 inline double farEdgeSigma(double perCell, double range, const PerceptionOptions& options)
 {
-  return std::hypot(std::hypot(0.004, 0.35 * perCell), 0.6 * options.depthSigma(range));
+  return std::hypot(std::hypot(0.004, 0.3 * perCell), 0.45 * options.depthSigma(range));
 }
 
 /** The same of the top. */
@@ -73,7 +73,7 @@ inline double topEdgeSigma(double perCell, double range, const PerceptionOptions
 /** A plane of many points, below the object. */
 inline double supportSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.003, 0.15 * options.depthSigma(range));
+  return std::hypot(0.002, 0.15 * options.depthSigma(range));
 }
 
 }  // namespace quadmap

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "quadmap/geometry/RobustStatistics.h"
@@ -55,8 +56,8 @@ class Residuals
   void print(std::ostream& out) const
   {
     out << mrpt::format(
-        "%-44s %6s %7s %7s %8s %8s %8s\n", "factor", "count", "bias", "median", "variance",
-        "robust", ">3 sigma");
+        "%-40s %6s %8s %9s %9s %8s %10s\n", "factor (in sigmas)", "count", "bias", "variance",
+        "of all", "by MAD", ">3 sigma");
     for (const auto& [name, factor] : factors_) out << row(name, factor);
   }
 
@@ -77,23 +78,43 @@ class Residuals
   static std::string row(const std::string& name, const Factor& factor)
   {
     const auto& r = factor.residuals;
-    const double n = static_cast<double>(r.size());
-    double sum = 0, squares = 0, beyond = 0;
-    for (const double x : r)
-    {
-      sum += x;
-      squares += x * x;
-      beyond += (factor.isInequality ? x : std::abs(x)) > kOutlier ? 1 : 0;
-    }
-    const std::string head = mrpt::format("%-44s %6zu", name.c_str(), r.size());
-    const std::string tail = mrpt::format(" %6.2f %%\n", 100 * beyond / n);
-    if (factor.isInequality) return head + mrpt::format("%34s", "(violated)") + tail;
-    const double mean = sum / n, robust = madSigma(r);
+    const Moments all = momentsWithin(r, std::numeric_limits<double>::infinity());
+    const double beyond = static_cast<double>(std::count_if(
+        r.begin(), r.end(),
+        [&](double x) { return (factor.isInequality ? x : std::abs(x)) > kOutlier; }));
+    const std::string head = mrpt::format("%-40s %6zu", name.c_str(), r.size());
+    const std::string tail = mrpt::format(" %8.2f %%\n", 100 * beyond / all.count);
+    if (factor.isInequality) return head + mrpt::format("%37s", "(violated)") + tail;
+    // A normal distribution cut at 3 sigma keeps this share of its variance.
+    constexpr double kKept = 0.9733;
+    const Moments inside = momentsWithin(r, kOutlier);
+    const double robust = madSigma(r);
     return head +
            mrpt::format(
-               " %7.2f %7.2f %8.2f %8.2f", mean, median(r), squares / n - mean * mean,
+               " %8.2f %9.2f %9.2f %8.2f", inside.mean, inside.variance / kKept, all.variance,
                robust * robust) +
            tail;
+  }
+
+  struct Moments
+  {
+    double count = 0, mean = 0, variance = 0;
+  };
+  static Moments momentsWithin(const std::vector<double>& values, double bound)
+  {
+    Moments out;
+    double squares = 0;
+    for (const double x : values)
+    {
+      if (std::abs(x) > bound) continue;
+      ++out.count;
+      out.mean += x;
+      squares += x * x;
+    }
+    if (out.count == 0) return out;
+    out.mean /= out.count;
+    out.variance = squares / out.count - out.mean * out.mean;
+    return out;
   }
 
   bool perLabel_;
