@@ -18,6 +18,7 @@ DepthNoiseOptions perfect()
   SimulatorOptions options;
   options.scaleNoise(0);
   options.depthNoise.shadow = false;
+  options.depthNoise.window = 0;
   return options.depthNoise;
 }
 
@@ -61,6 +62,34 @@ TEST(DepthNoise, AxialSigmaGrowsAsPublished)
     // Of n = 19200 samples: mean +- sigma / 139, deviation +- sigma / 196; 4 of each.
     EXPECT_NEAR(z, m.mean, 4 * sigma / 139);
     EXPECT_NEAR(sigma, m.deviation, 4 * sigma / 196);
+  }
+}
+
+TEST(DepthNoise, IsCorrelatedOverTheWindowAndKeepsItsSigma)
+{
+  DepthNoiseOptions options = perfect();
+  options.axialBase = 0.01;
+  for (const double window : {3.0, 5.0})  // in the image of 160 px, a quarter of the option
+  {
+    options.window = 4 * window;
+    std::vector<double> products(9, 0.0), squares;
+    double n = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed)
+    {
+      const auto depth = measured(wallAt(2), options, seed);
+      for (std::size_t i = 0; i < depth.size(); ++i) squares.push_back(depth[i] - 2);
+      for (std::size_t v = 0; v < 120; v += 3)
+        for (std::size_t u = 0; u < 150; ++u, ++n)
+          for (std::size_t lag = 0; lag < products.size(); ++lag)
+            products[lag] += (depth[v * 160 + u] - 2) * (depth[v * 160 + u + lag] - 2);
+    }
+    EXPECT_NEAR(0, momentsOf(squares).mean, 5e-4);
+    EXPECT_NEAR(0.01, momentsOf(squares).deviation, 2e-4);
+    // Two windows of w pixels, l apart, share w - l of them.
+    for (std::size_t lag = 0; lag < products.size(); ++lag)
+      EXPECT_NEAR(
+          std::max(0.0, 1 - static_cast<double>(lag) / window), products[lag] / n / 1e-4, 0.06)
+          << "window " << window << ", lag " << lag;
   }
 }
 

@@ -195,6 +195,16 @@ TEST_F(Detector, EdgesJitterWithTheirSigma)
   }
 }
 
+TEST_F(Detector, LargeBoxesErrMore)
+{
+  DetectorOptions options = faultless();
+  options.jitter = 1;
+  options.relativeJitter = 0.02;  // of 200 px
+  std::vector<double> top;
+  for (const auto& found : detections(options, 4000)) top.push_back(found.box.y1 - box.y1);
+  EXPECT_NEAR(std::sqrt(1.0 + 16.0), momentsOf(top).deviation, 4 * 4.12 / 89.4);
+}
+
 TEST_F(Detector, MissesMoreOfWhatIsHidden)
 {
   DetectorOptions options = faultless();

@@ -10,6 +10,44 @@ namespace quadmap::simulator
 {
 namespace
 {
+/** Weights of a window of some width [px] about its middle pixel, parts of pixels at its ends, so
+ * that a sum of independent errors keeps their variance. */
+std::vector<double> windowWeights(double width)
+{
+  const int reach = static_cast<int>(std::ceil((width - 1) / 2));
+  std::vector<double> weights;
+  double squares = 0;
+  for (int k = -reach; k <= reach; ++k)
+  {
+    weights.push_back(std::clamp(0.5 * (width + 1) - std::abs(k), 0.0, 1.0));
+    squares += weights.back() * weights.back();
+  }
+  for (double& w : weights) w /= std::sqrt(squares);
+  return weights;
+}
+
+/** Gaussian errors of mean 0 and deviation 1, correlated over a square window; row major. */
+std::vector<double> windowedNoise(int width, int height, double window, RandomStream& random)
+{
+  const auto weights = windowWeights(window);
+  const auto n = weights.size();
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  const std::size_t wide = columns + n - 1;  // with a margin for the window
+  std::vector<double> lines((rows + n - 1) * columns, 0.0), line(wide);
+  for (std::size_t v = 0; v < rows + n - 1; ++v)
+  {
+    for (double& x : line) x = random.gaussian();
+    for (std::size_t u = 0; u < columns; ++u)
+      for (std::size_t k = 0; k < n; ++k) lines[v * columns + u] += weights[k] * line[u + k];
+  }
+  std::vector<double> result(rows * columns, 0.0);
+  for (std::size_t v = 0; v < rows; ++v)
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t u = 0; u < columns; ++u)
+        result[v * columns + u] += weights[k] * lines[(v + k) * columns + u];
+  return result;
+}
+
 /** The steps of the measurement, in the order light takes them. */
 class DepthSensor
 {
@@ -27,6 +65,8 @@ class DepthSensor
 
   std::vector<float> measure()
   {
+    const double window = options_.window * width_ / 640.0;
+    if (window > 1) correlated_ = windowedNoise(width_, height_, window, random_);
     std::vector<float> result(frame_.depth.size(), 0.0F);
     std::vector<bool> lit(static_cast<std::size_t>(width_), true);
     for (int v = 0; v < height_; ++v)
@@ -66,6 +106,7 @@ class DepthSensor
     const int su = std::clamp(jittered(u), 0, width_ - 1);
     const int sv = std::clamp(jittered(v), 0, height_ - 1);
     const double dice = random_.uniform(), mix = random_.uniform(), noise = random_.gaussian();
+    const double error = correlated_.empty() ? noise : correlated_[index(u, v)];
 
     const std::size_t source = index(su, sv);
     if (frame_.returnsDepth[source] == 0) return 0;
@@ -81,7 +122,7 @@ class DepthSensor
       if (fate < options_.edgeHoles + options_.edgeFlying) z = low + mix * (high - low);
     }
     if (z < options_.minRange || z > options_.maxRange) return 0;
-    z = quantizedDepth(options_, z + axialSigma(options_, z) * noise);
+    z = quantizedDepth(options_, z + axialSigma(options_, z) * error);
     return z > 0 && z <= options_.maxRange ? static_cast<float>(z) : 0.0F;
   }
 
@@ -112,6 +153,7 @@ class DepthSensor
   const int width_, height_;
   const double lateral_;  // [px]
   const double minCosIncidence_;
+  std::vector<double> correlated_;  // errors of the pixels; empty: independent
 };
 
 }  // namespace

@@ -97,7 +97,8 @@ Detections SimulatedDetector::detect(
 DetectedObject SimulatedDetector::detection(
     const VisibleObject& seen, const PinholeCamera& camera, RandomStream& random) const
 {
-  const double sigma = options_.jitter * scaleOf(camera);
+  const double sigma = std::hypot(
+      options_.jitter * scaleOf(camera), options_.relativeJitter * std::sqrt(seen.box.area()));
   DetectedObject found;
   ImageBox box = seen.box;
   for (double* edge : {&box.x1, &box.y1, &box.x2, &box.y2}) *edge += sigma * random.gaussian();

@@ -116,11 +116,12 @@ void DepthNoiseOptions::loadFromConfigFile(
 {
   rejectUnknownKeys(
       c, section,
-      {"axialBase", "axialGrowth", "disparityStep", "baseline", "sensorFocal", "lateral",
+      {"axialBase", "axialGrowth", "window", "disparityStep", "baseline", "sensorFocal", "lateral",
        "edgeJump", "edgeHoles", "edgeFlying", "dropouts", "maxIncidence_deg", "minRange",
        "maxRange", "shadow"});
   readNumber(c, section, "axialBase", axialBase, 0, 1);
   readNumber(c, section, "axialGrowth", axialGrowth, 0, 1);
+  readNumber(c, section, "window", window, 0, 64);
   readNumber(c, section, "disparityStep", disparityStep, 0, 4);
   readNumber(c, section, "baseline", baseline, 0.001, 1);
   readNumber(c, section, "sensorFocal", sensorFocal, 10, 10000);
@@ -156,11 +157,12 @@ void DetectorOptions::loadFromConfigFile(
 {
   rejectUnknownKeys(
       c, section,
-      {"jitter", "minVisible", "minSize", "missRate", "occludedMissRate", "falseAlarms", "flipRate",
-       "output", "maskJitter"});
+      {"jitter", "relativeJitter", "minVisible", "minSize", "missRate", "occludedMissRate",
+       "falseAlarms", "flipRate", "output", "maskJitter"});
   if (const auto e = entryOf(c, section, "output")) output = outputOf(*e);
   readNumber(c, section, "maskJitter", maskJitter, 0, 50);
   readNumber(c, section, "jitter", jitter, 0, 100);
+  readNumber(c, section, "relativeJitter", relativeJitter, 0, 1);
   readNumber(c, section, "minVisible", minVisible, 0, 1);
   readNumber(c, section, "minSize", minSize, 1, 1000);
   readNumber(c, section, "missRate", missRate, 0, 1);
@@ -188,7 +190,7 @@ void SimulatorOptions::scaleNoise(double factor)
         &depthNoise.disparityStep, &depthNoise.lateral, &odometry.translationPerMetre,
         &odometry.rotationPerMetre_deg, &odometry.translationPerRadian,
         &odometry.rotationPerRadian_deg, &odometry.scale, &detector.jitter, &detector.maskJitter,
-        &detector.falseAlarms})
+        &detector.relativeJitter, &detector.falseAlarms})
     *sigma *= factor;
   for (double* share :
        {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts, &detector.missRate,

@@ -66,8 +66,10 @@ struct TrajectoryOptions : public mrpt::config::CLoadableOptions
  * Khoshelham and Elberink, Sensors 12(2), 2012 (disparity). */
 struct DepthNoiseOptions : public mrpt::config::CLoadableOptions
 {
-  double axialBase = 0.0012;     //!< Sigma of z at 0.4 m [m], 0..1: published
-  double axialGrowth = 0.0019;   //!< Its growth with (z - 0.4 m)^2 [1/m], 0..1: published
+  double axialBase = 0.0012;    //!< Sigma of z at 0.4 m [m], 0..1: published
+  double axialGrowth = 0.0019;  //!< Its growth with (z - 0.4 m)^2 [1/m], 0..1: published
+  double window = 7;  //!< Side of the square of pixels over which disparity is estimated, and its
+                      //!< noise correlated [px at 640], 0..64, 0 = independent: published 9x7
   double disparityStep = 0.125;  //!< Quantum of the disparity [px], 0..4, 0 = none: published
   double baseline = 0.075;       //!< Projector to camera [m], 0.001..1: the Kinect's
   double sensorFocal = 580;      //!< Of the infrared camera [px], 10..10000: the Kinect's, VGA
@@ -120,7 +122,8 @@ std::optional<DetectorOutput> detectorOutputOf(const std::string& name);
 /** INI section [detector]. Sizes in pixels hold for images 640 px wide and scale with the width. */
 struct DetectorOptions : public mrpt::config::CLoadableOptions
 {
-  double jitter = 2;         //!< Sigma of each edge of a box [px at 640], 0..100
+  double jitter = 2;             //!< Sigma of each edge of a box [px at 640], 0..100
+  double relativeJitter = 0.01;  //!< The same as a share of the box's sqrt(width * height), 0..1
   double minVisible = 0.25;  //!< Visible share of the outline below which nothing is found, 0..1
   double minSize = 20;       //!< Smallest sqrt(width * height) found [px at 640], 1..1000
   double missRate = 0.05;    //!< Share of fully visible objects missed, 0..1
