@@ -33,15 +33,18 @@ TEST(PerceptionOptions, ReadsEveryKey)
   EXPECT_EQ(read("minDepthCoverage = 0.4").minDepthCoverage, 0.4);
   EXPECT_EQ(read("borderMargin = 20").borderMargin, 20.0);
   EXPECT_EQ(read("occlusionStrip = 10").occlusionStrip, 10.0);
-  EXPECT_EQ(read("occlusionShare = 0.4").occlusionShare, 0.4);
+  EXPECT_EQ(read("maxHiddenProbability = 0.4").maxHiddenProbability, 0.4);
   EXPECT_EQ(read("edgeSigma = 3").edgeSigma, 3.0);
+  EXPECT_EQ(read("models = both").models, ObservationModels::Both);
+  EXPECT_EQ(read("models = complete").models, ObservationModels::Complete);
+  EXPECT_EQ(read("models = partial").models, ObservationModels::Partial);
 }
 
 TEST(PerceptionOptions, RefusesWhatItDoesNotUnderstand)
 {
   for (const char* line :
        {"maxRnge = 4", "maxRange = 4m", "maxRange = -1", "minPoints = 2", "minCompleteIoU = 1.5",
-        "minRange = 7"})
+        "minRange = 7", "models = some"})
     EXPECT_THROW(read(line), std::invalid_argument) << line;
 }
 
@@ -50,6 +53,7 @@ TEST(PerceptionOptions, SavesWhatItReads)
   PerceptionOptions options;
   options.maxRange = 3.25;
   options.minPoints = 77;
+  options.models = ObservationModels::Partial;
   mrpt::config::CConfigFileMemory config;
   options.saveToConfigFile(config, "perception");
   std::string text;
@@ -59,6 +63,7 @@ TEST(PerceptionOptions, SavesWhatItReads)
   copy.loadFromConfigFile(again, "perception");
   EXPECT_NEAR(copy.maxRange, 3.25, 1e-6);
   EXPECT_EQ(copy.minPoints, 77);
+  EXPECT_EQ(copy.models, ObservationModels::Partial);
 }
 
 TEST(PerceptionOptions, ModelDepthNoiseAsPublished)

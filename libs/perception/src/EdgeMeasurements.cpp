@@ -1,27 +1,46 @@
 #include "EdgeMeasurements.h"
 
+#include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
+#include "HiddenPart.h"
 #include "quadmap/geometry/Projection.h"
+#include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
 {
 namespace
 {
-bool nearBorder(const PinholeCamera& camera, const ImageBox& box, BoxEdge edge, double margin)
+/** More of an edge than this bounded by something nearer, and the object is in contact with it. */
+constexpr double kContactShare = 0.1;
+/** Between a box edge and the border of the image; detectors err by as much where it cuts an object
+ * [px of an image 640 wide]. */
+constexpr double kMinStrip_px = 8.0;
+
+bool isUpright(BoxEdge edge) { return edge == BoxEdge::Left || edge == BoxEdge::Right; }
+
+/** Options in pixels are meant for images of this width, and grow with the image. */
+double scaledPixels(const DepthCloud& cloud, double pixels)
+{
+  constexpr double kReferenceWidth = 640;
+  return pixels * cloud.camera().width / kReferenceWidth;
+}
+
+/** From the edge to the border of the image that it faces [px]. */
+double distanceToBorder(const PinholeCamera& camera, const ImageBox& box, BoxEdge edge)
 {
   switch (edge)
   {
     case BoxEdge::Left:
-      return box.x1 < margin;
+      return box.x1;
     case BoxEdge::Top:
-      return box.y1 < margin;
+      return box.y1;
     case BoxEdge::Right:
-      return box.x2 > camera.width - 1 - margin;
-    case BoxEdge::Bottom:
-      return box.y2 > camera.height - 1 - margin;
+      return camera.width - 1 - box.x2;
+    default:
+      return camera.height - 1 - box.y2;
   }
-  return false;
 }
 
 ImageBox stripOutside(const ImageBox& box, BoxEdge edge, double width)
@@ -39,36 +58,214 @@ ImageBox stripOutside(const ImageBox& box, BoxEdge edge, double width)
   }
 }
 
-/** Share of the edge's length along which something nearer than the object stands outside it. */
-double occludedShare(
-    const DepthCloud& cloud,
-    const ImageBox& box,
-    BoxEdge edge,
-    const EdgeContext& context,
-    const PerceptionOptions& options)
+/** The quarter of a box along one of its edges. */
+ImageBox quarterInside(const ImageBox& box, BoxEdge edge)
 {
-  const auto strip = cloud.cellsOf(stripOutside(box, edge, options.occlusionStrip));
-  const bool upright = edge == BoxEdge::Left || edge == BoxEdge::Right;
-  const double margin = 0.05 + 3.0 * options.depthSigma(context.nearDepth);
-  const auto isOccluder = [&](int c, int r)
-  {
-    if (!cloud.valid(c, r) || cloud.depth(c, r) > context.nearDepth - margin) return false;
-    const double toSupport =
-        context.support ? context.support->signedDistance(cloud.point(c, r).cast<double>()) : 1.0;
-    return std::abs(toSupport) > 0.03 + 2.0 * options.depthSigma(cloud.depth(c, r));
-  };
-  int occluded = 0, length = 0;
-  const int first = upright ? strip.r0 : strip.c0, last = upright ? strip.r1 : strip.c1;
-  const int inner0 = upright ? strip.c0 : strip.r0, inner1 = upright ? strip.c1 : strip.r1;
-  for (int i = first; i < last; ++i, ++length)
-    for (int j = inner0; j < inner1; ++j)
-      if (upright ? isOccluder(j, i) : isOccluder(i, j))
-      {
-        ++occluded;
-        break;
-      }
-  return length > 0 ? static_cast<double>(occluded) / length : 0.0;
+  const double depth = 0.25 * (isUpright(edge) ? box.width() : box.height());
+  const ImageBox inwards = stripOutside(box, edge, -depth);
+  return {
+      std::min(inwards.x1, inwards.x2), std::min(inwards.y1, inwards.y2),
+      std::max(inwards.x1, inwards.x2), std::max(inwards.y1, inwards.y2)};
 }
+
+/** Some thousand values give a quantile as well as all do. */
+std::size_t sampleStep(std::size_t count) { return 1 + count / 2000; }
+
+/** Judges the edges of one box. */
+class EdgeJudge
+{
+ public:
+  EdgeJudge(
+      const DepthCloud& cloud,
+      const ImageBox& box,
+      const EdgeContext& context,
+      const PerceptionOptions& options) :
+      cloud_(cloud), box_(box), context_(context), options_(options)
+  {
+    const auto inside = cloud.cellsOf(box);
+    for (const auto& cell : context.object.cells)
+      if (!inside.contains(cell.c, cell.r)) ownOutside_.insert(key(cell.c, cell.r));
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const auto edge = static_cast<BoxEdge>(i);
+      const double depth = depthNear(edge);
+      nearBorder_[i] = isNearBorder(edge, depth);
+      nearer_[i] = nearerShare(edge, depth);
+    }
+  }
+
+  EdgeState state(BoxEdge edge) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    if (nearBorder_[i]) return EdgeState::NearImageBorder;
+    return hiddenProbability(sideOf(edge), evidence(edge)) > options_.maxHiddenProbability
+               ? EdgeState::Occluded
+               : EdgeState::Usable;
+  }
+
+ private:
+  ObjectSide sideOf(BoxEdge edge) const
+  {
+    constexpr double kMinCosine = 0.7;
+    const double outwardsUp = -boxEdgePlane(cloud_.camera(), box_, edge).n.dot(context_.up);
+    return outwardsUp > kMinCosine    ? ObjectSide::Top
+           : outwardsUp < -kMinCosine ? ObjectSide::Bottom
+                                      : ObjectSide::Lateral;
+  }
+
+  int key(int c, int r) const { return r * cloud_.columns() + c; }
+
+  /** Depth of the object near one of its edges [m]; of the whole object where too little of it is
+   * there. */
+  double depthNear(BoxEdge edge) const
+  {
+    constexpr std::size_t kMinCells = 10;
+    constexpr double kNearPart = 0.3;
+    const auto quarter = cloud_.cellsOf(quarterInside(box_, edge));
+    const auto& cells = context_.object.cells;
+    std::vector<double> depths;
+    for (std::size_t i = 0; i < cells.size(); i += sampleStep(cells.size()))
+      if (quarter.contains(cells[i].c, cells[i].r))
+        depths.push_back(cloud_.depth(cells[i].c, cells[i].r));
+    return depths.size() < kMinCells ? context_.depth : quantile(std::move(depths), kNearPart);
+  }
+
+  bool isOnSupport(int c, int r) const
+  {
+    const double tolerance = 0.03 + 2.0 * options_.depthSigma(cloud_.depth(c, r));
+    const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
+    return std::any_of(
+        context_.surfaces.begin(), context_.surfaces.end(),
+        [&](const Plane& surface) { return std::abs(surface.signedDistance(p)) < tolerance; });
+  }
+
+  /** What may be taken for the object's own depth, or for that of what touches it [m]. The depth of
+   * an object without a cloud of its own is that of its surroundings. */
+  double depthMargin(double depth) const
+  {
+    constexpr double kShareWithoutCloud = 0.25;
+    return 0.05 + 3.0 * options_.depthSigma(depth) +
+           (context_.object.empty() ? kShareWithoutCloud * depth : 0.0);
+  }
+
+  /** Is something at this cell nearer than `limit` [m]? A cell without depth is as near as the
+   * object of another box that it lies in. */
+  bool isNearer(int c, int r, double limit) const
+  {
+    if (cloud_.valid(c, r))
+      return cloud_.depth(c, r) < limit && ownOutside_.count(key(c, r)) == 0 && !isOnSupport(c, r);
+    return std::any_of(
+        context_.boxes.begin(), context_.boxes.end(),
+        [&](const BoxAtDepth& other) {
+          return other.depth > 0 && other.depth < limit && cloud_.cellsOf(other.box).contains(c, r);
+        });
+  }
+
+  /** Share of an edge's length along which `isIt(c, r)` for a cell of the strip outside it. */
+  template <typename IsIt>
+  double shareAlong(BoxEdge edge, double width, const IsIt& isIt) const
+  {
+    const auto strip = cloud_.cellsOf(stripOutside(box_, edge, width));
+    const bool upright = isUpright(edge);
+    const int first = upright ? strip.r0 : strip.c0, last = upright ? strip.r1 : strip.c1;
+    const int inner0 = upright ? strip.c0 : strip.r0, inner1 = upright ? strip.c1 : strip.r1;
+    int count = 0;
+    for (int i = first; i < last; ++i)
+      for (int j = inner0; j < inner1; ++j)
+        if (upright ? isIt(j, i) : isIt(i, j))
+        {
+          ++count;
+          break;
+        }
+    return last > first ? static_cast<double>(count) / (last - first) : 0.0;
+  }
+
+  /** Share of the edge along which something nearer than the object stands outside it. */
+  double nearerShare(BoxEdge edge, double depth) const
+  {
+    if (depth <= 0) return 0;
+    const double limit = depth - depthMargin(depth);
+    return shareAlong(
+        edge, scaledPixels(cloud_, options_.occlusionStrip),
+        [&](int c, int r) { return isNearer(c, r, limit); });
+  }
+
+  /** Near the border of the image, and the object is not seen to end before it. */
+  bool isNearBorder(BoxEdge edge, double depth) const
+  {
+    const double distance = distanceToBorder(cloud_.camera(), box_, edge);
+    if (distance >= scaledPixels(cloud_, options_.borderMargin)) return false;
+    return depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px) ||
+           !endsBefore(edge, distance, depth);
+  }
+
+  /** Is there background, and nothing of the object's depth, between an edge and the border? */
+  bool endsBefore(BoxEdge edge, double distance, double depth) const
+  {
+    constexpr double kMinBackground = 0.6, kMaxRest = 0.05;
+    const double margin = depthMargin(depth);
+    // Boxes are not exact: the object may reach a little beyond its edge.
+    const auto near = cloud_.cellsOf(stripOutside(box_, edge, 0.5 * distance));
+    const auto isBackground = [&](int c, int r) { return cloud_.depth(c, r) > depth + margin; };
+    const auto isObject = [&](int c, int r) {
+      return cloud_.valid(c, r) && !isBackground(c, r) && !isOnSupport(c, r) &&
+             !near.contains(c, r);
+    };
+    return shareAlong(edge, distance, isBackground) >= kMinBackground &&
+           shareAlong(edge, distance, isObject) <= kMaxRest;
+  }
+
+  HiddenEvidence evidence(BoxEdge edge) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    HiddenEvidence e;
+    e.nearer = nearer_[i];
+    e.opposite = nearer_[(i + 2) % 4];
+    e.depth = context_.depth;
+    e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
+    for (std::size_t k = 0; k < 4; ++k)
+      e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
+    addSizes(e);
+    addHeights(e);
+    return e;
+  }
+
+  /** How the box compares with the label's typical size at the object's depth. */
+  void addSizes(HiddenEvidence& e) const
+  {
+    const LabelProperties& label = context_.label;
+    if (!label.known || context_.depth <= 0) return;
+    const auto& camera = cloud_.camera();
+    double width = box_.width() * context_.depth / std::abs(camera.fx);  // [m]
+    double height = box_.height() * context_.depth / std::abs(camera.fy);
+    if (std::abs(context_.up.x()) > std::abs(context_.up.y())) std::swap(width, height);
+    const double lower = std::log(label.typicalSize.z() / height) / label.sizeSpread;
+    e.tooLow = std::max(0.0, lower);
+    e.higher = std::max(0.0, -lower);
+    e.tooNarrow =
+        std::max(0.0, std::log(label.typicalSize.head<2>().maxCoeff() / width) / label.sizeSpread);
+  }
+
+  void addHeights(HiddenEvidence& e) const
+  {
+    if (!context_.object.support || context_.object.empty()) return;
+    const Plane& support = context_.surfaces.front();
+    const auto& points = context_.object.points;
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
+      heights.push_back(support.signedDistance(points[i]));
+    const double top = quantile(heights, 0.98), low = quantile(std::move(heights), 0.02);
+    if (top > 0) e.floating = std::clamp(low / top, 0.0, 1.0);
+  }
+
+  const DepthCloud& cloud_;
+  const ImageBox box_;
+  const EdgeContext& context_;
+  const PerceptionOptions& options_;
+  std::unordered_set<int> ownOutside_;  // cells of the object outside its box
+  std::array<bool, 4> nearBorder_;
+  std::array<double, 4> nearer_;
+};
 
 }  // namespace
 
@@ -80,20 +277,15 @@ std::array<EdgeMeasurement, 4> measureEdges(
 {
   const auto& camera = cloud.camera();
   const auto planes = boxEdgePlanes(camera, box);
+  const EdgeJudge judge(cloud, box, context, options);
   std::array<EdgeMeasurement, 4> out;
   for (std::size_t i = 0; i < out.size(); ++i)
   {
     const auto edge = static_cast<BoxEdge>(i);
-    const bool upright = edge == BoxEdge::Left || edge == BoxEdge::Right;
     out[i].plane_sensor = planes[i];
     out[i].sigmaAngle =
-        options.edgeSigmaIn(camera.width) / std::abs(upright ? camera.fx : camera.fy);
-    if (nearBorder(camera, box, edge, options.borderMargin))
-      out[i].state = EdgeState::NearImageBorder;
-    else if (
-        context.nearDepth > 0 &&
-        occludedShare(cloud, box, edge, context, options) > options.occlusionShare)
-      out[i].state = EdgeState::Occluded;
+        options.edgeSigmaIn(camera.width) / std::abs(isUpright(edge) ? camera.fx : camera.fy);
+    out[i].state = judge.state(edge);
   }
   return out;
 }

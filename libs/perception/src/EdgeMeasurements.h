@@ -1,22 +1,36 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "DepthCloud.h"
+#include "ObjectCloud.h"
+#include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectMeasurement.h"
 
 namespace quadmap
 {
+/** A box of the frame and the depth of what it shows. */
+struct BoxAtDepth
+{
+  ImageBox box;      // [px]
+  double depth = 0;  // Of its near part [m]; 0 = unknown
+};
+
 /** What is known of the object when its box edges are judged. */
 struct EdgeContext
 {
-  double nearDepth = 0;          //!< Depth of the object's nearest part [m]; 0 = unknown
-  std::optional<Plane> support;  //!< Its surface is no occluder; optical frame
+  const ObjectCloud& object;      //!< May be empty
+  const LabelProperties& label;   //!< How large such things usually are
+  Eigen::Vector3d up;             //!< Optical frame, unit
+  double depth = 0;               //!< Of the object [m]; 0 = unknown
+  std::vector<Plane> surfaces;    //!< Support and floor are no occluders; optical frame
+  std::vector<BoxAtDepth> boxes;  //!< Of the frame: a screen in front returns no depth
 };
 
 /** The four box edges as tangent planes in the optical frame, with what speaks against each: near
- * the image border, or something nearer just outside (doc/mathematics.md, "Partial observation").
- */
+ * the image border, or the object probably goes on behind something nearer (doc/mathematics.md,
+ * "Edges"). */
 std::array<EdgeMeasurement, 4> measureEdges(
     const DepthCloud& cloud,
     const ImageBox& box,

@@ -25,6 +25,26 @@ Eigen::Vector3d toOptical(const Eigen::Vector3d& p_sensor)
   return {-p_sensor.y(), -p_sensor.z(), p_sensor.x()};
 }
 
+/** The boxes of a frame with the depth of their near parts, as far as it was measured. */
+std::vector<BoxAtDepth> boxesAtDepth(
+    const DepthCloud& cloud,
+    const std::vector<ObjectTask>& tasks,
+    const std::vector<ObjectCloud>& objects)
+{
+  std::vector<BoxAtDepth> out;
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+  {
+    const ImageBox& box = tasks[i].detection->box;
+    const ImageBox visible = box.clipped(cloud.camera().width, cloud.camera().height);
+    out.push_back({box, 0});
+    if (!objects[i].empty())
+      out.back().depth = nearDepthOf(objects[i]);
+    else if (visible.isValid())
+      if (const auto seed = seedWithoutCloud(cloud, visible)) out.back().depth = seed->z();
+  }
+  return out;
+}
+
 }  // namespace
 
 struct FramePerception::Impl
@@ -40,13 +60,16 @@ struct FramePerception::Impl
       const DepthCloud& cloud,
       const ScenePlanes& planes,
       const ObjectTask& task,
-      const ObjectCloud& object) const;
+      const ObjectCloud& object,
+      const std::vector<BoxAtDepth>& boxes) const;
   void tryComplete(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
       const ObjectCloud& object,
       const ObjectTask& task,
       ObjectMeasurement& out) const;
+  /** Takes the edges over and chooses between partial and rejected. */
+  void setEdges(std::array<EdgeMeasurement, 4> edges, ObjectMeasurement& out) const;
 };
 
 std::vector<ObjectTask> FramePerception::Impl::tasksOf(
@@ -93,7 +116,8 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const ObjectTask& task,
-    const ObjectCloud& object) const
+    const ObjectCloud& object,
+    const std::vector<BoxAtDepth>& boxes) const
 {
   const DetectedObject& detection = *task.detection;
   ObjectMeasurement out;
@@ -106,34 +130,48 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   }
   out.depthCoverage = object.coverage;
 
-  EdgeContext context;
-  if (object.support) context.support = planes.plane(*object.support).plane;
+  EdgeContext context{object, task.label, planes.up, 0, {}, boxes};
+  if (object.support) context.surfaces.push_back(planes.plane(*object.support).plane);
+  if (planes.floor) context.surfaces.push_back(planes.plane(*planes.floor).plane);
   std::optional<Eigen::Vector3d> seed;
   if (object.empty())
   {
     out.reason = object.coverage > 0 ? "no separate surface in the box" : "no depth in the box";
     seed = seedWithoutCloud(cloud, visible);
-    if (seed) context.nearDepth = seed->z();
   }
   else
   {
     seed = seedOf(object);
-    context.nearDepth = nearDepthOf(object);
-    tryComplete(cloud, planes, object, task, out);
+    if (options.models == ObservationModels::Partial)
+      out.reason = "complete models are switched off";
+    else
+      tryComplete(cloud, planes, object, task, out);
   }
+  if (seed) context.depth = seed->z();
   if (seed) out.seed_sensor = toSensor(*seed);
+  setEdges(measureEdges(cloud, detection.box, context, options), out);
+  return out;
+}
 
-  auto edges = measureEdges(cloud, detection.box, context, options);
+void FramePerception::Impl::setEdges(
+    std::array<EdgeMeasurement, 4> edges, ObjectMeasurement& out) const
+{
   int usable = 0;
   for (auto& edge : edges)
   {
     edge.plane_sensor = edge.plane_sensor.transformed(T_sensor_optical());
     usable += edge.state == EdgeState::Usable ? 1 : 0;
   }
-  if (out.kind != MeasurementKind::Complete && usable > 0) out.kind = MeasurementKind::Partial;
+  if (out.kind != MeasurementKind::Complete)
+  {
+    if (options.models == ObservationModels::Complete)
+      out.reason += ", and partial models are switched off";
+    else if (usable == 0)
+      out.reason += ", and no usable box edge";
+    else
+      out.kind = MeasurementKind::Partial;
+  }
   if (out.kind != MeasurementKind::Rejected) out.edges = edges;
-  if (out.kind == MeasurementKind::Rejected) out.reason += ", and no usable box edge";
-  return out;
 }
 
 FramePerception::FramePerception(const PerceptionOptions& options, const LabelTable& labels) :
@@ -173,8 +211,9 @@ FrameSurfaces FramePerception::measure(
       classifyPlanes(cloud, std::move(segmentation), *up, known, impl_->options);
   const auto tasks = impl_->tasksOf(cloud, planes, boxes.objects);
   const auto objects = segmentObjects(cloud, planes, tasks, impl_->options);
+  const auto depths = boxesAtDepth(cloud, tasks, objects);
   for (std::size_t i = 0; i < tasks.size(); ++i)
-    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i]);
+    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i], depths);
 
   FrameSurfaces out = surfacesOf(cloud, planes, known);
   for (auto& patch : out.seen) patch = transformed(patch, T_sensor_optical());

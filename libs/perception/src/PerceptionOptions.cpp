@@ -3,6 +3,8 @@
 #include <mrpt/core/bits_math.h>
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "quadmap/obs/ConfigCheck.h"
 
@@ -34,16 +36,37 @@ constexpr NumberOption kNumbers[] = {
     {      "minDepthCoverage",       &PerceptionOptions::minDepthCoverage,    0,    1},
     {          "borderMargin",           &PerceptionOptions::borderMargin,    0, 1000},
     {        "occlusionStrip",         &PerceptionOptions::occlusionStrip,    1,  200},
-    {        "occlusionShare",         &PerceptionOptions::occlusionShare,    0,    1},
+    {  "maxHiddenProbability",   &PerceptionOptions::maxHiddenProbability,    0,    1},
     {             "edgeSigma",              &PerceptionOptions::edgeSigma, 1e-3, 1000},
 };
+
+constexpr std::pair<const char*, ObservationModels> kModels[] = {
+    {    "both",     ObservationModels::Both},
+    {"complete", ObservationModels::Complete},
+    { "partial",  ObservationModels::Partial},
+};
+
+ObservationModels modelsFrom(const std::string& section, const std::string& name)
+{
+  for (const auto& [known, models] : kModels)
+    if (name == known) return models;
+  throw std::invalid_argument(
+      "[" + section + "] models=" + name + ": must be both, complete or partial");
+}
+
+const char* nameOf(ObservationModels models)
+{
+  for (const auto& [name, known] : kModels)
+    if (known == models) return name;
+  return "";
+}
 
 }  // namespace
 
 void PerceptionOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& config, const std::string& section)
 {
-  std::set<std::string> known = {"planeMaxTilt_deg", "minPoints", "minLabelPixels"};
+  std::set<std::string> known = {"planeMaxTilt_deg", "minPoints", "minLabelPixels", "models"};
   for (const auto& option : kNumbers) known.insert(option.key);
   rejectUnknownKeys(config, section, known);
 
@@ -54,6 +77,7 @@ void PerceptionOptions::loadFromConfigFile(
   planeMaxTilt = mrpt::DEG2RAD(tilt_deg);
   readNumber(config, section, "minPoints", minPoints, 10, 1000000);
   readNumber(config, section, "minLabelPixels", minLabelPixels, 1, 1000000);
+  models = modelsFrom(section, config.read_string(section, "models", nameOf(models)));
   if (maxRange <= minRange)
     throw std::invalid_argument(
         "[" + section + "] maxRange=" + std::to_string(maxRange) + ": must be > minRange");
@@ -66,6 +90,7 @@ void PerceptionOptions::saveToConfigFile(
   config.write(section, "planeMaxTilt_deg", mrpt::RAD2DEG(planeMaxTilt));
   config.write(section, "minPoints", minPoints);
   config.write(section, "minLabelPixels", minLabelPixels);
+  config.write(section, "models", std::string(nameOf(models)));
 }
 
 }  // namespace quadmap

@@ -4,6 +4,14 @@
 
 namespace quadmap
 {
+/** What may be made of a box; the ablation of doc/benchmarks.md needs either alone. */
+enum class ObservationModels
+{
+  Both,
+  Complete,  //!< Cuboids from depth only
+  Partial    //!< Box edges only
+};
+
 /** How one frame becomes measurements. Section [perception] of the configuration. */
 struct PerceptionOptions : public mrpt::config::CLoadableOptions
 {
@@ -23,7 +31,7 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
    * too few to measure anything. */
   int minLabelPixels = 100;
 
-  double boxMargin = 0.05;         //!< Detector boxes are enlarged by this share of their size
+  double boxMargin = 0.05;  //!< Detector boxes are enlarged by this share of their size
   /** Gap between parts of one object: a share of its size, at most `clusterTolerance`, and at
    * least `clusterToleranceGrowth` times the range, where the depth camera's pixels are as far
    * apart. */
@@ -32,13 +40,17 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double clusterToleranceGrowth = 0.012;  //!< [-], >= 0
   int minPoints = 60;  //!< Fewest points (of every second pixel) worth a fit, >= 10
 
+  ObservationModels models = ObservationModels::Both;  //!< INI: both, complete, partial
   double yawMinDominance = 0.40;   //!< Peak mass that makes a direction; even spread gives 0.22
   double minCompleteIoU = 0.70;    //!< p of doc/mathematics.md that makes a measurement complete
   double minDepthCoverage = 0.30;  //!< Least share of valid depth in the box for a complete one
 
-  double borderMargin = 30.0;   //!< Box edges nearer to the image border are unusable [px]
-  double occlusionStrip = 8.0;  //!< Width of the strip outside an edge that is looked at [px]
-  double occlusionShare = 0.5;  //!< An edge with more nearer depth along it is occluded
+  /** Pixels of images 640 px wide; they scale with the width. */
+  double borderMargin = 30;   //!< Box edges this near to the border are cut; 0: the rule is off
+  double occlusionStrip = 8;  //!< Width of the strip outside an edge that is looked at
+  /** An edge is not used when the object goes on beyond it with more than this probability; 1: the
+   * rule is off. 0.06: of the edges in use 1 % are wrong (doc/benchmarks.md). */
+  double maxHiddenProbability = 0.06;
   /** Standard deviation of a detector's box edge [px of an image 640 px wide], > 0: detectors look
    * at images of one size, whatever the camera's. */
   double edgeSigma = 6.0;

@@ -1,0 +1,34 @@
+#pragma once
+
+namespace quadmap
+{
+/** What speaks for and against that an object goes on beyond an edge of its box. */
+struct HiddenEvidence
+{
+  double nearer = 0;        //!< Share of the edge along which something nearer stands outside it
+  double opposite = 0;      //!< The same of the opposite edge: then what is hidden is over there
+  double depth = 0;         //!< Of the object [m]: from afar, contacts are harder to see
+  bool cutBeside = false;   //!< One of the two edges that meet this one is at the image border
+  bool anyContact = false;  //!< Any edge of the box is at the border or has something nearer
+  /** Standard deviations by which the visible part is smaller than such things usually are; 0 when
+   * it is not or nobody knows. */
+  double tooLow = 0, tooNarrow = 0;
+  double higher = 0;  //!< The same for higher than usual
+  /** Height of the lowest visible point above the support over that of the highest one, in [0, 1]:
+   * things stand on something. */
+  double floating = 0;
+};
+
+/** Which side of the object a box edge bounds; the image may lie on its side or upside down. */
+enum class ObjectSide
+{
+  Top,
+  Bottom,
+  Lateral
+};
+
+/** Probability that the object goes on beyond an edge, hidden by something nearer or cut off by
+ * the image (doc/mathematics.md, "Edges"). */
+double hiddenProbability(ObjectSide side, const HiddenEvidence& evidence);
+
+}  // namespace quadmap
