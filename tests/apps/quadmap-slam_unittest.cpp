@@ -157,6 +157,8 @@ TEST_F(QuadmapSlam, TellsAsMuchAsAsked)
   const auto debug = run("IN -o DIR/out -v debug"), info = run("IN -o DIR/out");
   const auto warn = run("IN -o DIR/out -v warn"), error = run("IN -o DIR/out -v error");
   EXPECT_NE(debug.err.find("keyframe 5: record 16 (camera), 1 boxes"), kNotFound) << debug.err;
+  EXPECT_NE(debug.err.find("label             boxes   complete"), kNotFound) << debug.err;
+  EXPECT_NE(debug.err.find("all                   6"), kNotFound) << debug.err;
   EXPECT_FALSE(info.out.empty());
   for (const auto* r : {&info, &warn})
   {
@@ -246,6 +248,8 @@ TEST_F(QuadmapSlam, NoDepthInAnyImage)
   EXPECT_EQ(report["input"]["keyframes_without_depth"], 6);
   EXPECT_NE(report["warnings"].dump().find("no valid depth"), kNotFound) << report["warnings"];
   EXPECT_EQ(report["boxes"]["by_label"]["suitcase"]["complete"], 0);
+  EXPECT_EQ(report["boxes"]["by_label"]["suitcase"]["shares"]["complete"], 0.0);
+  EXPECT_EQ(report["boxes"]["by_label"]["suitcase"]["shares"]["partial"], 1.0);
 }
 
 TEST_F(QuadmapSlam, NegativeFyMapsTheSameBox)

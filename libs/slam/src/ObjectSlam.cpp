@@ -37,6 +37,31 @@ std::string kindOfReason(const std::string& reason)
   return kind;
 }
 
+/** A table of which model the boxes of each label became, a line each. */
+std::vector<std::string> modelShares(const std::map<std::string, LabelCounts>& labels)
+{
+  LabelCounts all;
+  std::vector<std::string> lines = {mrpt::format(
+      "%-16s %6s %10s %10s %10s", "label", "boxes", "complete", "partial", "rejected")};
+  const auto addLine = [&](const std::string& label, const LabelCounts& n)
+  {
+    const double share = n.boxes() > 0 ? 100.0 / static_cast<double>(n.boxes()) : 0.0;
+    lines.push_back(mrpt::format(
+        "%-16s %6zu %8.1f %% %8.1f %% %8.1f %%", label.c_str(), n.boxes(),
+        share * static_cast<double>(n.complete), share * static_cast<double>(n.partial),
+        share * static_cast<double>(n.rejected)));
+  };
+  for (const auto& [label, counts] : labels)
+  {
+    addLine(label, counts);
+    all.complete += counts.complete;
+    all.partial += counts.partial;
+    all.rejected += counts.rejected;
+  }
+  addLine("all", all);
+  return lines;
+}
+
 }  // namespace
 
 ObjectSlam::ObjectSlam(
@@ -109,6 +134,7 @@ void ObjectSlam::finish()
     warn(mrpt::format(
         "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
   warnOfMissingDepth();
+  for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
   const auto scope = times_.measure("consolidation");
   result_.map.consolidate();
 }

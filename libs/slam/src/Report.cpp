@@ -70,15 +70,28 @@ Json configurationJson(const SlamConfiguration& configuration)
   return json;
 }
 
+/** What part of a label's boxes became which model, in [0, 1]. */
+Json sharesJson(const LabelCounts& counts)
+{
+  const auto share = [&](std::size_t n)
+  { return rounded(static_cast<double>(n) / static_cast<double>(counts.boxes()), 4); };
+  return {
+      {"complete", share(counts.complete)},
+      { "partial",  share(counts.partial)},
+      {"rejected", share(counts.rejected)}
+  };
+}
+
 Json boxesJson(const SlamResult& result)
 {
   Json labels = Json::object();
   for (const auto& [label, counts] : result.labels)
     labels[label] = {
-        {"complete", counts.complete},
-        { "partial",  counts.partial},
-        {"rejected", counts.rejected},
-        { "reasons",  counts.reasons}
+        {"complete",    counts.complete},
+        { "partial",     counts.partial},
+        {"rejected",    counts.rejected},
+        {  "shares", sharesJson(counts)},
+        { "reasons",     counts.reasons}
     };
   return {
       {   "total", result.counts().boxes},

@@ -40,6 +40,8 @@ struct LabelCounts
 {
   std::size_t complete = 0, partial = 0, rejected = 0;
   std::map<std::string, std::size_t> reasons;  //!< "complete: ..." -> how often
+
+  std::size_t boxes() const { return complete + partial + rejected; }
 };
 
 /** Of one sensor, or of all together. */
