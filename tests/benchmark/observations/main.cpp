@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "../../../apps/common/CommandLine.h"
+#include "AblationTable.h"
+#include "EdgeTable.h"
 #include "ResidualTable.h"
 #include "quadmap/obs/ConfigCheck.h"
 
@@ -20,9 +22,11 @@ struct Cli
   cli::CommandLine line{
       "observation_tables",
       "Measures the objects of simulated frames at their true poses and prints a table. residuals: "
-      "residuals of the map's factors at the true state, in units of their sigmas.",
+      "residuals of the map's factors at the true state, in units of their sigmas; edges: how well "
+      "the usable box edges are told from the others; ablation: the map's errors with each model "
+      "and rule.",
       "benchmark"};
-  std::vector<std::string> tables{"residuals"};
+  std::vector<std::string> tables{"residuals", "edges", "ablation"};
   TCLAP::ValuesConstraint<std::string> tableConstraint{tables};
   TCLAP::UnlabeledValueArg<std::string> table{"TABLE", "What to print.", true,
                                               "",      &tableConstraint, line.args()};
@@ -36,6 +40,15 @@ struct Cli
       "", "resolution", "Image size, same width of view.", false, "320x240", "WxH", line.args()};
   TCLAP::ValueArg<int> framesStep{"",  "frames-step", "Every n-th frame only.", false, 1,
                                   "N", line.args()};
+  TCLAP::ValueArg<double> invalidPixels{
+      "",
+      "invalid-px",
+      "edges: one is invalid when the object goes on by more than this [px of an image 640 wide] "
+      "and 3 % of its size.",
+      false,
+      3,
+      "N",
+      line.args()};
   TCLAP::SwitchArg perLabel{"", "per-label", "Rows for each label too.", line.args()};
   TCLAP::ValueArg<std::string> raw{
       "", "raw", "residuals: write every residual here.", false, "", "FILE", line.args()};
@@ -71,6 +84,9 @@ RunOptions runOptions(Cli& cli)
 void printTable(Cli& cli)
 {
   const RunOptions run = runOptions(cli);
+  const std::string& table = cli.table.getValue();
+  if (table == "edges") return printEdgeTable(run, {cli.invalidPixels.getValue()}, std::cout);
+  if (table == "ablation") return printAblationTable(run, std::cout);
   std::ofstream raw;
   if (cli.raw.isSet())
   {
