@@ -101,8 +101,8 @@ TEST_F(PoseGraphWriter, OdometryEdgesAreTheSteps)
     ASSERT_TRUE(graph_.edgeExists(k - 1, k));
     const auto& edge = graph_.getEdge(k - 1, k);
     const auto step = odometryStep(
-        configuration().poses, slam_.result().keyframes[k - 1].T_map_robot,
-        slam_.result().keyframes[k].T_map_robot);
+        configuration().poses, slam_.result().keyframes[k - 1].T_odom_robot,
+        slam_.result().keyframes[k].T_odom_robot);
     EXPECT_LT((edge.mean - step.mean).norm(), 1e-8);
     const Eigen::Matrix<double, 6, 6> product = edge.cov_inv.asEigen() * step.cov.asEigen();
     EXPECT_LT((product - Eigen::Matrix<double, 6, 6>::Identity()).norm(), 1e-6);

@@ -79,8 +79,10 @@ TEST_F(RawlogRun, MapsTheBoxAndWritesEveryFile)
   const auto trajectory = readTumTrajectory(output("trajectory.tum"));
   ASSERT_EQ(trajectory.size(), 6u);
   EXPECT_NEAR(trajectory[3].time, kStart + 0.6, 1e-6);
-  EXPECT_LT((trajectory[3].pose - room.robotAt(0.75)).norm(), 1e-6);
-  EXPECT_EQ(readFile(output("trajectory.tum")), readFile(output("trajectory_odometry.tum")));
+  // The odometry was exact; the pixel grid moves a keyframe by a fifth of what odometry claims.
+  EXPECT_LT((trajectory[3].pose - room.robotAt(0.75)).norm(), 0.002);
+  const auto odometry = readTumTrajectory(output("trajectory_odometry.tum"));
+  EXPECT_LT((odometry[3].pose - room.robotAt(0.75)).norm(), 1e-6);
 }
 
 TEST_F(RawlogRun, MapFilesHoldTheSameObjects)

@@ -109,6 +109,14 @@ bool CQuadricObjectMap::insertObjects(
   return !touched.empty();
 }
 
+std::vector<CQuadricObjectMap::Decision> CQuadricObjectMap::match(
+    const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const
+{
+  Frame frame = frameOf(obs, robotPose);
+  associate(frame);
+  return frame.decisions;
+}
+
 CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
     const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const
 {

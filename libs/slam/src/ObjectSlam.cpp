@@ -79,6 +79,10 @@ ObjectSlam::ObjectSlam(
   result_.map.renderOptions = configuration.mapRender;
   result_.map.perceptionOptions = configuration.perception;
   result_.map.setLabels(labels);
+  const auto& slam = configuration.slam;
+  if (slam.method == SlamMethod::Rgbd && slam.odometry != PoseSource::GroundTruth &&
+      configuration.joint.correctPoses)
+    backEnd_.emplace(configuration.joint, configuration.mapInsertion, labels_);
 }
 
 bool ObjectSlam::addFrame(const RgbdFrame& frame)
@@ -135,8 +139,7 @@ void ObjectSlam::finish()
         "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
   warnOfMissingDepth();
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
-  const auto scope = times_.measure("consolidation");
-  result_.map.consolidate();
+  correctEverything();
 }
 
 void ObjectSlam::warnOfMissingDepth()
@@ -149,22 +152,35 @@ void ObjectSlam::warnOfMissingDepth()
           counts.keyframes, several ? (" of " + sensor).c_str() : ""));
 }
 
-bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robot)
+void ObjectSlam::correctEverything()
 {
-  const CPose3D T_map_sensor = T_map_robot + frame.scan->sensorPose;
-  if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_map_sensor)) return false;
+  const auto scope = times_.measure("consolidation");
+  if (!backEnd_)
+  {
+    result_.map.consolidate();
+    return;
+  }
+  backEnd_->finish([this](std::size_t k) { return spool_.objects(k); }, result_);
+}
+
+bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_robot)
+{
+  const CPose3D T_odom_sensor = T_odom_robot + frame.scan->sensorPose;
+  if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor)) return false;
+  const CPose3D predicted = backEnd_ ? backEnd_->predict(T_odom_robot) : T_odom_robot;
 
   CObservationObjects::Ptr boxes;
   if (frame.objects && configuration_.slam.method == SlamMethod::Rgbd)
   {
     boxes = CObservationObjects::Create(*frame.objects);
-    measureBoxes(frame, *boxes, T_map_sensor);
+    measureBoxes(frame, *boxes, predicted + frame.scan->sensorPose);
   }
   {
     const auto scope = times_.measure("spool");
     spool_.append(*frame.scan, boxes.get());
   }
-  if (boxes) insertIntoMap(*boxes, T_map_robot);
+  const auto step = odometry_.keyframeStep();
+  const CPose3D T_map_robot = insertIntoMap(boxes.get(), step, T_odom_robot);
   SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
   ++counts.keyframes;
   if (boxes) counts.boxes += boxes->objects.size();
@@ -176,8 +192,7 @@ bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_map_robo
       frame.record, frame.scan->sensorLabel.c_str(), boxes ? boxes->objects.size() : 0,
       result_.map.objects().size());
   result_.keyframes.push_back(
-      {frame.record, frame.scan->sensorLabel, frame.time(), T_map_robot, T_map_robot,
-       odometry_.keyframeStep()});
+      {frame.record, frame.scan->sensorLabel, frame.time(), T_map_robot, T_odom_robot, step});
   return true;
 }
 
@@ -198,14 +213,23 @@ void ObjectSlam::measureBoxes(
   }
 }
 
-void ObjectSlam::insertIntoMap(const CObservationObjects& boxes, const CPose3D& T_map_robot)
+CPose3D ObjectSlam::insertIntoMap(
+    const CObservationObjects* boxes,
+    const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
+    const CPose3D& T_odom_robot)
 {
   const auto scope = times_.measure("map");
-  count(boxes);
-  result_.map.insertObservation(boxes, T_map_robot);
+  if (boxes) count(*boxes);
+  CPose3D T_map_robot = T_odom_robot;
+  if (backEnd_)
+    T_map_robot = backEnd_->addKeyframe(T_odom_robot, step, boxes, result_.map);
+  else if (boxes)
+    result_.map.insertObservation(*boxes, T_map_robot);
+  if (!boxes) return T_map_robot;
   const auto keyframe = static_cast<std::uint32_t>(result_.keyframes.size());
   for (const auto& decision : result_.map.lastDecisions())
     result_.decisions.push_back({keyframe, decision});
+  return T_map_robot;
 }
 
 void ObjectSlam::count(const CObservationObjects& boxes)

@@ -99,6 +99,17 @@ Json boxesJson(const SlamResult& result)
   };
 }
 
+/** How poses and objects were estimated together; null when poses were taken as given. */
+Json correctionJson(const std::optional<CorrectionSummary>& correction)
+{
+  if (!correction) return nullptr;
+  return {
+      {     "rounds",           correction->rounds},
+      {"last_move_m", rounded(correction->lastMove,6)},
+      {  "converged",        correction->converged                            }
+  };
+}
+
 Json problemsJson(const std::vector<InputProblem>& problems)
 {
   Json json = Json::array();
@@ -215,9 +226,10 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
       {"configuration",     configurationJson(run.configuration)                                        },
       {        "boxes",                    boxesJson(run.result)},
       {      "objects", run.result.map.confirmedObjects().size()                                        },
-      {     "warnings",                      run.result.warnings},
-      {      "dropped",         problemsJson(run.input.problems)                                        },
-      {       "timing",                    timingJson(run.times)}
+      {   "correction",    correctionJson(run.result.correction)},
+      {     "warnings",                      run.result.warnings                                        },
+      {      "dropped",         problemsJson(run.input.problems)},
+      {       "timing",                    timingJson(run.times)                                        }
   };
   std::string start = text(head, 2);
   start.erase(start.rfind('\n'));  // the closing brace comes after the associations

@@ -17,6 +17,7 @@ std::vector<SlamConfiguration::Section> SlamConfiguration::sections()
       {                           "input",         &input},
       {                       "keyframes",     &keyframes},
       {                           "poses",         &poses},
+      {                           "joint",         &joint},
       {                      "perception",    &perception},
       {    "CQuadricObjectMap_insertOpts",  &mapInsertion},
       {"CQuadricObjectMap_likelihoodOpts", &mapLikelihood},

@@ -101,6 +101,11 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   };
   const std::vector<Decision>& lastDecisions() const;
 
+  /** What insertion at a pose would decide, without inserting anything: boxes without measurements
+   * take no part. */
+  std::vector<Decision> match(
+      const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
+
   // CMetricMap -------------------------------------------------------------------------------
   bool isEmpty() const override;
   std::string asString() const override;

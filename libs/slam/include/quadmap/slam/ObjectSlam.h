@@ -11,6 +11,7 @@
 #include "quadmap/perception/FramePerception.h"
 #include "quadmap/perception/RoomPlanes.h"
 #include "quadmap/sensors/RgbdFrame.h"
+#include "quadmap/slam/JointBackEnd.h"
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/KeyframeSpool.h"
 #include "quadmap/slam/ModuleTimes.h"
@@ -26,8 +27,9 @@ struct BadFrame : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** RGB-D frames with boxes in, trajectory and object map out: the pose of each frame is taken as
- * given, keyframes are measured, and their measurements go into the map. */
+/** RGB-D frames with boxes in, trajectory and object map out: keyframes are measured, their
+ * measurements go into the map, and correct the odometry's poses on the way. Ground truth poses are
+ * taken as given. */
 class ObjectSlam : public mrpt::system::COutputLogger
 {
  public:
@@ -50,11 +52,16 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void warn(const std::string& text);
 
  private:
-  bool addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_map_robot);
+  bool addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
   void keepWhileOneMoment(const RgbdFrame& frame);
   void measureBoxes(
       const RgbdFrame& frame, CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_sensor);
-  void insertIntoMap(const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot);
+  /** \return The keyframe's pose, corrected. */
+  mrpt::poses::CPose3D insertIntoMap(
+      const CObservationObjects* boxes,
+      const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
+      const mrpt::poses::CPose3D& T_odom_robot);
+  void correctEverything();
   void count(const CObservationObjects& boxes);
   void warnOfMissingDepth();
   void warnOfUnknownLabels(const CObservationObjects& boxes);
@@ -66,6 +73,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   RoomPlanes room_;
   KeyframeSelector selector_;
   OdometryInput odometry_;
+  std::optional<JointBackEnd> backEnd_;  //!< Unless poses are taken as given
   SlamResult result_;
   ModuleTimes times_;
   bool hasOneMoment_ = true;            //!< No frame had a pose, and all are of one moment:

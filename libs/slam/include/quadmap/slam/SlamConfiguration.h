@@ -8,6 +8,7 @@
 
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/slam/JointOptions.h"
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamOptions.h"
@@ -21,6 +22,7 @@ struct SlamConfiguration
   InputOptions input;                                   //!< [input]
   KeyframeOptions keyframes;                            //!< [keyframes]
   PoseUncertaintyOptions poses;                         //!< [poses]
+  JointOptions joint;                                   //!< [joint]
   PerceptionOptions perception;                         //!< [perception]
   CQuadricObjectMap::TInsertionOptions mapInsertion;    //!< [CQuadricObjectMap_insertOpts]
   CQuadricObjectMap::TLikelihoodOptions mapLikelihood;  //!< [CQuadricObjectMap_likelihoodOpts]

@@ -58,6 +58,14 @@ struct SlamCounts
   SlamCounts& operator+=(const SlamCounts& other);
 };
 
+/** How the final estimation of poses and objects went. */
+struct CorrectionSummary
+{
+  int rounds = 0;          //!< Of association and optimisation that were made
+  double lastMove = 0;     //!< Of any keyframe in the last one [m]
+  bool converged = false;  //!< Nothing moved any more
+};
+
 /** Everything a run found out, except what is in the KeyframeSpool. */
 struct SlamResult
 {
@@ -66,6 +74,7 @@ struct SlamResult
   std::vector<BoxDecision> decisions;  //!< In the order of keyframes and boxes
   std::map<std::string, SlamCounts> countsBySensor;
   std::map<std::string, LabelCounts> labels;
+  std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
   std::vector<std::string> warnings;
 
   SlamCounts counts() const;  //!< Of all sensors

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/slam/JointOptions.h"
+#include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/graph/FactorGraph.h"
+
+namespace quadmap
+{
+/** Estimates poses and objects together: objects correct a drifting robot.
+ *
+ * While running, the latest keyframes are estimated with the objects seen from them; every
+ * observation goes into the object map at the corrected pose, with the pose's uncertainty. At the
+ * end all poses are estimated, in turn with the associations. */
+class JointBackEnd
+{
+ public:
+  /** \param labels Must outlive this object. */
+  JointBackEnd(
+      const JointOptions& options,
+      const CQuadricObjectMap::TInsertionOptions& mapOptions,
+      const LabelTable& labels);
+
+  /** Where the robot is by odometry from the last corrected keyframe.
+   *  \param T_odom_robot Its pose as the odometry has it; that of the first keyframe is kept. */
+  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
+
+  /** Estimates the next keyframe and inserts its boxes (may be null) into the map.
+   *  \param step Since the keyframe before; nothing for the first one.
+   *  \return Its corrected pose; those of earlier ones may have changed too. */
+  mrpt::poses::CPose3D addKeyframe(
+      const mrpt::poses::CPose3D& T_odom_robot,
+      const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
+      const CObservationObjects* boxes,
+      CQuadricObjectMap& map);
+
+  /** Boxes of a keyframe, with their measurements; null when nobody looked. */
+  using BoxesOf = std::function<CObservationObjects::Ptr(std::size_t)>;
+
+  /** Optimises everything in turn with the associations, and rebuilds the map at the corrected
+   * poses. `result`'s poses, map and decisions become the final ones; it is told how it went. */
+  void finish(const BoxesOf& boxesOf, SlamResult& result);
+
+ private:
+  using Decisions = std::vector<CQuadricObjectMap::Decision>;
+
+  std::optional<RobotView> viewFor(
+      const CObservationObjects& boxes,
+      std::size_t box,
+      const mrpt::poses::CPose3D& T_map_robot,
+      const MapObject& object) const;
+  void addViews(
+      const CObservationObjects& boxes,
+      const Decisions& decisions,
+      std::size_t pose,
+      const CQuadricObjectMap& map);
+  void forgetMerged(const CQuadricObjectMap& map);
+  FactorGraph globalGraph(const BoxesOf& boxesOf, const SlamResult& result) const;
+  static void rebuildMap(const BoxesOf& boxesOf, SlamResult& result);
+
+  JointOptions options_;
+  PoseNoise viewNoise_;  //!< Of the map's options: what a view errs by beyond its faces
+  EstimatorOptions estimator_;
+  ExistenceOptions existence_;
+  const LabelTable& labels_;
+  FactorGraph graph_;
+  mrpt::poses::CPose3D lastOdometry_;                        //!< Of the last keyframe
+  std::map<ObjectId, std::deque<Eigen::Vector3d>> cameras_;  //!< Latest places it was seen from
+};
+
+}  // namespace quadmap

@@ -1,0 +1,239 @@
+#include "quadmap/slam/JointBackEnd.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ViewRedundancy.h"
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+using mrpt::poses::CPose3DPDFGaussian;
+
+namespace
+{
+FactorGraphOptions graphOptions(const JointOptions& options, const EstimatorOptions& estimator)
+{
+  FactorGraphOptions graph;
+  graph.estimator = estimator;
+  graph.maxIterations = options.maxIterations;
+  graph.floorSigma = options.floorSigma;
+  return graph;
+}
+
+/** Standard deviations of a pose from the covariance of its steps (turn, move). */
+PoseNoise noiseOf(const Eigen::Matrix<double, 6, 6>& covariance)
+{
+  PoseNoise noise;
+  noise.angle = std::sqrt(covariance.diagonal().head<3>().mean());
+  noise.position = std::sqrt(covariance.diagonal().tail<3>().mean());
+  return noise;
+}
+
+PoseNoise sum(const PoseNoise& a, const PoseNoise& b)
+{
+  PoseNoise noise;
+  noise.position = std::hypot(a.position, b.position);
+  noise.angle = std::hypot(a.angle, b.angle);
+  return noise;
+}
+
+/** The step; of a robot that stands still the odometry knows more than its options say: images of
+ * several cameras at one moment have one pose. */
+CPose3DPDFGaussian stiffAtRest(CPose3DPDFGaussian step)
+{
+  constexpr double kRest = 1e-4;       // [m], [rad]: less than this is no motion
+  constexpr double kVariance = 1e-10;  // [m^2], [rad^2]
+  const Eigen::Matrix3d R = step.mean.getRotationMatrix().asEigen();
+  if (step.mean.norm() > kRest || (R - Eigen::Matrix3d::Identity()).norm() > kRest) return step;
+  step.cov.setZero();
+  for (int i = 0; i < 6; ++i) step.cov(i, i) = kVariance;
+  return step;
+}
+
+Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
+
+}  // namespace
+
+JointBackEnd::JointBackEnd(
+    const JointOptions& options,
+    const CQuadricObjectMap::TInsertionOptions& mapOptions,
+    const LabelTable& labels) :
+    options_(options),
+    viewNoise_(mapOptions.poseNoise),
+    estimator_(mapOptions.estimator),
+    existence_(mapOptions.existence),
+    labels_(labels),
+    graph_(graphOptions(options, mapOptions.estimator))
+{
+}
+
+CPose3D JointBackEnd::predict(const CPose3D& T_odom_robot) const
+{
+  if (graph_.poses() == 0) return T_odom_robot;
+  return graph_.pose(graph_.poses() - 1) + (T_odom_robot - lastOdometry_);
+}
+
+std::optional<RobotView> JointBackEnd::viewFor(
+    const CObservationObjects& boxes,
+    std::size_t box,
+    const CPose3D& T_map_robot,
+    const MapObject& object) const
+{
+  const DetectedObject& detected = boxes.objects.at(box);
+  const auto view = viewOf(
+      detected, T_map_robot + boxes.sensorPose,
+      labels_.properties(labels_.canonical(detected.label)), viewNoise_);
+  if (!view) return std::nullopt;
+  RobotView r =
+      robotViewOf(detected, *view, T_map_robot, boxes.sensorPose, estimator_, options_.tiltSigma);
+  r.weight = viewWeight(*view, uprightStateOf(object.object));
+  return r;
+}
+
+void JointBackEnd::addViews(
+    const CObservationObjects& boxes,
+    const Decisions& decisions,
+    std::size_t pose,
+    const CQuadricObjectMap& map)
+{
+  const CPose3D T_map_robot = graph_.pose(pose);
+  const Eigen::Vector3d camera = positionOf(T_map_robot + boxes.sensorPose);
+  for (const auto& decision : decisions)
+  {
+    const MapObject* object = decision.object ? map.find(*decision.object) : nullptr;
+    if (!object) continue;
+    auto view = viewFor(boxes, decision.box, T_map_robot, *object);
+    if (!view) continue;
+    if (!graph_.hasObject(object->id))
+      graph_.setObject(object->id, object->object, labels_.properties(object->label()));
+    view->weight *=
+        independentShare(camera, object->object.center(), cameras_[object->id], existence_);
+    graph_.addView(pose, object->id, *view);
+  }
+}
+
+CPose3D JointBackEnd::addKeyframe(
+    const CPose3D& T_odom_robot,
+    const std::optional<CPose3DPDFGaussian>& step,
+    const CObservationObjects* boxes,
+    CQuadricObjectMap& map)
+{
+  const CPose3D predicted = predict(T_odom_robot);
+  lastOdometry_ = T_odom_robot;
+  const std::size_t pose = graph_.addPose(predicted);
+  if (pose > 0 && step) graph_.addStep(pose - 1, pose, stiffAtRest(*step));
+  if (!boxes) return predicted;
+
+  const auto window = static_cast<std::size_t>(options_.window);
+  const std::size_t firstFree = pose < window ? 1 : pose + 1 - window;
+  auto& noise = map.insertionOptions.poseNoise;
+  noise = sum(viewNoise_, noiseOf(graph_.marginals(firstFree, false).lastPose));
+  addViews(*boxes, map.match(*boxes, predicted), pose, map);
+  graph_.optimiseWindow(firstFree);
+
+  noise = sum(viewNoise_, noiseOf(graph_.marginals(firstFree, false).lastPose));
+  map.insertObservation(*boxes, graph_.pose(pose));
+  noise = viewNoise_;
+  forgetMerged(map);
+  graph_.removeViews(pose);
+  addViews(*boxes, map.lastDecisions(), pose, map);
+  const Eigen::Vector3d camera = positionOf(graph_.pose(pose) + boxes->sensorPose);
+  for (const auto& decision : map.lastDecisions())
+    if (decision.object) rememberCamera(camera, cameras_[*decision.object]);
+  return graph_.pose(pose);
+}
+
+void JointBackEnd::forgetMerged(const CQuadricObjectMap& map)
+{
+  for (auto it = cameras_.begin(); it != cameras_.end();)
+  {
+    if (map.find(it->first))
+    {
+      ++it;
+      continue;
+    }
+    if (graph_.hasObject(it->first)) graph_.removeObject(it->first);
+    it = cameras_.erase(it);
+  }
+}
+
+FactorGraph JointBackEnd::globalGraph(const BoxesOf& boxesOf, const SlamResult& result) const
+{
+  struct Seen
+  {
+    std::size_t pose;
+    Eigen::Vector3d camera;
+    RobotView view;
+  };
+  FactorGraph graph(graphOptions(options_, estimator_));
+  std::map<ObjectId, std::vector<Seen>> seenOf;
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+  {
+    const Keyframe& keyframe = result.keyframes[k];
+    graph.addPose(keyframe.T_map_robot);
+    if (k > 0 && keyframe.odometryStep)
+      graph.addStep(k - 1, k, stiffAtRest(*keyframe.odometryStep));
+    const auto boxes = boxesOf(k);
+    if (!boxes) continue;
+    for (const auto& decision : result.map.match(*boxes, keyframe.T_map_robot))
+      if (const MapObject* object = decision.object ? result.map.find(*decision.object) : nullptr)
+        if (auto view = viewFor(*boxes, decision.box, keyframe.T_map_robot, *object))
+          seenOf[object->id].push_back(
+              {k, positionOf(keyframe.T_map_robot + boxes->sensorPose), std::move(*view)});
+  }
+  for (auto& [id, seen] : seenOf)
+  {
+    const MapObject& object = *result.map.find(id);
+    graph.setObject(id, object.object, labels_.properties(object.label()));
+    std::vector<Eigen::Vector3d> cameras;
+    for (const auto& s : seen) cameras.push_back(s.camera);
+    const auto shares = independentShares(cameras, object.object.center(), existence_);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+    {
+      seen[i].view.weight *= shares[i];
+      graph.addView(seen[i].pose, id, seen[i].view);
+    }
+  }
+  return graph;
+}
+
+void JointBackEnd::rebuildMap(const BoxesOf& boxesOf, SlamResult& result)
+{
+  result.map.clear();
+  result.decisions.clear();
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+  {
+    const auto boxes = boxesOf(k);
+    if (!boxes) continue;
+    result.map.insertObservation(*boxes, result.keyframes[k].T_map_robot);
+    for (const auto& decision : result.map.lastDecisions())
+      result.decisions.push_back({static_cast<std::uint32_t>(k), decision});
+  }
+  result.map.consolidate();
+}
+
+void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
+{
+  CorrectionSummary summary;
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    result.keyframes[k].T_map_robot = graph_.pose(k);
+  result.map.consolidate();
+  for (; summary.rounds < options_.rounds && !summary.converged; ++summary.rounds)
+  {
+    FactorGraph graph = globalGraph(boxesOf, result);
+    graph.optimise();
+    summary.lastMove = 0;
+    for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    {
+      CPose3D& pose = result.keyframes[k].T_map_robot;
+      summary.lastMove = std::max(summary.lastMove, pose.distanceTo(graph.pose(k)));
+      pose = graph.pose(k);
+    }
+    rebuildMap(boxesOf, result);
+    summary.converged = summary.lastMove < options_.smallMove;
+  }
+  result.correction = summary;
+}
+
+}  // namespace quadmap
