@@ -54,7 +54,7 @@ struct FramePerception::Impl
 
   std::vector<ObjectTask> tasksOf(
       const DepthCloud& cloud,
-      const ScenePlanes& planes,
+      ScenePlanes& planes,
       const std::vector<DetectedObject>& detections) const;
   ObjectMeasurement measureBox(
       const DepthCloud& cloud,
@@ -74,7 +74,7 @@ struct FramePerception::Impl
 
 std::vector<ObjectTask> FramePerception::Impl::tasksOf(
     const DepthCloud& cloud,
-    const ScenePlanes& planes,
+    ScenePlanes& planes,
     const std::vector<DetectedObject>& detections) const
 {
   std::vector<ObjectTask> tasks;
@@ -207,8 +207,7 @@ FrameSurfaces FramePerception::measure(
   }
   std::vector<SurfacePatch> known;
   for (const auto& patch : known_sensor) known.push_back(transformed(patch, -T_sensor_optical()));
-  const ScenePlanes planes =
-      classifyPlanes(cloud, std::move(segmentation), *up, known, impl_->options);
+  ScenePlanes planes = classifyPlanes(cloud, std::move(segmentation), *up, known, impl_->options);
   const auto tasks = impl_->tasksOf(cloud, planes, boxes.objects);
   const auto objects = segmentObjects(cloud, planes, tasks, impl_->options);
   const auto depths = boxesAtDepth(cloud, tasks, objects);

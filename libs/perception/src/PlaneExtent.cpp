@@ -57,6 +57,15 @@ PlaneExtent::PlaneExtent(const Eigen::Vector3d& normal, const std::vector<Eigen:
   corners_ = convexHull(std::move(flat));
 }
 
+PlaneExtent PlaneExtent::grown(const std::vector<Eigen::Vector3d>& points) const
+{
+  PlaneExtent out = *this;
+  if (isEverywhere()) return out;
+  for (const auto& p : points) out.corners_.push_back(along_ * p);
+  out.corners_ = convexHull(std::move(out.corners_));
+  return out;
+}
+
 double PlaneExtent::outside(const Eigen::Vector3d& p) const
 {
   if (isEverywhere()) return -std::numeric_limits<double>::infinity();

@@ -18,6 +18,9 @@ class PlaneExtent
   /** How far the foot of a point is outside [m]; negative inside. */
   double outside(const Eigen::Vector3d& p) const;
 
+  /** The extent that reaches to more points, too; one that reaches everywhere stays as it is. */
+  PlaneExtent grown(const std::vector<Eigen::Vector3d>& points) const;
+
   bool isEverywhere() const { return corners_.empty(); }
 
  private:

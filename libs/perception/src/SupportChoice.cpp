@@ -3,124 +3,262 @@
 #include <algorithm>
 #include <cmath>
 
+#include "SupportEvidence.h"
+
 namespace quadmap
 {
 namespace
 {
-/** How the cells in and around a box lie with respect to one plane, as shares. */
-struct Relation
-{
-  double ringOn = 0;       // of the ring around the lower half: on the plane
-  double insideAbove = 0;  // of the inside: clearly above
-  double insideBelow = 0;  // of the inside: clearly below
-};
+// Evidence is added up in natural logarithms of odds; each kind is bounded, so that no single one
+// decides against all others.
+constexpr double kCovered = 4.0;  // the surface reaches under the object
+constexpr double kBelow = -8.0;   // per share of the object that lies under the surface
+constexpr double kAllowedBelow = 0.1;
+constexpr double kGap = -1.5;       // a gap between them: something nearer may carry it
+constexpr double kGapScale = 0.10;  // [m]
+constexpr double kAbsent = -4.0;    // the object would show in the gap, and does not
+constexpr double kTouching = 1.5;   // the surface shows around the object's foot
+constexpr double kUsual = 4.0;      // it is where such objects usually stand
+constexpr double kUnusual = -1.5;
+constexpr double kTooTall = -2.0;  // for its kind, from the surface up, at most
+constexpr double kTooLow = -0.5;   // its top may be hidden or cut off
+constexpr double kAnything = 2.0;  // a surface that is not in sight
+constexpr double kOnWall = 3.0;    // the wall shows around the object
+constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs on it
 
-/** Down in the image at the middle of a box; a camera may be mounted any way round. */
-Eigen::Vector2d downInImage(
-    const PinholeCamera& camera, const Eigen::Vector3d& up, const ImageBox& box)
+/** How well a height fits to a kind of object, in [-1, 0] of the worst case. */
+double heightPenalty(double height, const LabelProperties& label)
 {
-  const Eigen::Vector3d ray = camera.ray(box.centerX(), box.centerY());
-  const Eigen::Vector2d down(
-      camera.fx * (ray.x() * up.z() - up.x()), camera.fy * (ray.y() * up.z() - up.y()));
-  return down.norm() > 0 ? down.normalized() : Eigen::Vector2d::UnitY();
+  constexpr double kMinSpread = 0.3, kMinHeight = 0.01;
+  const double ratio = std::log(std::max(kMinHeight, height) / label.typicalSize.z());
+  const double deviation = ratio / std::max(kMinSpread, label.sizeSpread);
+  return (ratio > 0 ? kTooTall : kTooLow) * std::min(1.0, 0.25 * deviation * deviation);
 }
 
-Relation relate(
-    const DepthCloud& cloud,
-    const Plane& plane,
-    const ImageBox& box,
-    const Eigen::Vector3d& up,
-    const PerceptionOptions& options)
+/** Decides for one box at a time. */
+class SupportJudge
 {
-  const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
-  const auto inner = cloud.cellsOf(box);
-  const auto outer =
-      cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
-  const Eigen::Vector2d down = downInImage(cloud.camera(), up, box);
-  const double halfHeight =
-      0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
-  const auto depthBelowMiddle = [&](int c, int r)
+ public:
+  SupportJudge(
+      const DepthCloud& cloud,
+      const ScenePlanes& planes,
+      const DetectedObject& detection,
+      const LabelProperties& label,
+      const RoughObject& object,
+      const PerceptionOptions& options) :
+      cloud_(cloud),
+      planes_(planes),
+      detection_(detection),
+      label_(label),
+      object_(object),
+      options_(options)
   {
-    return down.x() * (c * cloud.stride() - box.centerX()) +
-           down.y() * (r * cloud.stride() - box.centerY());
-  };
-  // The lowest tenth of the box shows the support as often as the object.
-  const auto isCore = [&](int c, int r)
-  { return inner.contains(c, r) && depthBelowMiddle(c, r) < 0.8 * halfHeight; };
+  }
 
-  int ring = 0, ringOn = 0, inside = 0, above = 0, below = 0;
-  const auto count = [&](int c, int r)
+  BoxSupport decide() const
   {
-    if (!cloud.valid(c, r)) return;
-    const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-    const double distance = plane.signedDistance(p);
-    const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(p.z());
-    if (isCore(c, r))
-    {
-      ++inside;
-      if (distance > tolerance) ++above;
-      if (distance < -2.0 * tolerance) ++below;
-    }
-    else
-    {
-      ++ring;
-      if (std::abs(distance) < tolerance) ++ringOn;
-    }
-  };
-  for (int r = outer.r0; r < outer.r1; r += 2)
-    for (int c = outer.c0; c < outer.c1; c += 2)
-      if (isCore(c, r) || depthBelowMiddle(c, r) >= 0) count(c, r);
+    BoxSupport out;
+    double best = kAnything;
+    for (const int i : planes_.horizontal)
+      if (const double score = object_.empty() ? flatScore(i) : standingScore(i); score > best)
+      {
+        best = score;
+        out.plane = i;
+      }
+    if (!out.plane && label_.support == UsualSupport::Floor) out.plane = planes_.floor;
+    for (const int i : planes_.vertical)
+      if (const double score = hangingScore(i); score > best)
+      {
+        best = score;
+        out.wall = i;
+      }
+    if (out.wall) out.plane.reset();
+    return out;
+  }
 
-  const auto share = [](int part, int all) { return all > 0 ? double(part) / all : 0.0; };
-  return {share(ringOn, ring), share(above, inside), share(below, inside)};
-}
+ private:
+  bool isFloor(int i) const { return planes_.floor && *planes_.floor == i; }
 
-/** Which horizontal plane an object stands on: for classes that stand on the floor the floor, for
- * others the plane that surrounds the lower part of the box and that the object rises above. */
-std::optional<int> chooseSupport(
-    const DepthCloud& cloud,
-    const ScenePlanes& planes,
-    const ImageBox& box,
-    UsualSupport usual,
-    const PerceptionOptions& options)
-{
-  constexpr double kMinRing = 0.15, kMinAbove = 0.15, kMaxBelow = 0.35;
-  if (usual == UsualSupport::Wall) return {};
-  if (usual == UsualSupport::Floor) return planes.floor;
-
-  std::optional<int> best;
-  double bestScore = 0;
-  for (const int i : planes.horizontal)
+  double usual(int i) const
   {
-    const Relation relation = relate(cloud, planes.plane(i).plane, box, planes.up, options);
-    if (relation.ringOn < kMinRing || relation.insideAbove < kMinAbove) continue;
-    if (relation.insideBelow > kMaxBelow) continue;
-    const double score = relation.ringOn * (1.0 - relation.insideBelow);
-    if (score > bestScore)
+    switch (label_.support)
     {
-      bestScore = score;
-      best = i;
+      case UsualSupport::Floor:
+        return isFloor(i) ? kUsual : 0.0;
+      case UsualSupport::Object:
+        return isFloor(i) ? kUnusual : 0.0;
+      case UsualSupport::Wall:
+        return kUnusual;
+      default:
+        return 0.0;
     }
   }
-  return best;
+
+  double standingScore(int i) const
+  {
+    constexpr double kMinTouching = 0.15;
+    constexpr double kMinAbove = 0.5, kMinCovered = 0.3, kMaxBelow = 0.5;
+    const ScenePlane& plane = planes_.plane(i);
+    const auto ring = touching(plane.plane);
+    const PlaneExtent extent = ring.share > kMinTouching
+                                   ? plane.extent.grown(nearExtent(ring.surface, plane.extent))
+                                   : plane.extent;
+    const auto e =
+        standingEvidence(cloud_, plane.plane, extent, object_, detection_.box, label_, options_);
+    if (e.above < kMinAbove || e.covered < kMinCovered || e.below > kMaxBelow) return 0;
+    return kCovered * e.covered + kBelow * std::max(0.0, e.below - kAllowedBelow) +
+           kGap * (1 - std::exp(-e.gap / kGapScale)) +
+           kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
+           usual(i) + heightPenalty(e.top, label_);
+  }
+
+  /** For what lies so flat that its points are the surface's. */
+  double flatScore(int i) const
+  {
+    return (kCovered + kTouching) * touching(planes_.plane(i).plane).share + usual(i);
+  }
+
+  RingEvidence touching(const Plane& plane) const
+  {
+    return ringOn(cloud_, plane, detection_.box, Ring::LowerHalf, options_);
+  }
+
+  /** Of the points around the box that lie on a plane those that belong to the seen part of it:
+   * the segmentation loses the far ends of surfaces. */
+  static std::vector<Eigen::Vector3d> nearExtent(
+      std::vector<Eigen::Vector3d> points, const PlaneExtent& extent)
+  {
+    constexpr double kReach = 1.0;  // [m]
+    points.erase(
+        std::remove_if(
+            points.begin(), points.end(),
+            [&](const auto& p) { return extent.outside(p) > kReach; }),
+        points.end());
+    return points;
+  }
+
+  double hangingScore(int i) const
+  {
+    constexpr double kThickest = 0.30, kBehind = -0.05;  // of things on walls [m]
+    if (label_.support == UsualSupport::Floor) return 0;
+    const Plane& wall = planes_.plane(i).plane;
+    double near = kNearWall;
+    if (!object_.empty())
+    {
+      std::vector<double> distances;
+      for (const auto& p : object_.points) distances.push_back(wall.signedDistance(p));
+      const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
+      std::nth_element(distances.begin(), middle, distances.end());
+      if (*middle > kThickest || *middle < kBehind) return 0;
+    }
+    const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
+    return kOnWall * ringOn(cloud_, wall, detection_.box, Ring::All, options_).share + near +
+           usualWall;
+  }
+
+  const DepthCloud& cloud_;
+  const ScenePlanes& planes_;
+  const DetectedObject& detection_;
+  const LabelProperties& label_;
+  const RoughObject& object_;
+  const PerceptionOptions& options_;
+};
+
+/** Does the lower end of a box lie within another one? */
+bool endsWithin(
+    const PinholeCamera& camera,
+    const Eigen::Vector3d& up,
+    const ImageBox& upper,
+    const ImageBox& lower)
+{
+  const Eigen::Vector2d down = downInImage(camera, up, upper);
+  const double x = upper.centerX() + 0.5 * down.x() * upper.width();
+  const double y = upper.centerY() + 0.5 * down.y() * upper.height();
+  return x > lower.x1 && x < lower.x2 && y > lower.y1 && y < lower.y2;
+}
+
+/** Adds to the planes the small level tops of objects that other boxes end on. */
+void addTops(
+    const DepthCloud& cloud,
+    const std::vector<DetectedObject>& boxes,
+    const std::vector<std::optional<RoughObject>>& objects,
+    ScenePlanes& planes,
+    const PerceptionOptions& options)
+{
+  constexpr double kSameLevel = 0.02;  // [m]
+  for (std::size_t lower = 0; lower < boxes.size(); ++lower)
+    for (std::size_t upper = 0; upper < boxes.size(); ++upper)
+    {
+      if (upper == lower || !objects[lower] || !objects[upper]) continue;
+      if (!endsWithin(cloud.camera(), planes.up, boxes[upper].box, boxes[lower].box)) continue;
+      auto top =
+          topUnder(cloud, planes, *objects[lower], boxes[lower].box, boxes[upper].box, options);
+      if (!top) continue;
+      const bool isKnown = std::any_of(
+          planes.horizontal.begin(), planes.horizontal.end(),
+          [&](int i)
+          {
+            const ScenePlane& other = planes.plane(i);
+            return std::abs(other.plane.signedDistance(top->centroid)) < kSameLevel &&
+                   other.extent.outside(top->centroid) < kSameLevel;
+          });
+      if (isKnown) continue;
+      planes.horizontal.push_back(static_cast<int>(planes.all.planes.size()));
+      planes.all.planes.push_back(std::move(*top));
+    }
+}
+
+/** Finds out what stands on what: a surface that mostly shows within a box, and that the box's own
+ * object does not stand on, is a part of the object. */
+void findCarried(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const std::vector<DetectedObject>& boxes,
+    std::vector<BoxSupport>& supports)
+{
+  constexpr double kMinOwnShare = 0.6;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    const auto shares = planes.all.sharesWithin(cloud.cellsOf(boxes[i].box));
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+    {
+      const auto& plane = supports[k].plane;
+      if (k == i || !plane || plane == planes.floor || plane == supports[i].plane) continue;
+      if (shares[static_cast<std::size_t>(*plane)] > kMinOwnShare &&
+          endsWithin(cloud.camera(), planes.up, boxes[k].box, boxes[i].box))
+        supports[i].carries.push_back(k);
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<BoxSupport> chooseSupports(
     const DepthCloud& cloud,
-    const ScenePlanes& planes,
+    ScenePlanes& planes,
     const std::vector<DetectedObject>& boxes,
     const LabelTable& labels,
     const PerceptionOptions& options)
 {
-  std::vector<BoxSupport> out;
+  std::vector<std::optional<RoughObject>> objects;
+  std::vector<LabelProperties> properties;
   for (const auto& detection : boxes)
+  {
+    properties.push_back(labels.properties(detection.label));
+    const bool inImage =
+        detection.box.isValid() &&
+        detection.box.clipped(cloud.camera().width, cloud.camera().height).isValid();
+    objects.emplace_back();
+    if (inImage) objects.back() = roughObject(cloud, planes, detection, properties.back(), options);
+  }
+  addTops(cloud, boxes, objects, planes, options);
+  std::vector<BoxSupport> out;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
     out.push_back(
-        {chooseSupport(
-             cloud, planes, detection.box, labels.properties(detection.label).support, options),
-         {},
-         {}});
+        objects[i]
+            ? SupportJudge(cloud, planes, boxes[i], properties[i], *objects[i], options).decide()
+            : BoxSupport());
+  findCarried(cloud, planes, boxes, out);
   return out;
 }
 

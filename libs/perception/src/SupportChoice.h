@@ -19,10 +19,11 @@ struct BoxSupport
 };
 
 /** Decides the supports of all boxes of a frame with the whole scene in view.
+ * \param planes Of the scene; tops of objects that other boxes stand on are added.
  * \return One for each box. */
 std::vector<BoxSupport> chooseSupports(
     const DepthCloud& cloud,
-    const ScenePlanes& planes,
+    ScenePlanes& planes,
     const std::vector<DetectedObject>& boxes,
     const LabelTable& labels,
     const PerceptionOptions& options);

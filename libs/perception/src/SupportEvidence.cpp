@@ -1,0 +1,258 @@
+#include "SupportEvidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kMaxCells = 700;  // of a box that are looked at
+constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
+constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
+
+struct Weighted
+{
+  Eigen::Vector3d point;
+  double weight;
+};
+
+/** Keeps the points of the depth range of a given width that has most weight. */
+std::vector<Eigen::Vector3d> atMainDepth(std::vector<Weighted> all, double width)
+{
+  std::stable_sort(
+      all.begin(), all.end(),
+      [](const auto& a, const auto& b) { return a.point.z() < b.point.z(); });
+  std::size_t first = 0, bestFirst = 0, bestLast = 0;
+  double sum = 0, best = 0;
+  for (std::size_t last = 0; last < all.size(); ++last)
+  {
+    sum += all[last].weight;
+    while (all[last].point.z() - all[first].point.z() > width) sum -= all[first++].weight;
+    if (sum <= best) continue;
+    best = sum;
+    bestFirst = first;
+    bestLast = last + 1;
+  }
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = bestFirst; i < bestLast; ++i) out.push_back(all[i].point);
+  return out;
+}
+
+/** Would an object at a point show outside its box, with nothing nearer in front? A detector would
+ * have drawn the box around it: the object is not there. */
+bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3d& p, double margin)
+{
+  constexpr double kBoxError = 0.05;  // of a detector, share of the box's size
+  if (p.z() < 0.1) return false;
+  const Eigen::Vector2d pixel = cloud.camera().project(p);
+  const double dx = kBoxError * box.width(), dy = kBoxError * box.height();
+  if (pixel.x() > box.x1 - dx && pixel.x() < box.x2 + dx && pixel.y() > box.y1 - dy &&
+      pixel.y() < box.y2 + dy)
+    return false;
+  const int c = static_cast<int>(std::lround(pixel.x() / cloud.stride()));
+  const int r = static_cast<int>(std::lround(pixel.y() / cloud.stride()));
+  return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
+}
+
+/** 1 inside of an extent, falling to 0 at 10 cm outside: its rim is known to some centimetres. */
+double coverage(const PlaneExtent& extent, const Eigen::Vector3d& p)
+{
+  constexpr double kSure = 0.02, kFall = 0.08;  // [m]
+  return std::clamp(1.0 - (extent.outside(p) - kSure) / kFall, 0.0, 1.0);
+}
+
+}  // namespace
+
+RoughObject roughObject(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const DetectedObject& detection,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  constexpr double kMinOwnShare = 0.5;  // of a plane inside the box, that makes it the object's own
+  constexpr double kCentrality = 0.35;  // spread of the weight over the box, share of its size
+  const ImageBox box = detection.box.clipped(cloud.camera().width, cloud.camera().height);
+  const auto range = cloud.cellsOf(box);
+  RoughObject out;
+  out.planeShares = planes.all.sharesWithin(range);
+  const int step = std::max(1, static_cast<int>(std::sqrt(range.cells() / kMaxCells)));
+  std::vector<Weighted> all;
+  for (int r = range.r0; r < range.r1; r += step)
+    for (int c = range.c0; c < range.c1; c += step)
+    {
+      if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
+      const double u = c * cloud.stride(), v = r * cloud.stride();
+      if (detection.mask &&
+          !detection.mask->contains(static_cast<unsigned>(u), static_cast<unsigned>(v)))
+        continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+      const int plane = planes.all.planeAt(cloud, c, r, tolerance);
+      if (plane >= 0 && out.planeShares[static_cast<std::size_t>(plane)] < kMinOwnShare) continue;
+      const double du = (u - box.centerX()) / (kCentrality * box.width());
+      const double dv = (v - box.centerY()) / (kCentrality * box.height());
+      all.push_back({p, std::exp(-0.5 * (du * du + dv * dv))});
+    }
+  const double width = label.typicalSize.head<2>().norm() * (1.0 + 0.5 * label.sizeSpread);
+  out.points = atMainDepth(std::move(all), width);
+  std::stable_sort(
+      out.points.begin(), out.points.end(),
+      [&](const auto& a, const auto& b) { return planes.up.dot(a) < planes.up.dot(b); });
+  constexpr std::size_t kFewest = 12;
+  if (out.points.size() < kFewest) out.points.clear();
+  return out;
+}
+
+StandingEvidence standingEvidence(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const PlaneExtent& extent,
+    const RoughObject& object,
+    const ImageBox& box,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  const auto& points = object.points;
+  const double n = static_cast<double>(points.size());
+  StandingEvidence out;
+  std::vector<double> heights;
+  for (const auto& p : points)
+  {
+    const double height = plane.signedDistance(p);
+    const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(p.z());
+    out.above += height > std::min(tolerance, 0.5 * label.typicalSize.z()) ? 1 / n : 0;
+    out.below += height < -2.0 * tolerance ? 1 / n : 0;
+    heights.push_back(height);
+  }
+  out.gap = std::max(0.0, quantile(heights, 0.1));
+  out.top = quantile(heights, 0.95);
+
+  const std::size_t low = std::max<std::size_t>(1, points.size() / 2);
+  const std::size_t step = 1 + low / kMaxLowPoints;
+  int looked = 0;
+  for (std::size_t i = 0; i < low; i += step, ++looked) out.covered += coverage(extent, points[i]);
+  out.covered /= looked;
+
+  constexpr double kMinGap = 0.05;  // [m]; thinner ones say nothing
+  if (out.gap < kMinGap) return out;
+  const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
+  const std::size_t lineStep = 1 + lowest / kMaxLines;
+  int probes = 0;
+  for (std::size_t i = 0; i < lowest; i += lineStep)
+    for (const double share : {0.3, 0.5, 0.7})
+    {
+      const Eigen::Vector3d p = points[i] - share * plane.signedDistance(points[i]) * plane.n;
+      const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
+      out.absent += isAbsent(cloud, box, p, margin) ? 1 : 0;
+      ++probes;
+    }
+  out.absent /= probes;
+  return out;
+}
+
+std::optional<ScenePlane> topUnder(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const RoughObject& lowerObject,
+    const ImageBox& lower,
+    const ImageBox& upper,
+    const PerceptionOptions& options)
+{
+  constexpr double kFacesUp = 0.9;     // cosine
+  constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
+  constexpr std::size_t kFewest = 20;  // cells
+  constexpr double kOwnShare = 0.5;
+  const auto range = cloud.cellsOf(lower), hole = cloud.cellsOf(upper);
+  std::vector<Eigen::Vector3d> points;
+  for (int r = range.r0; r < range.r1; ++r)
+    for (int c = range.c0; c < range.c1; ++c)
+    {
+      if (hole.contains(c, r)) continue;
+      const auto normal = cloud.normal(c, r);
+      if (!normal || normal->cast<double>().dot(planes.up) < kFacesUp) continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+      const int plane = planes.all.planeAt(cloud, c, r, tolerance);
+      if (plane >= 0 && lowerObject.planeShares[static_cast<std::size_t>(plane)] < kOwnShare)
+        continue;
+      points.push_back(p);
+    }
+  std::stable_sort(
+      points.begin(), points.end(),
+      [&](const auto& a, const auto& b) { return planes.up.dot(a) < planes.up.dot(b); });
+  std::size_t first = 0, bestFirst = 0, bestCount = 0;
+  for (std::size_t last = 0; last < points.size(); ++last)
+  {
+    while (planes.up.dot(points[last] - points[first]) > kThickness) ++first;
+    if (last + 1 - first <= bestCount) continue;
+    bestCount = last + 1 - first;
+    bestFirst = first;
+  }
+  if (bestCount < kFewest) return {};
+  ScenePlane out;
+  out.rim.assign(
+      points.begin() + static_cast<long>(bestFirst),
+      points.begin() + static_cast<long>(bestFirst + bestCount));
+  out.centroid = out.rim[bestCount / 2];
+  out.plane = Plane::throughPoint(planes.up, out.centroid);
+  out.extent = PlaneExtent(planes.up, out.rim);
+  return out;
+}
+
+Eigen::Vector2d downInImage(
+    const PinholeCamera& camera, const Eigen::Vector3d& up, const ImageBox& box)
+{
+  const Eigen::Vector3d ray = camera.ray(box.centerX(), box.centerY());
+  const Eigen::Vector2d down(
+      camera.fx * (ray.x() * up.z() - up.x()), camera.fy * (ray.y() * up.z() - up.y()));
+  return down.norm() > 0 ? down.normalized() : Eigen::Vector2d::UnitY();
+}
+
+RingEvidence ringOn(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const ImageBox& box,
+    Ring ring,
+    const PerceptionOptions& options)
+{
+  constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
+  const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
+  const auto outer =
+      cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
+  const auto inner = cloud.cellsOf(box);
+  const Eigen::Vector2d down = downInImage(cloud.camera(), plane.n, box);
+  const double halfHeight =
+      0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
+  RingEvidence out;
+  int all = 0, on = 0;
+  for (int r = outer.r0; r < outer.r1; r += 2)
+    for (int c = outer.c0; c < outer.c1; c += 2)
+    {
+      if (!cloud.valid(c, r)) continue;
+      // From the middle of the box down, in half heights. The lowest tenth of the box shows the
+      // support as often as the object.
+      const double below =
+          down.dot(Eigen::Vector2d(
+              c * cloud.stride() - box.centerX(), r * cloud.stride() - box.centerY())) /
+          halfHeight;
+      if (inner.contains(c, r) ? ring == Ring::All || below < 0.8
+                               : ring == Ring::LowerHalf && below < 0)
+        continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(p.z());
+      ++all;
+      if (std::abs(plane.signedDistance(p)) > tolerance) continue;
+      ++on;
+      if (inner.contains(c, r)) continue;
+      const auto normal = cloud.normal(c, r);
+      if (normal && normal->cast<double>().dot(plane.n) > kSameWay) out.surface.push_back(p);
+    }
+  if (all > 0) out.share = static_cast<double>(on) / all;
+  return out;
+}
+
+}  // namespace quadmap

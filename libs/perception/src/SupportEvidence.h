@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "DepthCloud.h"
+#include "ScenePlanes.h"
+#include "quadmap/obs/DetectedObject.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** What a box shows of its object before it is cut out: points off the surfaces that reach far
+ * beyond the box, from the depth where most of them lie. */
+struct RoughObject
+{
+  std::vector<Eigen::Vector3d> points;  //!< A few hundred at most, from the lowest up, optical [m]
+  std::vector<double> planeShares;      //!< Of each plane of the scene the share inside the box
+
+  bool empty() const { return points.empty(); }
+};
+
+RoughObject roughObject(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const DetectedObject& detection,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+/** How an object lies with respect to a horizontal plane. Shares are in [0, 1]. */
+struct StandingEvidence
+{
+  double covered = 0;  //!< Share of the object's lower points that the plane reaches under
+  double above = 0;    //!< Share of its points clearly above
+  double below = 0;    //!< ... clearly below: what stands on a plane has none there
+  double gap = 0;      //!< From the plane to its lowest points [m], >= 0
+  double top = 0;      //!< From the plane to its highest points [m]
+  double absent =
+      0;  //!< Share of the gap, outside the box, where the object would show but does not
+};
+
+/** \param object Not empty. \param box The detector's. */
+StandingEvidence standingEvidence(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const PlaneExtent& extent,
+    const RoughObject& object,
+    const ImageBox& box,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+/** The level top of the object in one box as far as another box leaves it free: the cover of a book
+ * that a cup stands on, too small to be a plane of the scene. Nothing when hardly any of it shows.
+ * \param lower The detection with the top, whose share of each plane is given. */
+std::optional<ScenePlane> topUnder(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const RoughObject& lowerObject,
+    const ImageBox& lower,
+    const ImageBox& upper,
+    const PerceptionOptions& options);
+
+/** Where the surroundings of a box are taken from. */
+enum class Ring
+{
+  LowerHalf,  //!< Beside and under the lower half: what shows a level support
+  All         //!< All around: what shows a wall
+};
+
+/** Down in the image at the middle of a box, unit; a camera may be mounted any way round. */
+Eigen::Vector2d downInImage(
+    const PinholeCamera& camera, const Eigen::Vector3d& up, const ImageBox& box);
+
+/** What of the surroundings of a box lies on a plane. */
+struct RingEvidence
+{
+  double share = 0;                      //!< Of the valid depths
+  std::vector<Eigen::Vector3d> surface;  //!< Points on it, outside the box, that face as it does
+};
+
+RingEvidence ringOn(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const ImageBox& box,
+    Ring ring,
+    const PerceptionOptions& options);
+
+}  // namespace quadmap
