@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace quadmap
 {
@@ -18,41 +19,123 @@ double planeTolerance(double z, const PerceptionOptions& options)
   return 0.5 * options.planeTolerance + 2.0 * options.depthSigma(z);
 }
 
-/** Vertical planes that much of the box's surroundings lies on: they go on behind the object, also
- * where the segmentation lost them. */
-std::vector<Plane> wallsAround(
-    const DepthCloud& cloud,
-    const ScenePlanes& planes,
-    const ImageBox& box,
-    const std::vector<double>& ownShares,
-    double minOwnShare,
-    const PerceptionOptions& options)
+/** Points around a box, a regular sample. */
+std::vector<Eigen::Vector3d> surroundings(const DepthCloud& cloud, const ImageBox& box)
 {
-  constexpr double kMinShare = 0.15;  // of the surroundings; less may be a box beside the object
-  constexpr double kRing = 0.15;      // width, of the box's size
-  constexpr int kStep = 3;            // cells
+  constexpr double kRing = 0.15;  // width, of the box's size
+  constexpr int kStep = 3;        // cells
   const double width = std::max(8.0, kRing * std::max(box.width(), box.height()));
   const auto outer =
       cloud.cellsOf({box.x1 - width, box.y1 - width, box.x2 + width, box.y2 + width});
   const auto inner = cloud.cellsOf(box);
-  std::vector<int> counts(planes.vertical.size(), 0);
-  int all = 0;
+  std::vector<Eigen::Vector3d> out;
   for (int r = outer.r0; r < outer.r1; r += kStep)
     for (int c = outer.c0; c < outer.c1; c += kStep)
-    {
-      if (inner.contains(c, r) || !cloud.valid(c, r)) continue;
-      ++all;
-      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      for (std::size_t i = 0; i < counts.size(); ++i)
-        counts[i] += std::abs(planes.plane(planes.vertical[i]).plane.signedDistance(p)) <
-                     planeTolerance(p.z(), options);
-    }
-  std::vector<Plane> out;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (ownShares[static_cast<std::size_t>(planes.vertical[i])] < minOwnShare &&
-        counts[i] > kMinShare * all)
-      out.push_back(planes.plane(planes.vertical[i]).plane);
+      if (!inner.contains(c, r) && cloud.valid(c, r))
+        out.push_back(cloud.point(c, r).cast<double>());
   return out;
+}
+
+int countOn(
+    const Plane& plane,
+    const std::vector<Eigen::Vector3d>& points,
+    const PerceptionOptions& options)
+{
+  return static_cast<int>(std::count_if(
+      points.begin(), points.end(),
+      [&](const auto& p)
+      { return std::abs(plane.signedDistance(p)) < planeTolerance(p.z(), options); }));
+}
+
+/** Share of the surroundings on a plane that makes it the wall behind the box; less may be a thing
+ * beside the object. */
+constexpr double kMinWallShare = 0.15;
+
+/** Vertical planes that much of the box's surroundings lies on: they go on behind the object, also
+ * where the segmentation lost them. */
+std::vector<Plane> wallsAround(
+    const ScenePlanes& planes,
+    const std::vector<Eigen::Vector3d>& around,
+    const std::vector<double>& ownShares,
+    double minOwnShare,
+    const PerceptionOptions& options)
+{
+  std::vector<Plane> out;
+  for (const int i : planes.vertical)
+    if (ownShares[static_cast<std::size_t>(i)] < minOwnShare &&
+        countOn(planes.plane(i).plane, around, options) >
+            kMinWallShare * static_cast<double>(around.size()))
+      out.push_back(planes.plane(i).plane);
+  return out;
+}
+
+/** The vertical plane that most of the surroundings lies on, where the segmentation found none:
+ * through pairs of points in a fixed order, refined by nothing but the count. */
+std::optional<Plane> wallThrough(
+    const std::vector<Eigen::Vector3d>& around,
+    const Eigen::Vector3d& up,
+    const PerceptionOptions& options)
+{
+  constexpr std::size_t kTrials = 60;
+  constexpr double kMinBase = 0.2;  // between the two points [m]
+  const std::size_t n = around.size();
+  if (n < kTrials) return {};
+  std::optional<Plane> best;
+  int bestCount = static_cast<int>(kMinWallShare * static_cast<double>(n));
+  for (std::size_t i = 0; i < kTrials; ++i)
+  {
+    // Strides that are coprime with most sizes spread the pairs over the ring.
+    const Eigen::Vector3d &p = around[(i * 7919) % n], &q = around[(i * 104729 + n / 2) % n];
+    const Eigen::Vector3d along = q - p;
+    if ((along - up * up.dot(along)).norm() < kMinBase) continue;
+    Plane plane;
+    plane.n = up.cross(along).normalized();
+    plane.d = -plane.n.dot(p);
+    if (plane.d < 0) plane = {-plane.n, -plane.d};  // towards the camera
+    const int count = countOn(plane, around, options);
+    if (count <= bestCount) continue;
+    bestCount = count;
+    best = plane;
+  }
+  return best;
+}
+
+/** Takes away what lies on a wall that only the surroundings show; not when it is the object's own
+ * side, with most of the object on it or something behind it. */
+void dropLostWall(
+    std::vector<Eigen::Vector3d> around,
+    const ScenePlanes& planes,
+    const ObjectTask& task,
+    const PerceptionOptions& options,
+    BoxCandidates& candidates)
+{
+  constexpr double kMaxOn = 0.5, kMaxBehind = 0.02;  // shares of the candidates
+  if (task.support)
+    around.erase(
+        std::remove_if(
+            around.begin(), around.end(),
+            [&](const auto& p)
+            {
+              return planes.plane(*task.support).plane.signedDistance(p) <
+                     supportTolerance(p.z(), task.label, options);
+            }),
+        around.end());
+  const auto wall = wallThrough(around, planes.up, options);
+  if (!wall) return;
+  const auto all = static_cast<double>(candidates.points.size());
+  const auto behind = std::count_if(
+      candidates.points.begin(), candidates.points.end(),
+      [&](const auto& p) { return wall->signedDistance(p) < -planeTolerance(p.z(), options); });
+  if (countOn(*wall, candidates.points, options) > kMaxOn * all ||
+      static_cast<double>(behind) > kMaxBehind * all)
+    return;
+  keepOnly(
+      candidates,
+      [&](std::size_t i)
+      {
+        const auto& p = candidates.points[i];
+        return std::abs(wall->signedDistance(p)) >= planeTolerance(p.z(), options);
+      });
 }
 
 }  // namespace
@@ -76,7 +159,8 @@ BoxCandidates candidatesIn(
   // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
   // on a wall covers much of what is seen of it.
   const double minOwnShare = task.label.support == UsualSupport::Wall ? 0.85 : 0.5;
-  const auto walls = wallsAround(cloud, planes, box, ownShares, minOwnShare, options);
+  const auto around = surroundings(cloud, box);
+  const auto walls = wallsAround(planes, around, ownShares, minOwnShare, options);
   const auto& mask = task.detection->mask;
   const auto isBackground = [&](int c, int r, const Eigen::Vector3d& p)
   {
@@ -102,6 +186,7 @@ BoxCandidates candidatesIn(
       out.cells.push_back({c, r});
       out.points.push_back(p);
     }
+  if (walls.empty()) dropLostWall(around, planes, task, options, out);
   return out;
 }
 

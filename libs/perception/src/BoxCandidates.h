@@ -15,6 +15,21 @@ struct BoxCandidates
   DepthCloud::CellRange range;          //!< Where was looked: the enlarged box
 };
 
+/** Drops the candidates for which `keep(index)` is false. */
+template <typename Keep>
+void keepOnly(BoxCandidates& candidates, const Keep& keep)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < candidates.cells.size(); ++i)
+  {
+    if (!keep(i)) continue;
+    candidates.cells[kept] = candidates.cells[i];
+    candidates.points[kept++] = candidates.points[i];
+  }
+  candidates.cells.resize(kept);
+  candidates.points.resize(kept);
+}
+
 /** Cells of the enlarged box (or the mask) with depth, without the supporting plane, without planes
  * that reach far beyond the box and without the wall behind it. */
 BoxCandidates candidatesIn(

@@ -5,6 +5,7 @@
 
 #include "FaceEstimator.h"
 #include "FaceSigmas.h"
+#include "YawEstimate.h"
 
 namespace quadmap
 {

@@ -26,7 +26,8 @@ void requireDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 }  // namespace
 
 DepthCloud::DepthCloud(
-    const mrpt::obs::CObservation3DRangeScan& scan, const PerceptionOptions& options)
+    const mrpt::obs::CObservation3DRangeScan& scan, const PerceptionOptions& options) :
+    options_(options)
 {
   requireDepth(scan);
   const auto& range = scan.rangeImage;
@@ -58,14 +59,26 @@ DepthCloud::DepthCloud(
     }
 }
 
+int DepthCloud::normalReach(float z) const
+{
+  // Shorter base lines drown in the quantisation of depth and in its noise.
+  constexpr double kMinBase = 0.03, kSigmas = 3.0;  // [m], of depth
+  const double base = std::max(kMinBase, kSigmas * options_.depthSigma(double(z)));
+  const double cellsPerMetre = std::abs(camera_.fx) / (double(z) * stride_);
+  return std::clamp(static_cast<int>(std::lround(base * cellsPerMetre)), 2, 8);
+}
+
+double DepthCloud::cellsPerNormal(double z) const
+{
+  const double reach = normalReach(static_cast<float>(z));
+  return reach * reach;
+}
+
 std::optional<Eigen::Vector3f> DepthCloud::normal(int c, int r) const
 {
   const float z = depth(c, r);
   if (!(z > 0)) return {};
-  // A base line of some 3 cm to either side: shorter ones drown in the quantisation of depth.
-  const float cellsPerMetre =
-      static_cast<float>(std::abs(camera_.fx)) / (z * static_cast<float>(stride_));
-  const int k = std::clamp(static_cast<int>(std::lround(0.03f * cellsPerMetre)), 2, 8);
+  const int k = normalReach(z);
   if (!inside(c - k, r - k) || !inside(c + k, r + k)) return {};
 
   const float tolerance = jumpTolerance(z) + 0.04f;

@@ -37,9 +37,12 @@ class DepthCloud
     return {rayX_[static_cast<std::size_t>(c)] * z, rayY_[static_cast<std::size_t>(r)] * z, z};
   }
 
-  /** Unit normal of the surface at a cell, towards the camera, from differences over about 3 cm;
-   * nothing at depth edges. */
+  /** Unit normal of the surface at a cell, towards the camera, from differences over about 6 cm,
+   * or more where the noise is larger; nothing at depth edges. */
   std::optional<Eigen::Vector3f> normal(int c, int r) const;
+
+  /** Cells whose normals share their noise, at a depth [m]. */
+  double cellsPerNormal(double z) const;
 
   /** Between a near and a far surface, on neither: an artefact of the sensor. */
   bool isFlyingPixel(int c, int r) const;
@@ -56,9 +59,11 @@ class DepthCloud
   CoarseDepth coarse(unsigned columns, unsigned rows) const;
 
  private:
+  int normalReach(float z) const;  // cells to either side
   std::size_t index(int c, int r) const { return static_cast<std::size_t>(r * columns_ + c); }
 
   PinholeCamera camera_;
+  PerceptionOptions options_;
   int stride_ = 1, columns_ = 0, rows_ = 0;
   std::vector<float> depth_, rayX_, rayY_;
 };

@@ -16,6 +16,10 @@ namespace
 {
 constexpr unsigned kCoarseColumns = 32, kCoarseRows = 24;
 
+/** Share of the box's outline across which an object may go on. On simulated frames six of ten
+ * measurements beyond are wrong by more than four sigmas, below one of ten. */
+constexpr double kMaxLeak = 0.2;
+
 Eigen::Vector3d toSensor(const Eigen::Vector3d& p_optical)
 {
   return {p_optical.z(), -p_optical.x(), -p_optical.y()};
@@ -101,6 +105,8 @@ void FramePerception::Impl::tryComplete(
   out.projectedIoU = fit.iou;
   if (fit.tolerantIoU < options.minCompleteIoU)
     out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);
+  else if (object.leak > kMaxLeak)
+    out.reason = "its surface goes on outside the box";
   else if (out.depthCoverage < options.minDepthCoverage)
     out.reason = mrpt::format("depth in only %.0f %% of the box", 100 * out.depthCoverage);
   else

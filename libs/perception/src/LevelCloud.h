@@ -17,23 +17,12 @@ struct LevelCloud
   std::vector<Eigen::Vector3d> points;
   std::vector<std::optional<Eigen::Vector3d>> normals;  //!< Unit, towards the camera
   double medianRange = 0;                               //!< Median depth of the points [m]
+  double cellsPerSample = 1;                            //!< Cells of the object for each one here
+  double cellsPerNormal = 1;  //!< Cells that share the noise of one normal
 };
 
 /** \param up_optical Unit vector that points up. */
 LevelCloud levelCloud(
     const DepthCloud& cloud, const ObjectCloud& object, const Eigen::Vector3d& up_optical);
-
-/** The object's heading in `level`. */
-struct YawEstimate
-{
-  double yaw = 0;        //!< [rad]
-  double sigma = 0;      //!< [rad], when defined
-  double dominance = 0;  //!< Share of the normals that agree, in [0, 1]
-  bool defined = false;
-};
-
-/** From the normals of vertical surfaces, refined by lines fitted to the faces; from the smallest
- * rectangle around the cloud (not `defined`) when no direction dominates. */
-YawEstimate estimateYaw(const LevelCloud& cloud, const PerceptionOptions& options);
 
 }  // namespace quadmap

@@ -56,11 +56,19 @@ struct Cluster
   double score() const { return centrality * fill * (1.0 - leak) * (1.0 - leak); }
 };
 
-/** What was cut out of one box, and whether it may be taken from other boxes. */
+/** What was cut out of one box. */
 struct Cut
 {
   ObjectCloud object;
-  bool isSeparate = false;  // it fills its box and ends there
+  double fill = 0;  // IoU of its main cluster's bounds and the box
+
+  /** It fills its box and ends there: no part of anything else. */
+  bool isSeparate() const
+  {
+    constexpr double kMinFill = 0.5, kMaxLeak = 0.1;
+    return fill > kMinFill && object.leak < kMaxLeak;
+  }
+  double quality() const { return fill * (1.0 - object.leak); }
 };
 
 /** Cuts the objects of a frame out of their boxes. */
@@ -78,10 +86,10 @@ class Segmenter
   }
 
   /** Small boxes first: what stands alone in one of them is no part of the larger ones around it.
-   * Boxes whose cluster goes on outside come last and get what is left. */
+   * Where two of the others took the same thing, the one that it suits less gets what is left. */
   std::vector<ObjectCloud> run()
   {
-    std::vector<ObjectCloud> out(tasks_.size());
+    std::vector<Cut> cuts(tasks_.size());
     std::vector<std::size_t> order(tasks_.size()), unsure;
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(
@@ -89,15 +97,20 @@ class Segmenter
         [&](auto a, auto b) { return boxOf(a).area() < boxOf(b).area(); });
     for (const std::size_t i : order)
     {
-      Cut cut = cutOut(i);
-      if (cut.isSeparate)
-        for (const auto& cell : cut.object.cells) owner(cell) = static_cast<int>(i);
+      cuts[i] = cutOut(i);
+      if (cuts[i].isSeparate())
+        claim(i, cuts[i].object);
       else
         unsure.push_back(i);
-      out[i] = std::move(cut.object);
     }
     for (const std::size_t i : unsure)
-      if (containsOthers(i, out[i])) out[i] = cutOut(i).object;
+    {
+      for (const std::size_t j : unsure)
+        if (tookThingOf(i, j, cuts)) claim(j, cuts[j].object);
+      if (containsOthers(i, cuts[i].object)) cuts[i] = cutOut(i);
+    }
+    std::vector<ObjectCloud> out;
+    for (auto& cut : cuts) out.push_back(std::move(cut.object));
     return out;
   }
 
@@ -119,6 +132,33 @@ class Segmenter
     const int who = owner(cell);
     return who != kNobody && !isSameThing(i, static_cast<std::size_t>(who));
   }
+  void claim(std::size_t i, const ObjectCloud& object)
+  {
+    for (const auto& cell : object.cells)
+      if (owner(cell) == kNobody) owner(cell) = static_cast<int>(i);
+  }
+
+  /** Is what box i holds nearly all a part of what suits box j better? Not for a box within the
+   * other: that may be a thing on a thing. */
+  bool tookThingOf(std::size_t i, std::size_t j, const std::vector<Cut>& cuts) const
+  {
+    constexpr double kMinShare = 0.8, kMaxInside = 0.8;
+    const auto& mine = cuts[i].object.cells;
+    const auto& theirs = cuts[j].object.cells;
+    if (isSameThing(i, j) || mine.empty() || cuts[j].quality() <= cuts[i].quality()) return false;
+    const ImageBox &a = boxOf(i), &b = boxOf(j);
+    const ImageBox both = {
+        std::max(a.x1, b.x1), std::max(a.y1, b.y1), std::min(a.x2, b.x2), std::min(a.y2, b.y2)};
+    if (both.area() == 0 || both.area() > kMaxInside * a.area()) return false;
+    // Both lists are in the order of rows and columns.
+    const auto before = [](const ObjectCloud::Cell& p, const ObjectCloud::Cell& q)
+    { return p.r < q.r || (p.r == q.r && p.c < q.c); };
+    const auto common = std::count_if(
+        mine.begin(), mine.end(),
+        [&](const auto& cell)
+        { return std::binary_search(theirs.begin(), theirs.end(), cell, before); });
+    return static_cast<double>(common) > kMinShare * static_cast<double>(mine.size());
+  }
   bool containsOthers(std::size_t i, const ObjectCloud& object)
   {
     return std::any_of(
@@ -134,7 +174,8 @@ class Segmenter
     if (!boxOf(index).isValid()) return out;
     out.object.coverage = coverageOf(cloud_, boxOf(index));
     BoxCandidates candidates = candidatesIn(cloud_, planes_, task, options_);
-    dropOthers(index, candidates);
+    keepOnly(
+        candidates, [&](std::size_t i) { return !belongsToOther(index, candidates.cells[i]); });
     if (static_cast<int>(candidates.points.size()) < options_.minPoints) return out;
 
     const PointClusters parts(
@@ -143,8 +184,8 @@ class Segmenter
     const int best = bestOf(clusters);
     if (best < 0) return out;
     const Cluster& main = clusters[static_cast<std::size_t>(best)];
-    constexpr double kMinFill = 0.5, kMaxLeak = 0.1;
-    out.isSeparate = main.fill > kMinFill && main.leak < kMaxLeak;
+    out.fill = main.fill;
+    out.object.leak = main.leak;
     for (std::size_t i = 0; i < candidates.points.size(); ++i)
       if (parts.labels()[i] == best ||
           isFragment(clusters[static_cast<std::size_t>(parts.labels()[i])], main))
@@ -153,19 +194,6 @@ class Segmenter
         out.object.points.push_back(candidates.points[i]);
       }
     return out;
-  }
-
-  void dropOthers(std::size_t index, BoxCandidates& candidates)
-  {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < candidates.cells.size(); ++i)
-    {
-      if (belongsToOther(index, candidates.cells[i])) continue;
-      candidates.cells[kept] = candidates.cells[i];
-      candidates.points[kept++] = candidates.points[i];
-    }
-    candidates.cells.resize(kept);
-    candidates.points.resize(kept);
   }
 
   /** Gap that parts of one object may have: a share of its size, but no less than the sampling

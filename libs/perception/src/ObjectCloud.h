@@ -23,6 +23,7 @@ struct ObjectCloud
   std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
   std::optional<int> support;           //!< Plane it stands on, index in ScenePlanes
   double coverage = 0;                  //!< Share of the box's cells with valid depth
+  double leak = 0;  //!< Share of the box's outline across which the surface goes on outside
 
   bool empty() const { return points.empty(); }
 };

@@ -50,7 +50,7 @@ YawHistogram::Peak YawHistogram::peak() const
   const auto highest = std::max_element(smooth.begin(), smooth.end());
   const double coarse = (static_cast<double>(highest - smooth.begin()) + 0.5) * kBinWidth;
 
-  double inside = 0, offset = 0;
+  double inside = 0, offset = 0, squares = 0;
   for (const auto& entry : entries_)
   {
     out.mass += entry.weight;
@@ -58,8 +58,14 @@ YawHistogram::Peak YawHistogram::peak() const
     if (std::abs(near - coarse) > kPeakHalfWidth) continue;
     inside += entry.weight;
     offset += entry.weight * (near - coarse);
+    squares += entry.weight * (near - coarse) * (near - coarse);
   }
-  if (inside > 0) out.yaw = fold(coarse + offset / inside);
+  if (inside > 0)
+  {
+    const double mean = offset / inside;
+    out.yaw = fold(coarse + mean);
+    out.width = std::sqrt(std::max(0.0, squares / inside - mean * mean));
+  }
   if (out.mass > 0) out.dominance = inside / out.mass;
   return out;
 }

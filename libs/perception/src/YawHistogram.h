@@ -19,6 +19,7 @@ class YawHistogram
     double yaw = 0;        //!< In [0, pi/2) [rad]
     double dominance = 0;  //!< Mass within 10 degrees of the peak / total; even spread gives 0.22
     double mass = 0;       //!< Total weight
+    double width = 0;      //!< Standard deviation within 10 degrees of the peak [rad]
   };
   Peak peak() const;
 

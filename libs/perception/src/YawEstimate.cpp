@@ -1,0 +1,170 @@
+#include "YawEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "LineFit.h"
+#include "YawHistogram.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kPi = 3.14159265358979323846;
+/** Depth images are bent by their calibration: no direction is better than this [rad]. */
+constexpr double kSigmaFloor = 0.2 * kPi / 180.0;
+
+/** The histogram of the normals of vertical surfaces, with what its peak is worth. */
+struct NormalPeak
+{
+  YawHistogram::Peak peak;
+  double independent = 0;  // normals that do not share their noise, in the whole histogram
+
+  /** Sigmas by which the peak stands above an even spread of as many normals. */
+  double significance() const
+  {
+    constexpr double kEven = 20.0 / 90.0;  // share of the 20 degrees around any direction
+    return (peak.dominance - kEven) * std::sqrt(independent / (kEven * (1.0 - kEven)));
+  }
+  double variance() const
+  {
+    const double agreeing = std::max(1.0, peak.dominance * independent);
+    return peak.width * peak.width / agreeing + kSigmaFloor * kSigmaFloor;
+  }
+};
+
+NormalPeak peakOfNormals(const LevelCloud& cloud)
+{
+  constexpr double kMinHorizontality = 0.8;
+  YawHistogram histogram;
+  for (const auto& normal : cloud.normals)
+  {
+    if (!normal) continue;
+    const double horizontal = normal->head<2>().norm();
+    if (horizontal > kMinHorizontality)
+      histogram.add(std::atan2(normal->y(), normal->x()), horizontal * horizontal);
+  }
+  NormalPeak out;
+  out.peak = histogram.peak();
+  out.independent = out.peak.mass * std::min(1.0, cloud.cellsPerSample / cloud.cellsPerNormal);
+  return out;
+}
+
+/** The line that the face with a normal near `heading` makes seen from above. */
+std::optional<LineFit> faceLine(const LevelCloud& cloud, double heading)
+{
+  constexpr double kMaxNormalAngle = 20.0 * kPi / 180.0, kShell = 0.04;  // [m]
+  const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (cloud.normals[i] && cloud.normals[i]->head<2>().dot(n) > std::cos(kMaxNormalAngle))
+      points.emplace_back(cloud.points[i].head<2>().dot(t), cloud.points[i].head<2>().dot(n));
+  return fitLine(std::move(points), kShell);
+}
+
+/** Correction of a heading from the lines of all faces, weighted; when they contradict each other,
+ * the variance grows. */
+std::optional<LineFit> refine(const LevelCloud& cloud, double yaw)
+{
+  constexpr double kMaxCorrection = 10.0 * kPi / 180.0;
+  double information = 0, sum = 0, squares = 0;
+  int lines = 0;
+  for (int side = 0; side < 4; ++side)
+  {
+    const auto line = faceLine(cloud, yaw + side * kPi / 2);
+    if (!line || std::abs(line->angle) > kMaxCorrection) continue;
+    const double weight = 1.0 / (line->variance + kSigmaFloor * kSigmaFloor);
+    information += weight;
+    sum += weight * -line->angle;  // the normal turns against the slope
+    squares += weight * line->angle * line->angle;
+    ++lines;
+  }
+  if (lines == 0) return {};
+  const double mean = sum / information;
+  const double chi2 = squares - information * mean * mean;
+  const double inflation = lines > 1 ? std::max(1.0, chi2 / (lines - 1)) : 1.0;
+  return LineFit{mean, inflation / information, 1.0};
+}
+
+/** Heading and width of the smallest rectangle around the cloud, seen from above. */
+struct Rectangle
+{
+  double yaw = 0, width = 0;  // of its longer side [rad], [m]
+};
+
+Rectangle smallestRectangle(const LevelCloud& cloud)
+{
+  const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / 400);
+  Rectangle best;
+  double bestArea = 1e9;
+  for (int degree = 0; degree < 90; degree += 2)
+  {
+    const double yaw = degree * kPi / 180.0, c = std::cos(yaw), s = std::sin(yaw);
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < cloud.points.size(); i += step)
+    {
+      x.push_back(c * cloud.points[i].x() + s * cloud.points[i].y());
+      y.push_back(-s * cloud.points[i].x() + c * cloud.points[i].y());
+    }
+    const double dx = quantile(x, 0.98) - quantile(x, 0.02);
+    const double dy = quantile(y, 0.98) - quantile(y, 0.02);
+    if (dx * dy >= bestArea) continue;
+    bestArea = dx * dy;
+    best = dx >= dy ? Rectangle{yaw, dx} : Rectangle{yaw + kPi / 2, dy};
+  }
+  return best;
+}
+
+/** Heading of something flat that stands upright: of the line that it makes seen from above. */
+std::optional<LineFit> flatHeading(
+    const LevelCloud& cloud, const Rectangle& rectangle, const PerceptionOptions& options)
+{
+  constexpr double kMinShare = 0.75, kMinWidth = 6.0;  // of the points; in shells
+  constexpr double kMaxShell = 0.05;  // [m]; in thicker ones any corner passes for a line
+  const double shell = 0.02 + 2.0 * options.depthSigma(cloud.medianRange);
+  if (shell > kMaxShell || rectangle.width < kMinWidth * shell) return {};
+  const Eigen::Vector2d t(std::cos(rectangle.yaw), std::sin(rectangle.yaw)), n(-t.y(), t.x());
+  std::vector<Eigen::Vector2d> points;
+  for (const auto& p : cloud.points) points.emplace_back(p.head<2>().dot(t), p.head<2>().dot(n));
+  const auto line = fitLine(std::move(points), shell);
+  if (!line || line->share < kMinShare) return {};
+  return line;
+}
+
+}  // namespace
+
+YawEstimate estimateYaw(const LevelCloud& cloud, const PerceptionOptions& options)
+{
+  constexpr double kMinMass = 40.0, kMinSignificance = 2.5;
+  const NormalPeak normals = peakOfNormals(cloud);
+  YawEstimate out;
+  out.dominance = normals.peak.dominance;
+  if (normals.peak.mass >= kMinMass && out.dominance >= options.yawMinDominance &&
+      normals.significance() > kMinSignificance)
+  {
+    out.defined = true;
+    out.yaw = normals.peak.yaw;
+    double variance = normals.variance();
+    // Once more about the corrected heading: lines of real faces stay where they are.
+    for (int i = 0; i < 2; ++i)
+      if (const auto correction = refine(cloud, out.yaw))
+      {
+        out.yaw += correction->angle;
+        variance = correction->variance + (i > 0 ? correction->angle * correction->angle : 0.0);
+      }
+    out.sigma = std::sqrt(variance);
+    return out;
+  }
+  const Rectangle rectangle = smallestRectangle(cloud);
+  out.yaw = rectangle.yaw;
+  if (const auto line = flatHeading(cloud, rectangle, options))
+  {
+    out.defined = true;
+    out.yaw += line->angle;
+    out.sigma = std::sqrt(line->variance + kSigmaFloor * kSigmaFloor);
+  }
+  return out;
+}
+
+}  // namespace quadmap
