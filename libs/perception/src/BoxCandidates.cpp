@@ -19,9 +19,21 @@ double planeTolerance(double z, const PerceptionOptions& options)
   return 0.5 * options.planeTolerance + 2.0 * options.depthSigma(z);
 }
 
-/** Points around a box, a regular sample. */
-std::vector<Eigen::Vector3d> surroundings(const DepthCloud& cloud, const ImageBox& box)
+/** Points around a box, a regular sample, without floors and table tops. */
+std::vector<Eigen::Vector3d> surroundings(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ImageBox& box,
+    const PerceptionOptions& options)
 {
+  const auto isOnTop = [&](const Eigen::Vector3d& p)
+  {
+    return std::any_of(
+        planes.horizontal.begin(), planes.horizontal.end(),
+        [&](int i) {
+          return std::abs(planes.plane(i).plane.signedDistance(p)) < planeTolerance(p.z(), options);
+        });
+  };
   constexpr double kRing = 0.15;  // width, of the box's size
   constexpr int kStep = 3;        // cells
   const double width = std::max(8.0, kRing * std::max(box.width(), box.height()));
@@ -31,8 +43,11 @@ std::vector<Eigen::Vector3d> surroundings(const DepthCloud& cloud, const ImageBo
   std::vector<Eigen::Vector3d> out;
   for (int r = outer.r0; r < outer.r1; r += kStep)
     for (int c = outer.c0; c < outer.c1; c += kStep)
-      if (!inner.contains(c, r) && cloud.valid(c, r))
-        out.push_back(cloud.point(c, r).cast<double>());
+    {
+      if (inner.contains(c, r) || !cloud.valid(c, r)) continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      if (!isOnTop(p)) out.push_back(p);
+    }
   return out;
 }
 
@@ -100,42 +115,69 @@ std::optional<Plane> wallThrough(
   return best;
 }
 
-/** Takes away what lies on a wall that only the surroundings show; not when it is the object's own
- * side, with most of the object on it or something behind it. */
-void dropLostWall(
-    std::vector<Eigen::Vector3d> around,
+/** Is a plane the wall behind the box? What of the candidates lies on it is enclosed by what of the
+ * surroundings does; the side of a thing that stands beside the object ends before it. */
+bool goesOnBehind(
+    const Plane& wall,
+    const Eigen::Vector3d& up,
+    const std::vector<Eigen::Vector3d>& around,
+    const std::vector<Eigen::Vector3d>& points,
+    const PerceptionOptions& options)
+{
+  constexpr double kSlack = 0.05;  // [m]
+  const Eigen::Vector3d along = up.cross(wall.n);
+  const auto rangeOf = [&](const std::vector<Eigen::Vector3d>& cloud)
+  {
+    Eigen::AlignedBox1d range;
+    for (const auto& p : cloud)
+      if (std::abs(wall.signedDistance(p)) < planeTolerance(p.z(), options))
+        range.extend(Eigen::Matrix<double, 1, 1>(along.dot(p)));
+    return range;
+  };
+  const auto on = rangeOf(points), enclosing = rangeOf(around);
+  return !on.isEmpty() && !enclosing.isEmpty() && on.min()[0] > enclosing.min()[0] - kSlack &&
+         on.max()[0] < enclosing.max()[0] + kSlack;
+}
+
+/** Could it be the object's own side, with most of the object on it or something behind it? */
+bool isOwnSide(
+    const Plane& wall, const std::vector<Eigen::Vector3d>& points, const PerceptionOptions& options)
+{
+  constexpr double kMaxOn = 0.5, kMaxBehind = 0.02;  // shares of the candidates
+  const auto all = static_cast<double>(points.size());
+  const auto behind = std::count_if(
+      points.begin(), points.end(),
+      [&](const auto& p) { return wall.signedDistance(p) < -planeTolerance(p.z(), options); });
+  return countOn(wall, points, options) > kMaxOn * all ||
+         static_cast<double>(behind) > kMaxBehind * all;
+}
+
+/** Takes away what lies on the walls behind the box: those of the segmentation, else one that only
+ * the surroundings show. */
+void dropWalls(
+    const std::vector<Plane>& walls,
+    const std::vector<Eigen::Vector3d>& around,
     const ScenePlanes& planes,
-    const ObjectTask& task,
     const PerceptionOptions& options,
     BoxCandidates& candidates)
 {
-  constexpr double kMaxOn = 0.5, kMaxBehind = 0.02;  // shares of the candidates
-  if (task.support)
-    around.erase(
-        std::remove_if(
-            around.begin(), around.end(),
-            [&](const auto& p)
-            {
-              return planes.plane(*task.support).plane.signedDistance(p) <
-                     supportTolerance(p.z(), task.label, options);
-            }),
-        around.end());
+  const auto drop = [&](const Plane& wall)
+  {
+    keepOnly(
+        candidates,
+        [&](std::size_t i)
+        {
+          const auto& p = candidates.points[i];
+          return std::abs(wall.signedDistance(p)) >= planeTolerance(p.z(), options);
+        });
+  };
+  for (const auto& wall : walls)
+    if (goesOnBehind(wall, planes.up, around, candidates.points, options)) drop(wall);
+  if (!walls.empty()) return;
   const auto wall = wallThrough(around, planes.up, options);
-  if (!wall) return;
-  const auto all = static_cast<double>(candidates.points.size());
-  const auto behind = std::count_if(
-      candidates.points.begin(), candidates.points.end(),
-      [&](const auto& p) { return wall->signedDistance(p) < -planeTolerance(p.z(), options); });
-  if (countOn(*wall, candidates.points, options) > kMaxOn * all ||
-      static_cast<double>(behind) > kMaxBehind * all)
-    return;
-  keepOnly(
-      candidates,
-      [&](std::size_t i)
-      {
-        const auto& p = candidates.points[i];
-        return std::abs(wall->signedDistance(p)) >= planeTolerance(p.z(), options);
-      });
+  if (wall && !isOwnSide(*wall, candidates.points, options) &&
+      goesOnBehind(*wall, planes.up, around, candidates.points, options))
+    drop(*wall);
 }
 
 }  // namespace
@@ -159,7 +201,7 @@ BoxCandidates candidatesIn(
   // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
   // on a wall covers much of what is seen of it.
   const double minOwnShare = task.label.support == UsualSupport::Wall ? 0.85 : 0.5;
-  const auto around = surroundings(cloud, box);
+  const auto around = surroundings(cloud, planes, box, options);
   const auto walls = wallsAround(planes, around, ownShares, minOwnShare, options);
   const auto& mask = task.detection->mask;
   const auto isBackground = [&](int c, int r, const Eigen::Vector3d& p)
@@ -168,8 +210,6 @@ BoxCandidates candidatesIn(
                             supportTolerance(p.z(), task.label, options))
       return true;
     const double tolerance = planeTolerance(p.z(), options);
-    for (const auto& wall : walls)
-      if (std::abs(wall.signedDistance(p)) < tolerance) return true;
     const int plane = planes.all.planeAt(cloud, c, r, tolerance);
     return plane >= 0 && ownShares[static_cast<std::size_t>(plane)] < minOwnShare;
   };
@@ -186,7 +226,7 @@ BoxCandidates candidatesIn(
       out.cells.push_back({c, r});
       out.points.push_back(p);
     }
-  if (walls.empty()) dropLostWall(around, planes, task, options, out);
+  dropWalls(walls, around, planes, options, out);
   return out;
 }
 
