@@ -18,7 +18,7 @@ SyntheticFrame tableFrame(double roll)
   frame.noise = 0.001;
   frame.add(2.0, 0, 0, 0.3, {0.8, 0.9, 0.7});        // the table
   frame.add(1.85, 0.1, 0.7, 0.5, {0.3, 0.25, 0.2});  // on it
-  frame.add(2.2, -0.75, 0, 0.9, {0.4, 0.35, 0.3});   // beside it
+  frame.add(2.2, -0.95, 0, 0.9, {0.4, 0.35, 0.3});   // beside it, not hidden
   return frame;
 }
 /** What perception makes of both things, in the world. */

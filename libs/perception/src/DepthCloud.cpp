@@ -62,7 +62,7 @@ DepthCloud::DepthCloud(
 int DepthCloud::normalReach(float z) const
 {
   // Shorter base lines drown in the quantisation of depth and in its noise.
-  constexpr double kMinBase = 0.03, kSigmas = 3.0;  // [m], of depth
+  constexpr double kMinBase = 0.03, kSigmas = 2.0;  // [m], of depth
   const double base = std::max(kMinBase, kSigmas * options_.depthSigma(double(z)));
   const double cellsPerMetre = std::abs(camera_.fx) / (double(z) * stride_);
   return std::clamp(static_cast<int>(std::lround(base * cellsPerMetre)), 2, 8);
