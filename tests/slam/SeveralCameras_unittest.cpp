@@ -71,9 +71,11 @@ Records drivePast(const std::vector<SyntheticRoom>& cameras)
 class SeveralCameras : public testing::Test
 {
  protected:
-  RawlogRunSummary run(const Records& records)
+  /** \param correct False: poses stay as the odometry has them, exactly. */
+  RawlogRunSummary run(const Records& records, bool correct = false)
   {
     RawlogRunRequest request;
+    request.configuration.joint.correctPoses = correct;
     request.rawlog = writeObjects(folder_.path("x.rawlog"), records);
     request.outputDirectory = folder_.path("out");
     request.configuration.keyframes.every = 1;
@@ -151,6 +153,24 @@ TEST_F(SeveralCameras, OnAStandingRobotShareItsPose)
   rebuilt.loadFromSimpleMap(objects);
   rebuilt.consolidate();
   expectTheBox(rebuilt, cameras[0].box);
+}
+
+TEST_F(SeveralCameras, OnAStandingRobotShareItsCorrectedPose)
+{
+  const auto cameras = fourCameras();
+  const auto summary = run(stopAndLook(cameras), true);
+  expectTheBox(summary.result.map, cameras[0].box);
+  const auto& keyframes = summary.result.keyframes;
+  ASSERT_EQ(keyframes.size(), 24u);
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    const auto& first = keyframes[k - k % 4];
+    EXPECT_LT((keyframes[k].T_map_robot - first.T_map_robot).norm(), 5e-4);
+    // The odometry is exact: what the pixel grid moves stays within the sigma it claims by then.
+    const double claimed =
+        PoseUncertaintyOptions().sigmaPosition * std::sqrt(static_cast<double>(k / 4));
+    EXPECT_LE((keyframes[k].T_map_robot - keyframes[k].T_odom_robot).norm(), claimed + 1e-6);
+  }
 }
 
 TEST_F(SeveralCameras, OnADrivingRobotKeepTheirPoses)
