@@ -36,7 +36,7 @@ struct Cli
       "and the exit status is 130.",
       QUADMAP_VERSION};
   std::vector<std::string> methodNames{"rgbd", "odometry"};
-  std::vector<std::string> sourceNames{"auto", "rawlog", "ground-truth"};
+  std::vector<std::string> sourceNames{"auto", "rawlog", "visual", "ground-truth"};
   TCLAP::ValuesConstraint<std::string> methods{methodNames}, sources{sourceNames};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
       "rawlog", "The recording, in either format of MRPT.", true, "", "IN.rawlog", line.args()};
@@ -52,8 +52,9 @@ struct Cli
   TCLAP::ValueArg<std::string> odometry{
       "",
       "odometry",
-      "Where poses come from; auto: from the rawlog's odometry, none needed for images of one "
-      "moment.",
+      "Where poses come from: the rawlog's odometry, visual odometry from the images, the rawlog's "
+      "ground truth; auto: the rawlog's odometry or, without any, visual odometry; images of one "
+      "moment need none.",
       false,
       "auto",
       &sources,

@@ -206,17 +206,19 @@ TEST_F(RawlogRun, GroundTruthPosesWhenAsked)
   r.odometry = false;
   r.groundTruth = true;
   auto request = requestFor(recording(r));
+  request.configuration.slam.odometry = PoseSource::Rawlog;
   expectFailure(request, "no odometry for any image, but ground truth poses");
   request.configuration.slam.odometry = PoseSource::GroundTruth;
   EXPECT_EQ(runOnRawlog(request).result.map.confirmedObjects().size(), 1u);
 }
 
-TEST_F(RawlogRun, NoPosesAtAllIsAnError)
+TEST_F(RawlogRun, PosesThatAreNotThereAreAnError)
 {
   SyntheticRecording r;
   r.odometry = false;
   auto request = requestFor(recording(r));
-  expectFailure(request, "no odometry for any image");
+  request.configuration.slam.odometry = PoseSource::Rawlog;
+  expectFailure(request, "no odometry for any image: use --odometry visual");
   request.configuration.slam.odometry = PoseSource::GroundTruth;
   expectFailure(request, "no ground truth poses for any image");
 }
@@ -234,6 +236,19 @@ TEST_F(RawlogRun, SingleImageNeedsNoPose)
   request.configuration.slam.odometry = PoseSource::Rawlog;
   request.outputDirectory = folder_.path("strict");
   expectFailure(request, "no odometry");
+}
+
+TEST_F(RawlogRun, SingleImageWithNothingToSeeNeedsNoPoseEither)
+{
+  SyntheticRecording r;
+  r.odometry = false;
+  r.frames = 1;
+  auto records = recordsOf({}, r);
+  auto& scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan&>(*records.at(0));
+  scan.rangeImage.setZero();
+  const auto summary = runOnRawlog(requestFor(writeObjects(folder_.path("blank.rawlog"), records)));
+  ASSERT_FALSE(summary.result.warnings.empty());
+  EXPECT_EQ(summary.result.keyframes.size(), 1u);
 }
 
 TEST_F(RawlogRun, NoBoxesIsAnErrorUnlessToldToGoOn)

@@ -80,7 +80,8 @@ TEST(SlamConfiguration, EverySectionIsRead)
       "maxOdometryGap=2.5\n[keyframes]\nevery=7\nminTranslation=0.3\nminRotation_deg=90\n"
       "maxInterval=4\n[poses]\nsigmaPosition=0.01\nsigmaAngle_deg=180\n"
       "sigmaPositionPerMetre=0.1\nsigmaAnglePerRadian=0.2\nsigmaAnglePerMetre=0.3\n"
-      "[perception]\nminPoints=99\n[CQuadricObjectMap_insertOpts]\nalpha=0.7\n"
+      "[visual]\nfeatures=300\nkeyframeRotation_deg=9\nmaxGap=2\n[perception]\nminPoints=99\n["
+      "CQuadricObjectMap_insertOpts]\nalpha=0.7\n"
       "[CQuadricObjectMap_likelihoodOpts]\noutlierShare=0.3\n"
       "[CQuadricObjectMap_renderOpts]\nopacity=0.9\n");
   const auto c = SlamConfiguration::fromFile(path);
@@ -97,6 +98,9 @@ TEST(SlamConfiguration, EverySectionIsRead)
   EXPECT_EQ(c.poses.sigmaPositionPerMetre, 0.1);
   EXPECT_EQ(c.poses.sigmaAnglePerRadian, 0.2);
   EXPECT_EQ(c.poses.sigmaAnglePerMetre, 0.3);
+  EXPECT_EQ(c.visual.features, 300);
+  EXPECT_NEAR(c.visual.keyframeRotation, M_PI / 20, 1e-12);
+  EXPECT_EQ(c.visual.maxGap, 2);
   EXPECT_EQ(c.perception.minPoints, 99);
   EXPECT_EQ(c.mapInsertion.association.alpha, 0.7);
   EXPECT_EQ(c.mapLikelihood.outlierShare, 0.3);
@@ -107,7 +111,8 @@ TEST(SlamConfiguration, EveryMethodAndPoseSourceHasAName)
 {
   for (const auto method : {SlamMethod::Rgbd, SlamMethod::Odometry})
     EXPECT_EQ(slamMethodFrom(nameOf(method)), method);
-  for (const auto source : {PoseSource::Auto, PoseSource::Rawlog, PoseSource::GroundTruth})
+  for (const auto source :
+       {PoseSource::Auto, PoseSource::Rawlog, PoseSource::Visual, PoseSource::GroundTruth})
     EXPECT_EQ(poseSourceFrom(nameOf(source)), source);
 }
 
@@ -117,24 +122,27 @@ TEST(SlamConfiguration, RejectsWhatItDoesNotKnow)
   {
     const char *ini, *error;
   } cases[] = {
-      {                   "[slamm]\nmethod=rgbd\n",                   ": unknown section [slamm]; known: slam, "},
-      {                     "[slam]\nmetod=rgbd\n",                             ": [slam] unknown key \"metod\""},
-      {                   "[slam]\nmethod=magic\n",              ": method=magic: must be one of rgbd, odometry"},
-      {                  "[slam]\nodometry=none\n", ": odometry=none: must be one of auto, rawlog, ground-truth"},
-      {                "[input]\nmaxBoxDelay=-1\n",                            "[input] maxBoxDelay=-1: must be"},
-      {              "[input]\nmaxOdometryGap=0\n",                          "[input] maxOdometryGap=0: must be"},
-      {                 "[keyframes]\nevery=2.5\n",              "[keyframes] every=2.5: must be a whole number"},
-      {                  "[keyframes]\nevery=-1\n",                              "[keyframes] every=-1: must be"},
-      {        "[keyframes]\nminTranslation=5cm\n",           "[keyframes] minTranslation=5cm: must be a number"},
-      {           "[keyframes]\nminRotation=0.1\n",                    "[keyframes] unknown key \"minRotation\""},
-      {           "[keyframes]\nmaxInterval=nan\n",                       "[keyframes] maxInterval=nan: must be"},
-      {               "[poses]\nsigmaPosition=0\n",                           "[poses] sigmaPosition=0: must be"},
-      {               "[poses]\nsigmaAngle_deg=\n",                           "[poses] sigmaAngle_deg=: must be"},
-      {             "[perception]\nmaxRange=far\n",                         "[perception] maxRange=far: must be"},
-      {"[CQuadricObjectMap_insertOpts]\nalpha=0\n",                                           "alpha=0: must be"},
-      { "[CQuadricObjectMap_creationOpts]\n x=0\n",                                            "unknown section"},
-      {                            "method=rgbd\n",                                                           ""},
-      {                         "[slam]\nmethod\n",                                               ":2: expected"},
+      {                   "[slamm]\nmethod=rgbd\n",": unknown section [slamm]; known: slam, "                                                   },
+      {                     "[slam]\nmetod=rgbd\n",                   ": [slam] unknown key \"metod\""},
+      {                   "[slam]\nmethod=magic\n",    ": method=magic: must be one of rgbd, odometry"},
+      {                  "[slam]\nodometry=none\n",
+       ": odometry=none: must be one of auto, rawlog, visual, ground-truth"                           },
+      {                "[input]\nmaxBoxDelay=-1\n",                  "[input] maxBoxDelay=-1: must be"},
+      {              "[input]\nmaxOdometryGap=0\n",                "[input] maxOdometryGap=0: must be"},
+      {                 "[keyframes]\nevery=2.5\n",    "[keyframes] every=2.5: must be a whole number"},
+      {                  "[keyframes]\nevery=-1\n",                    "[keyframes] every=-1: must be"},
+      {        "[keyframes]\nminTranslation=5cm\n", "[keyframes] minTranslation=5cm: must be a number"},
+      {           "[keyframes]\nminRotation=0.1\n",          "[keyframes] unknown key \"minRotation\""},
+      {           "[keyframes]\nmaxInterval=nan\n",             "[keyframes] maxInterval=nan: must be"},
+      {               "[poses]\nsigmaPosition=0\n",                 "[poses] sigmaPosition=0: must be"},
+      {               "[poses]\nsigmaAngle_deg=\n",                 "[poses] sigmaAngle_deg=: must be"},
+      {                   "[visual]\nfeatures=5\n",                     "[visual] features=5: must be"},
+      {                 "[visual]\nmaxRange=0.2\n",  "[visual] maxRange=0.2: must be > minRange (0.3)"},
+      {             "[perception]\nmaxRange=far\n",               "[perception] maxRange=far: must be"},
+      {"[CQuadricObjectMap_insertOpts]\nalpha=0\n",                                 "alpha=0: must be"},
+      { "[CQuadricObjectMap_creationOpts]\n x=0\n",                                  "unknown section"},
+      {                            "method=rgbd\n",                                                 ""},
+      {                         "[slam]\nmethod\n",                                     ":2: expected"},
   };
   for (const auto& c : cases)
   {

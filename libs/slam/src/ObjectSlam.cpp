@@ -65,15 +65,19 @@ std::vector<std::string> modelShares(const std::map<std::string, LabelCounts>& l
 }  // namespace
 
 ObjectSlam::ObjectSlam(
-    const SlamConfiguration& configuration, const LabelTable& labels, KeyframeSpool& spool) :
+    const SlamConfiguration& configuration,
+    const LabelTable& labels,
+    KeyframeSpool& spool,
+    const std::optional<Eigen::Vector3d>& up_robot) :
     COutputLogger("ObjectSlam"),
     configuration_(configuration),
     labels_(labels),
     spool_(spool),
     perception_(configuration.perception, labels),
     selector_(configuration.keyframes),
-    odometry_(configuration.slam.odometry, configuration.poses)
+    odometry_(configuration.slam.odometry, configuration.poses, configuration.visual, up_robot)
 {
+  result_.odometry.upFromFloor = up_robot.has_value();
   result_.map.insertionOptions = configuration.mapInsertion;
   result_.map.likelihoodOptions = configuration.mapLikelihood;
   result_.map.renderOptions = configuration.mapRender;
@@ -89,7 +93,7 @@ bool ObjectSlam::addFrame(const RgbdFrame& frame)
 {
   SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
   ++counts.frames;
-  if (const auto T_map_robot = odometry_.poseOf(frame))
+  if (const auto T_map_robot = poseOf(frame))
   {
     hasOneMoment_ = false;
     withoutPose_.clear();
@@ -114,6 +118,32 @@ void ObjectSlam::keepWhileOneMoment(const RgbdFrame& frame)
     withoutPose_.push_back(frame);
   else
     withoutPose_.clear();
+}
+
+std::optional<CPose3D> ObjectSlam::poseOf(const RgbdFrame& frame)
+{
+  const auto scope = times_.measure("odometry");
+  const auto T_map_robot = odometry_.poseOf(frame);
+  if (result_.counts().frames == 1) tellOdometry(frame);
+  result_.odometry.visual = odometry_.visualCounts();
+  for (const auto& text : odometry_.takeWarnings()) warn(text);
+  return T_map_robot;
+}
+
+void ObjectSlam::tellOdometry(const RgbdFrame& frame)
+{
+  result_.odometry.source = odometry_.source();
+  result_.odometry.visualSensor = odometry_.visualSensor();
+  if (odometry_.source() == PoseSource::Visual)
+    MRPT_LOG_INFO_FMT(
+        "poses: visual odometry of sensor %s, up %s", frame.scan->sensorLabel.c_str(),
+        result_.odometry.upFromFloor ? "from the floor it sees"
+                                     : "as the sensor is mounted: no floor seen at first");
+  else
+    MRPT_LOG_INFO_STREAM(
+        "poses: "
+        << (odometry_.source() == PoseSource::GroundTruth ? "ground truth"
+                                                          : "the rawlog's odometry"));
 }
 
 void ObjectSlam::finish()

@@ -1,22 +1,66 @@
 #include "quadmap/slam/OdometryInput.h"
 
+#include <utility>
+
 namespace quadmap
 {
+using mrpt::poses::CPose3D;
 using mrpt::poses::CPose3DPDFGaussian;
 
-std::optional<mrpt::poses::CPose3D> OdometryInput::poseOf(const RgbdFrame& frame)
+namespace
+{
+/** The robot at the origin of the map with `up` along z, turned as little as that takes. */
+CPose3D uprightStart(const std::optional<Eigen::Vector3d>& up_robot)
+{
+  if (!up_robot) return {};
+  const Eigen::Matrix3d R =
+      Eigen::Quaterniond::FromTwoVectors(*up_robot, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return CPose3D::FromRotationAndTranslation(R, Eigen::Vector3d(Eigen::Vector3d::Zero()));
+}
+
+}  // namespace
+
+OdometryInput::OdometryInput(
+    PoseSource source,
+    const PoseUncertaintyOptions& uncertainty,
+    const VisualOdometryOptions& visual,
+    const std::optional<Eigen::Vector3d>& up_robot) :
+    source_(source), uncertainty_(uncertainty)
+{
+  if (source == PoseSource::Visual)
+    visual_ = std::make_unique<VisualOdometry>(visual, uprightStart(up_robot));
+}
+
+std::optional<CPose3D> OdometryInput::poseOf(const RgbdFrame& frame)
 {
   sawOdometry_ = sawOdometry_ || frame.T_odom_robot;
   sawGroundTruth_ = sawGroundTruth_ || frame.T_world_robot;
-  const auto& pose = source_ == PoseSource::GroundTruth ? frame.T_world_robot : frame.T_odom_robot;
   latest_.reset();
+  std::optional<CPose3D> pose;
+  if (visual_)
+    pose = visualPoseOf(frame);
+  else
+    pose = source_ == PoseSource::GroundTruth ? frame.T_world_robot : frame.T_odom_robot;
   if (pose)
     latest_.emplace(*pose, frame.odometryCovariance.value_or(mrpt::math::CMatrixDouble66()));
   return pose;
 }
 
+std::optional<CPose3D> OdometryInput::visualPoseOf(const RgbdFrame& frame)
+{
+  const std::string& sensor = frame.scan->sensorLabel;
+  if (visual_->counts().frames == 0) visualSensor_ = sensor;
+  if (sensor == visualSensor_) return visual_->add(*frame.scan);
+  if (!std::exchange(sawOtherSensor_, true))
+    warnings_.push_back(
+        "visual odometry uses one camera, " + visualSensor_ + ": the images of " + sensor +
+        " have no poses");
+  return std::nullopt;
+}
+
 std::optional<CPose3DPDFGaussian> OdometryInput::keyframeStep()
 {
+  if (visual_) return visual_->takeStep();
   std::optional<CPose3DPDFGaussian> step;
   if (keyframe_ && latest_ && source_ == PoseSource::GroundTruth)
     step = groundTruthStep(uncertainty_, keyframe_->mean, latest_->mean);
@@ -26,14 +70,31 @@ std::optional<CPose3DPDFGaussian> OdometryInput::keyframeStep()
   return step;
 }
 
+std::optional<VisualOdometryCounts> OdometryInput::visualCounts() const
+{
+  if (!visual_) return std::nullopt;
+  return visual_->counts();
+}
+
+std::vector<std::string> OdometryInput::takeWarnings()
+{
+  auto warnings = std::exchange(warnings_, {});
+  if (visual_)
+    for (auto& text : visual_->takeWarnings()) warnings.push_back(std::move(text));
+  return warnings;
+}
+
 std::string OdometryInput::whyNoPoses() const
 {
+  if (source_ == PoseSource::Visual)
+    return "no odometry for any image, and visual odometry finds too little texture or depth in "
+           "them";
   if (source_ == PoseSource::GroundTruth)
     return sawOdometry_ ? "no ground truth poses for any image, but odometry: use --odometry rawlog"
                         : "no ground truth poses for any image";
   return sawGroundTruth_
              ? "no odometry for any image, but ground truth poses: use --odometry ground-truth"
-             : "no odometry for any image: without poses there is no map";
+             : "no odometry for any image: use --odometry visual";
 }
 
 }  // namespace quadmap

@@ -9,6 +9,7 @@
 #include "quadmap/slam/KeyframeSpool.h"
 #include "quadmap/slam/ObjectSlam.h"
 #include "quadmap/slam/ResultWriter.h"
+#include "quadmap/slam/visual/OdometrySurvey.h"
 
 namespace quadmap
 {
@@ -49,7 +50,8 @@ class RawlogRun
       source_(request.rawlog, sourceOptions(request)),
       directory_(request.outputDirectory),
       spool_(request.outputDirectory),
-      slam_(request.configuration, LabelTable::installed(), spool_)
+      survey_(surveyOdometry(request.rawlog, sourceOptions(request), request.configuration)),
+      slam_(configurationOf(request, survey_), LabelTable::installed(), spool_, survey_.up_robot)
   {
     using mrpt::system::VerbosityLevel;
     for (mrpt::system::COutputLogger* logger :
@@ -89,6 +91,14 @@ class RawlogRun
     options.maxBoxDelay = request.configuration.input.maxBoxDelay;
     options.maxOdometryGap = request.configuration.input.maxOdometryGap;
     return options;
+  }
+
+  static SlamConfiguration configurationOf(
+      const RawlogRunRequest& request, const OdometrySurvey& survey)
+  {
+    SlamConfiguration configuration = request.configuration;
+    configuration.slam.odometry = survey.source;
+    return configuration;
   }
 
   /** \return True when asked to stop before the end. */
@@ -178,6 +188,7 @@ class RawlogRun
   RawlogSource source_;
   OutputDirectory directory_;
   KeyframeSpool spool_;
+  OdometrySurvey survey_;
   ObjectSlam slam_;
   std::vector<InputProblem> badFrames_;
 };

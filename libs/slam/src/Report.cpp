@@ -25,6 +25,13 @@ Json rounded(double value, int decimals)
   return std::round(value * scale) / scale + 0.0;  // no negative zero
 }
 
+std::string odometryText(const RunRecord& run)
+{
+  const OdometrySummary& odometry = run.result.odometry;
+  if (odometry.source == PoseSource::Visual) return "visual odometry " + odometry.visualSensor;
+  return odometry.source == PoseSource::GroundTruth ? "ground truth" : run.input.odometryKind;
+}
+
 Json countsJson(const SlamCounts& counts)
 {
   return {
@@ -43,17 +50,34 @@ Json inputJson(const RunRecord& run, std::size_t poses)
   Json sensors = Json::object();
   for (const auto& [label, counts] : run.result.countsBySensor) sensors[label] = countsJson(counts);
   Json json = {
-      {        "file",         run.input.file},
-      {"objects_file",  run.input.objectsFile},
-      {      "sensor",  run.input.sensorLabel},
-      {     "records",      run.input.records},
-      {    "odometry", run.input.odometryKind},
-      { "interrupted",  run.input.interrupted},
+      {        "file",        run.input.file},
+      {"objects_file", run.input.objectsFile},
+      {      "sensor", run.input.sensorLabel},
+      {     "records",     run.input.records},
+      {    "odometry",     odometryText(run)},
+      { "interrupted", run.input.interrupted},
   };
   json.update(countsJson(run.result.counts()));
   json["poses"] = poses;
   json["sensors"] = sensors;
   return json;
+}
+
+/** Null when the poses came from elsewhere. */
+Json visualOdometryJson(const OdometrySummary& odometry)
+{
+  if (!odometry.visual) return nullptr;
+  const VisualOdometryCounts& counts = *odometry.visual;
+  return {
+      {        "sensor",                               odometry.visualSensor},
+      {            "up", odometry.upFromFloor ? "floor seen" : "sensor pose"},
+      {        "frames",                                       counts.frames},
+      {       "by_flow",                                       counts.byFlow},
+      {"by_descriptors",                                counts.byDescriptors},
+      {        "failed",                                       counts.failed},
+      {     "keyframes",                                    counts.keyframes},
+      {          "gaps",                                         counts.gaps}
+  };
 }
 
 Json configurationJson(const SlamConfiguration& configuration)
@@ -220,16 +244,17 @@ class AssociationLines
 void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, const RunRecord& run)
 {
   const Json head = {
-      {      "program",                           "quadmap-slam"},
-      {      "version",                              run.version},
-      {        "input",                            inputJson(run,nodes.size())},
-      {"configuration",     configurationJson(run.configuration)                                        },
-      {        "boxes",                    boxesJson(run.result)},
-      {      "objects", run.result.map.confirmedObjects().size()                                        },
-      {   "correction",    correctionJson(run.result.correction)},
-      {     "warnings",                      run.result.warnings                                        },
-      {      "dropped",         problemsJson(run.input.problems)},
-      {       "timing",                    timingJson(run.times)                                        }
+      {        "program",                           "quadmap-slam"},
+      {        "version",                              run.version},
+      {          "input",                            inputJson(run,nodes.size())},
+      {  "configuration",     configurationJson(run.configuration)                                        },
+      {"visual_odometry",  visualOdometryJson(run.result.odometry)},
+      {          "boxes",                    boxesJson(run.result)                                        },
+      {        "objects", run.result.map.confirmedObjects().size()},
+      {     "correction",    correctionJson(run.result.correction)                                        },
+      {       "warnings",                      run.result.warnings},
+      {        "dropped",         problemsJson(run.input.problems)                                        },
+      {         "timing",                    timingJson(run.times)}
   };
   std::string start = text(head, 2);
   start.erase(start.rfind('\n'));  // the closing brace comes after the associations

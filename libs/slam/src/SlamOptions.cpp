@@ -18,6 +18,7 @@ constexpr std::pair<SlamMethod, const char*> kMethods[] = {
 constexpr std::pair<PoseSource, const char*> kSources[] = {
     {       PoseSource::Auto,         "auto"},
     {     PoseSource::Rawlog,       "rawlog"},
+    {     PoseSource::Visual,       "visual"},
     {PoseSource::GroundTruth, "ground-truth"}
 };
 

@@ -33,9 +33,13 @@ struct BadFrame : std::runtime_error
 class ObjectSlam : public mrpt::system::COutputLogger
 {
  public:
-  /** \param spool Takes the images; must outlive this object. */
+  /** \param spool Takes the images; must outlive this object.
+   *  \param up_robot See OdometryInput. */
   ObjectSlam(
-      const SlamConfiguration& configuration, const LabelTable& labels, KeyframeSpool& spool);
+      const SlamConfiguration& configuration,
+      const LabelTable& labels,
+      KeyframeSpool& spool,
+      const std::optional<Eigen::Vector3d>& up_robot = {});
 
   /** \return True when the frame became a keyframe.
    *  \exception BadFrame The frame is unusable and was left out. */
@@ -52,6 +56,8 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void warn(const std::string& text);
 
  private:
+  std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
+  void tellOdometry(const RgbdFrame& frame);
   bool addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
   void keepWhileOneMoment(const RgbdFrame& frame);
   void measureBoxes(

@@ -3,12 +3,17 @@
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
+#include <Eigen/Dense>
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadmap/sensors/RgbdFrame.h"
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamOptions.h"
+#include "quadmap/slam/visual/VisualOdometry.h"
 
 namespace quadmap
 {
@@ -17,10 +22,14 @@ namespace quadmap
 class OdometryInput
 {
  public:
-  OdometryInput(PoseSource source, const PoseUncertaintyOptions& uncertainty) :
-      source_(source), uncertainty_(uncertainty)
-  {
-  }
+  /** \param source Auto is taken as Rawlog; see surveyOdometry() for what else it may come to.
+   *  \param up_robot For visual odometry: up at the first frame, in the robot's frame; when absent
+   * the robot is thought to stand upright then. */
+  OdometryInput(
+      PoseSource source,
+      const PoseUncertaintyOptions& uncertainty,
+      const VisualOdometryOptions& visual,
+      const std::optional<Eigen::Vector3d>& up_robot = {});
 
   /** T_map_robot of the frame, or nothing when the input has none at its time. */
   std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
@@ -30,14 +39,25 @@ class OdometryInput
    * definite. Nothing for the first keyframe. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> keyframeStep();
 
+  PoseSource source() const { return source_; }
+  std::optional<VisualOdometryCounts> visualCounts() const;  //!< When it is used
+  const std::string& visualSensor() const { return visualSensor_; }
+
+  std::vector<std::string> takeWarnings();  //!< Since the last call, one line each
+
   /** What to tell the user when no frame got a pose. */
   std::string whyNoPoses() const;
 
  private:
+  std::optional<mrpt::poses::CPose3D> visualPoseOf(const RgbdFrame& frame);
+
   PoseSource source_;
   PoseUncertaintyOptions uncertainty_;
+  std::unique_ptr<VisualOdometry> visual_;
+  std::string visualSensor_;  //!< The one camera it uses; empty: none yet
   std::optional<mrpt::poses::CPose3DPDFGaussian> latest_, keyframe_;  //!< Poses, as given
-  bool sawOdometry_ = false, sawGroundTruth_ = false;
+  std::vector<std::string> warnings_;
+  bool sawOdometry_ = false, sawGroundTruth_ = false, sawOtherSensor_ = false;
 };
 
 }  // namespace quadmap

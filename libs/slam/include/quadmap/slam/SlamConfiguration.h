@@ -12,6 +12,7 @@
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamOptions.h"
+#include "quadmap/slam/visual/VisualOdometryOptions.h"
 
 namespace quadmap
 {
@@ -23,6 +24,7 @@ struct SlamConfiguration
   KeyframeOptions keyframes;                            //!< [keyframes]
   PoseUncertaintyOptions poses;                         //!< [poses]
   JointOptions joint;                                   //!< [joint]
+  VisualOdometryOptions visual;                         //!< [visual]
   PerceptionOptions perception;                         //!< [perception]
   CQuadricObjectMap::TInsertionOptions mapInsertion;    //!< [CQuadricObjectMap_insertOpts]
   CQuadricObjectMap::TLikelihoodOptions mapLikelihood;  //!< [CQuadricObjectMap_likelihoodOpts]

@@ -16,8 +16,9 @@ enum class SlamMethod
 /** Where the poses of the frames come from. */
 enum class PoseSource
 {
-  Auto,        //!< The rawlog's odometry; a rawlog of a single moment needs none
+  Auto,        //!< The rawlog's odometry; a single moment needs none; see surveyOdometry()
   Rawlog,      //!< The rawlog's odometry
+  Visual,      //!< Visual odometry from the images
   GroundTruth  //!< The rawlog's "ground_truth" poses
 };
 
@@ -26,7 +27,7 @@ enum class PoseSource
 SlamMethod slamMethodFrom(const std::string& name);
 std::string nameOf(SlamMethod method);
 
-/** auto, rawlog, ground-truth. \exception std::invalid_argument */
+/** auto, rawlog, visual, ground-truth. \exception std::invalid_argument */
 PoseSource poseSourceFrom(const std::string& name);
 std::string nameOf(PoseSource source);
 

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/slam/SlamOptions.h"
+#include "quadmap/slam/visual/VisualOdometry.h"
 
 namespace quadmap
 {
@@ -66,6 +68,15 @@ struct CorrectionSummary
   bool converged = false;  //!< Nothing moved any more
 };
 
+/** Where the poses came from. */
+struct OdometrySummary
+{
+  PoseSource source = PoseSource::Auto;        //!< Auto: there was no frame
+  std::string visualSensor;                    //!< The camera of visual odometry
+  bool upFromFloor = false;                    //!< Else the first robot pose is taken for upright
+  std::optional<VisualOdometryCounts> visual;  //!< When it was used
+};
+
 /** Everything a run found out, except what is in the KeyframeSpool. */
 struct SlamResult
 {
@@ -73,6 +84,7 @@ struct SlamResult
   std::vector<Keyframe> keyframes;     //!< In the order of the input; see poseNodesOf()
   std::vector<BoxDecision> decisions;  //!< In the order of keyframes and boxes
   std::map<std::string, SlamCounts> countsBySensor;
+  OdometrySummary odometry;
   std::map<std::string, LabelCounts> labels;
   std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
   std::vector<std::string> warnings;
