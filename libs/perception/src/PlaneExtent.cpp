@@ -37,13 +37,13 @@ std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points)
   return hull;
 }
 
-double distanceToSegment(
+Eigen::Vector2d nearestOnSegment(
     const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
   const Eigen::Vector2d d = b - a;
   const double length2 = d.squaredNorm();
   const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * d).norm();
+  return a + t * d;
 }
 
 }  // namespace
@@ -66,19 +66,37 @@ PlaneExtent PlaneExtent::grown(const std::vector<Eigen::Vector3d>& points) const
   return out;
 }
 
-double PlaneExtent::outside(const Eigen::Vector3d& p) const
+PlaneExtent::Rim PlaneExtent::nearestRim(const Eigen::Vector2d& q) const
 {
-  if (isEverywhere()) return -std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d q = along_ * p;
+  Rim out;
+  out.isInside = corners_.size() > 2;
   double nearest = std::numeric_limits<double>::infinity();
-  bool isInside = corners_.size() > 2;
   for (std::size_t i = 0; i < corners_.size(); ++i)
   {
     const Eigen::Vector2d &a = corners_[i], &b = corners_[(i + 1) % corners_.size()];
-    nearest = std::min(nearest, distanceToSegment(q, a, b));
-    isInside = isInside && cross(b - a, q - a) >= 0;
+    const Eigen::Vector2d step = nearestOnSegment(q, a, b) - q;
+    if (step.norm() < nearest)
+    {
+      nearest = step.norm();
+      out.step = step;
+    }
+    out.isInside = out.isInside && cross(b - a, q - a) >= 0;
   }
-  return isInside ? -nearest : nearest;
+  return out;
+}
+
+double PlaneExtent::outside(const Eigen::Vector3d& p) const
+{
+  if (isEverywhere()) return -std::numeric_limits<double>::infinity();
+  const Rim rim = nearestRim(along_ * p);
+  return rim.isInside ? -rim.step.norm() : rim.step.norm();
+}
+
+Eigen::Vector3d PlaneExtent::toExtent(const Eigen::Vector3d& p) const
+{
+  const Rim rim = nearestRim(along_ * p);
+  if (isEverywhere() || rim.isInside) return Eigen::Vector3d::Zero();
+  return along_.transpose() * rim.step;
 }
 
 }  // namespace quadmap

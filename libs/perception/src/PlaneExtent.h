@@ -18,12 +18,22 @@ class PlaneExtent
   /** How far the foot of a point is outside [m]; negative inside. */
   double outside(const Eigen::Vector3d& p) const;
 
+  /** From a point along the surface to the nearest one above the extent [m]; zero inside. */
+  Eigen::Vector3d toExtent(const Eigen::Vector3d& p) const;
+
   /** The extent that reaches to more points, too; one that reaches everywhere stays as it is. */
   PlaneExtent grown(const std::vector<Eigen::Vector3d>& points) const;
 
   bool isEverywhere() const { return corners_.empty(); }
 
  private:
+  struct Rim
+  {
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();  // to its nearest point
+    bool isInside = false;
+  };
+  Rim nearestRim(const Eigen::Vector2d& q) const;
+
   Eigen::Matrix<double, 2, 3> along_ = Eigen::Matrix<double, 2, 3>::Zero();
   std::vector<Eigen::Vector2d> corners_;  // counter-clockwise
 };

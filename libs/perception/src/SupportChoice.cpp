@@ -51,20 +51,24 @@ class SupportJudge
       detection_(detection),
       label_(label),
       object_(object),
-      options_(options)
+      options_(options),
+      ring_(ringAround(cloud, planes.up, detection.box, options))
   {
   }
 
-  BoxSupport decide() const
+  /** \param ownTop A plane that is the top of this very object. */
+  BoxSupport decide(const std::optional<int>& ownTop) const
   {
     BoxSupport out;
     double best = kAnything;
     for (const int i : planes_.horizontal)
-      if (const double score = object_.empty() ? flatScore(i) : standingScore(i); score > best)
-      {
-        best = score;
-        out.plane = i;
-      }
+    {
+      if (ownTop && i == *ownTop) continue;
+      const double score = object_.empty() ? flatScore(i) : standingScore(i);
+      if (score <= best) continue;
+      best = score;
+      out.plane = i;
+    }
     if (!out.plane && label_.support == UsualSupport::Floor) out.plane = planes_.floor;
     for (const int i : planes_.vertical)
       if (const double score = hangingScore(i); score > best)
@@ -78,6 +82,13 @@ class SupportJudge
 
  private:
   bool isFloor(int i) const { return planes_.floor && *planes_.floor == i; }
+
+  bool isMostlyInBox(int i) const
+  {
+    constexpr double kMostly = 0.5;
+    const auto index = static_cast<std::size_t>(i);
+    return index < object_.planeShares.size() && object_.planeShares[index] > kMostly;
+  }
 
   double usual(int i) const
   {
@@ -97,7 +108,7 @@ class SupportJudge
   double standingScore(int i) const
   {
     constexpr double kMinTouching = 0.15;
-    constexpr double kMinAbove = 0.5, kMinCovered = 0.3, kMaxBelow = 0.5;
+    constexpr double kMinCovered = 0.3, kMaxBelow = 0.5;
     const ScenePlane& plane = planes_.plane(i);
     const auto ring = touching(plane.plane);
     const PlaneExtent extent = ring.share > kMinTouching
@@ -105,7 +116,11 @@ class SupportJudge
                                    : plane.extent;
     const auto e =
         standingEvidence(cloud_, plane.plane, extent, object_, detection_.box, label_, options_);
-    if (e.above < kMinAbove || e.covered < kMinCovered || e.below > kMaxBelow) return 0;
+    // A thing's own top is in its box, too, with little above it; thin things rise little above
+    // the noise.
+    const bool mayBeItsTop = label_.support == UsualSupport::Floor || isMostlyInBox(i);
+    const double minAbove = mayBeItsTop ? 0.5 : 0.15;
+    if (e.above < minAbove || e.covered < kMinCovered || e.below > kMaxBelow) return 0;
     return kCovered * e.covered + kBelow * std::max(0.0, e.below - kAllowedBelow) +
            kGap * (1 - std::exp(-e.gap / kGapScale)) +
            kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
@@ -118,10 +133,7 @@ class SupportJudge
     return (kCovered + kTouching) * touching(planes_.plane(i).plane).share + usual(i);
   }
 
-  RingEvidence touching(const Plane& plane) const
-  {
-    return ringOn(cloud_, plane, detection_.box, Ring::LowerHalf, options_);
-  }
+  RingEvidence touching(const Plane& plane) const { return ringOn(ring_, plane, Ring::LowerHalf); }
 
   /** Of the points around the box that lie on a plane those that belong to the seen part of it:
    * the segmentation loses the far ends of surfaces. */
@@ -152,8 +164,7 @@ class SupportJudge
       if (*middle > kThickest || *middle < kBehind) return 0;
     }
     const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
-    return kOnWall * ringOn(cloud_, wall, detection_.box, Ring::All, options_).share + near +
-           usualWall;
+    return kOnWall * ringOn(ring_, wall, Ring::All).share + near + usualWall;
   }
 
   const DepthCloud& cloud_;
@@ -162,6 +173,7 @@ class SupportJudge
   const LabelProperties& label_;
   const RoughObject& object_;
   const PerceptionOptions& options_;
+  std::vector<RingPoint> ring_;
 };
 
 /** Does the lower end of a box lie within another one? */
@@ -177,8 +189,9 @@ bool endsWithin(
   return x > lower.x1 && x < lower.x2 && y > lower.y1 && y < lower.y2;
 }
 
-/** Adds to the planes the small level tops of objects that other boxes end on. */
-void addTops(
+/** Adds to the planes the small level tops of objects that other boxes end on.
+ * \return For each box the index of its top. */
+std::vector<std::optional<int>> addTops(
     const DepthCloud& cloud,
     const std::vector<DetectedObject>& boxes,
     const std::vector<std::optional<RoughObject>>& objects,
@@ -186,26 +199,32 @@ void addTops(
     const PerceptionOptions& options)
 {
   constexpr double kSameLevel = 0.02;  // [m]
+  std::vector<std::optional<int>> tops(boxes.size());
   for (std::size_t lower = 0; lower < boxes.size(); ++lower)
-    for (std::size_t upper = 0; upper < boxes.size(); ++upper)
-    {
-      if (upper == lower || !objects[lower] || !objects[upper]) continue;
-      if (!endsWithin(cloud.camera(), planes.up, boxes[upper].box, boxes[lower].box)) continue;
-      auto top =
-          topUnder(cloud, planes, *objects[lower], boxes[lower].box, boxes[upper].box, options);
-      if (!top) continue;
-      const bool isKnown = std::any_of(
-          planes.horizontal.begin(), planes.horizontal.end(),
-          [&](int i)
-          {
-            const ScenePlane& other = planes.plane(i);
-            return std::abs(other.plane.signedDistance(top->centroid)) < kSameLevel &&
-                   other.extent.outside(top->centroid) < kSameLevel;
-          });
-      if (isKnown) continue;
-      planes.horizontal.push_back(static_cast<int>(planes.all.planes.size()));
-      planes.all.planes.push_back(std::move(*top));
-    }
+  {
+    if (!objects[lower]) continue;
+    std::vector<ImageBox> upper;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (i != lower && objects[i] &&
+          endsWithin(cloud.camera(), planes.up, boxes[i].box, boxes[lower].box))
+        upper.push_back(boxes[i].box);
+    if (upper.empty()) continue;
+    auto top = topOf(cloud, planes, *objects[lower], boxes[lower].box, upper, options);
+    if (!top) continue;
+    const bool isKnown = std::any_of(
+        planes.horizontal.begin(), planes.horizontal.end(),
+        [&](int i)
+        {
+          const ScenePlane& other = planes.plane(i);
+          return std::abs(other.plane.signedDistance(top->centroid)) < kSameLevel &&
+                 other.extent.outside(top->centroid) < kSameLevel;
+        });
+    if (isKnown) continue;
+    tops[lower] = static_cast<int>(planes.all.planes.size());
+    planes.horizontal.push_back(*tops[lower]);
+    planes.all.planes.push_back(std::move(*top));
+  }
+  return tops;
 }
 
 /** Finds out what stands on what: a surface that mostly shows within a box, and that the box's own
@@ -251,13 +270,13 @@ std::vector<BoxSupport> chooseSupports(
     objects.emplace_back();
     if (inImage) objects.back() = roughObject(cloud, planes, detection, properties.back(), options);
   }
-  addTops(cloud, boxes, objects, planes, options);
+  const auto tops = addTops(cloud, boxes, objects, planes, options);
   std::vector<BoxSupport> out;
   for (std::size_t i = 0; i < boxes.size(); ++i)
     out.push_back(
-        objects[i]
-            ? SupportJudge(cloud, planes, boxes[i], properties[i], *objects[i], options).decide()
-            : BoxSupport());
+        objects[i] ? SupportJudge(cloud, planes, boxes[i], properties[i], *objects[i], options)
+                         .decide(tops[i])
+                   : BoxSupport());
   findCarried(cloud, planes, boxes, out);
   return out;
 }

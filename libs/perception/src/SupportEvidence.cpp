@@ -9,9 +9,12 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kMaxCells = 700;  // of a box that are looked at
+constexpr double kMaxCells = 400;  // of a box that are looked at
 constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
 constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
+
+/** Step between the cells that are looked at, in both directions. */
+int stepFor(int cells) { return std::max(1, static_cast<int>(std::sqrt(cells / kMaxCells))); }
 
 struct Weighted
 {
@@ -57,11 +60,43 @@ bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3
   return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
 }
 
-/** 1 inside of an extent, falling to 0 at 10 cm outside: its rim is known to some centimetres. */
-double coverage(const PlaneExtent& extent, const Eigen::Vector3d& p)
+/** Does the camera look through a surface somewhere between a point and its extent? */
+bool looksThroughRim(
+    const DepthCloud& cloud,
+    const Eigen::Vector3d& foot,
+    const Eigen::Vector3d& toExtent,
+    const PerceptionOptions& options)
 {
-  constexpr double kSure = 0.02, kFall = 0.08;  // [m]
-  return std::clamp(1.0 - (extent.outside(p) - kSure) / kFall, 0.0, 1.0);
+  for (const double share : {0.3, 0.6, 0.9})
+  {
+    const Eigen::Vector3d p = foot + share * toExtent;
+    if (p.z() < 0.1) continue;
+    const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
+    const int c = static_cast<int>(std::lround(pixel.x()));
+    const int r = static_cast<int>(std::lround(pixel.y()));
+    const double margin = 0.03 + 2.5 * options.depthSigma(p.z());
+    if (cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() + margin) return true;
+  }
+  return false;
+}
+
+/** Does a surface reach under a point? 1 inside of its extent; falling to 0 at 10 cm outside when
+ * its rim is seen, as that is known to some centimetres, and more slowly when it may go on out of
+ * sight, behind or under the object. */
+double coverage(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const PlaneExtent& extent,
+    const Eigen::Vector3d& p,
+    const PerceptionOptions& options)
+{
+  constexpr double kSure = 0.02, kSeenFall = 0.08, kHiddenFall = 0.4;  // [m]
+  const double outside = extent.outside(p) - kSure;
+  if (outside <= 0) return 1.0;
+  if (outside >= kHiddenFall) return 0.0;
+  const Eigen::Vector3d foot = p - plane.signedDistance(p) * plane.n;
+  const bool isRim = looksThroughRim(cloud, foot, extent.toExtent(p), options);
+  return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
 }
 
 }  // namespace
@@ -79,7 +114,7 @@ RoughObject roughObject(
   const auto range = cloud.cellsOf(box);
   RoughObject out;
   out.planeShares = planes.all.sharesWithin(range);
-  const int step = std::max(1, static_cast<int>(std::sqrt(range.cells() / kMaxCells)));
+  const int step = stepFor(range.cells());
   std::vector<Weighted> all;
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
@@ -134,7 +169,8 @@ StandingEvidence standingEvidence(
   const std::size_t low = std::max<std::size_t>(1, points.size() / 2);
   const std::size_t step = 1 + low / kMaxLowPoints;
   int looked = 0;
-  for (std::size_t i = 0; i < low; i += step, ++looked) out.covered += coverage(extent, points[i]);
+  for (std::size_t i = 0; i < low; i += step, ++looked)
+    out.covered += coverage(cloud, plane, extent, points[i], options);
   out.covered /= looked;
 
   constexpr double kMinGap = 0.05;  // [m]; thinner ones say nothing
@@ -154,31 +190,35 @@ StandingEvidence standingEvidence(
   return out;
 }
 
-std::optional<ScenePlane> topUnder(
+std::optional<ScenePlane> topOf(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const RoughObject& lowerObject,
-    const ImageBox& lower,
-    const ImageBox& upper,
+    const RoughObject& object,
+    const ImageBox& box,
+    const std::vector<ImageBox>& others,
     const PerceptionOptions& options)
 {
   constexpr double kFacesUp = 0.9;     // cosine
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
   constexpr std::size_t kFewest = 20;  // cells
   constexpr double kOwnShare = 0.5;
-  const auto range = cloud.cellsOf(lower), hole = cloud.cellsOf(upper);
+  constexpr int kFinest = 4;  // times more cells than elsewhere: tops are small
+  const auto range = cloud.cellsOf(box);
+  std::vector<DepthCloud::CellRange> holes;
+  for (const auto& other : others) holes.push_back(cloud.cellsOf(other));
+  const int step = stepFor(range.cells() / kFinest);
   std::vector<Eigen::Vector3d> points;
-  for (int r = range.r0; r < range.r1; ++r)
-    for (int c = range.c0; c < range.c1; ++c)
+  for (int r = range.r0; r < range.r1; r += step)
+    for (int c = range.c0; c < range.c1; c += step)
     {
-      if (hole.contains(c, r)) continue;
+      if (std::any_of(holes.begin(), holes.end(), [&](const auto& h) { return h.contains(c, r); }))
+        continue;
       const auto normal = cloud.normal(c, r);
       if (!normal || normal->cast<double>().dot(planes.up) < kFacesUp) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
       const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
       const int plane = planes.all.planeAt(cloud, c, r, tolerance);
-      if (plane >= 0 && lowerObject.planeShares[static_cast<std::size_t>(plane)] < kOwnShare)
-        continue;
+      if (plane >= 0 && object.planeShares[static_cast<std::size_t>(plane)] < kOwnShare) continue;
       points.push_back(p);
     }
   std::stable_sort(
@@ -212,45 +252,55 @@ Eigen::Vector2d downInImage(
   return down.norm() > 0 ? down.normalized() : Eigen::Vector2d::UnitY();
 }
 
-RingEvidence ringOn(
+std::vector<RingPoint> ringAround(
     const DepthCloud& cloud,
-    const Plane& plane,
+    const Eigen::Vector3d& up,
     const ImageBox& box,
-    Ring ring,
     const PerceptionOptions& options)
 {
-  constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
   const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
   const auto outer =
       cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
   const auto inner = cloud.cellsOf(box);
-  const Eigen::Vector2d down = downInImage(cloud.camera(), plane.n, box);
+  const Eigen::Vector2d down = downInImage(cloud.camera(), up, box);
   const double halfHeight =
       0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
-  RingEvidence out;
-  int all = 0, on = 0;
-  for (int r = outer.r0; r < outer.r1; r += 2)
-    for (int c = outer.c0; c < outer.c1; c += 2)
+  const int step = stepFor(std::max(0, outer.cells() - inner.cells()));
+  std::vector<RingPoint> out;
+  for (int r = outer.r0; r < outer.r1; r += step)
+    for (int c = outer.c0; c < outer.c1; c += step)
     {
       if (!cloud.valid(c, r)) continue;
-      // From the middle of the box down, in half heights. The lowest tenth of the box shows the
-      // support as often as the object.
+      // From the middle of the box down, in half heights.
       const double below =
           down.dot(Eigen::Vector2d(
               c * cloud.stride() - box.centerX(), r * cloud.stride() - box.centerY())) /
           halfHeight;
-      if (inner.contains(c, r) ? ring == Ring::All || below < 0.8
-                               : ring == Ring::LowerHalf && below < 0)
-        continue;
-      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      const double tolerance = options.planeTolerance + 2.5 * options.depthSigma(p.z());
-      ++all;
-      if (std::abs(plane.signedDistance(p)) > tolerance) continue;
-      ++on;
-      if (inner.contains(c, r)) continue;
-      const auto normal = cloud.normal(c, r);
-      if (normal && normal->cast<double>().dot(plane.n) > kSameWay) out.surface.push_back(p);
+      RingPoint point;
+      point.inBox = inner.contains(c, r);
+      if (point.inBox && below < 0.8) continue;
+      point.lower = below > 0;
+      point.point = cloud.point(c, r).cast<double>();
+      point.tolerance = options.planeTolerance + 2.5 * options.depthSigma(point.point.z());
+      if (const auto normal = cloud.normal(c, r)) point.normal = normal->cast<double>();
+      out.push_back(point);
     }
+  return out;
+}
+
+RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring)
+{
+  constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
+  RingEvidence out;
+  int all = 0, on = 0;
+  for (const auto& p : points)
+  {
+    if (ring == Ring::All ? p.inBox : !p.lower) continue;
+    ++all;
+    if (std::abs(plane.signedDistance(p.point)) > p.tolerance) continue;
+    ++on;
+    if (!p.inBox && p.normal && p.normal->dot(plane.n) > kSameWay) out.surface.push_back(p.point);
+  }
   if (all > 0) out.share = static_cast<double>(on) / all;
   return out;
 }

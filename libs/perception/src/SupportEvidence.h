@@ -50,15 +50,15 @@ StandingEvidence standingEvidence(
     const LabelProperties& label,
     const PerceptionOptions& options);
 
-/** The level top of the object in one box as far as another box leaves it free: the cover of a book
+/** The level top of the object in one box as far as other boxes leave it free: the cover of a book
  * that a cup stands on, too small to be a plane of the scene. Nothing when hardly any of it shows.
- * \param lower The detection with the top, whose share of each plane is given. */
-std::optional<ScenePlane> topUnder(
+ * \param box Of the object. \param others Boxes that end on it. */
+std::optional<ScenePlane> topOf(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
-    const RoughObject& lowerObject,
-    const ImageBox& lower,
-    const ImageBox& upper,
+    const RoughObject& object,
+    const ImageBox& box,
+    const std::vector<ImageBox>& others,
     const PerceptionOptions& options);
 
 /** Where the surroundings of a box are taken from. */
@@ -79,11 +79,23 @@ struct RingEvidence
   std::vector<Eigen::Vector3d> surface;  //!< Points on it, outside the box, that face as it does
 };
 
-RingEvidence ringOn(
+/** A point in the surroundings of a box. */
+struct RingPoint
+{
+  Eigen::Vector3d point;
+  std::optional<Eigen::Vector3d> normal;
+  double tolerance = 0;  //!< For lying on a plane [m]
+  bool inBox = false;    //!< In the lowest tenth of the box: the support shows there, too
+  bool lower = false;    //!< Below the middle of the box
+};
+
+/** The surroundings of a box: a ring of an eighth of its size, some hundred points. */
+std::vector<RingPoint> ringAround(
     const DepthCloud& cloud,
-    const Plane& plane,
+    const Eigen::Vector3d& up,
     const ImageBox& box,
-    Ring ring,
     const PerceptionOptions& options);
+
+RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring);
 
 }  // namespace quadmap
