@@ -120,6 +120,7 @@ std::vector<std::string> VisualOdometry::takeWarnings()
 
 bool VisualOdometry::Impl::add(const mrpt::obs::CObservation3DRangeScan& scan)
 {
+  constexpr std::size_t kMinFailures = 2;  // before a new start: images may be a second apart
   ++counts.frames;
   const double time = mrpt::Clock::toDouble(scan.timestamp);
   const auto image = std::make_shared<const VisualImage>(scan, options);
@@ -131,7 +132,7 @@ bool VisualOdometry::Impl::add(const mrpt::obs::CObservation3DRangeScan& scan)
     accept(image, time, *estimate);
     known = true;
   }
-  else if (time - last->time > options.maxGap)
+  else if (time - last->time > options.maxGap && failedInARow >= kMinFailures)
     known = start(image, time);
   if (!known) return fail(time), false;
   failedInARow = 0;
@@ -303,12 +304,10 @@ bool VisualOdometry::Impl::needsKeyframe(const MotionEstimate& estimate) const
          estimate.inliers < options.keyframeMinShare * corners;
 }
 
-/** Of the last image with a pose. */
+/** Of the last image with a pose: what could be placed has enough to go by, if only descriptors. */
 void VisualOdometry::Impl::makeKeyframe()
 {
-  Reference reference(last->image, last->T_map_optical, options);
-  if (!canStart(reference)) return;
-  keyframe.emplace(std::move(reference));
+  keyframe.emplace(last->image, last->T_map_optical, options);
   ++counts.keyframes;
   uncertainty.addKeyframe(last->covariance);
   last->covariance.setZero();

@@ -29,9 +29,8 @@ struct VisualOdometryOptions : public mrpt::config::CLoadableOptions
   double maxSigmaAngle = mrpt::DEG2RAD(1.0);  //!< ... [rad], > 0; INI in degrees
   double maxSpeed = 2.0;                      //!< Nobody carries a camera faster [m/s], > 0
   double maxTurnRate = mrpt::DEG2RAD(200.0);  //!< ... or turns it faster [rad/s], > 0; INI in deg
-  double maxGap =
-      1.0;  //!< After this long without success the next good image starts anew [s], > 0
-  double gapSpeed = 0.5;                     //!< Sigma of the unseen motion in a gap [m/s], > 0
+  double maxGap = 1.0;    //!< After this long and two images without success: a new start [s], > 0
+  double gapSpeed = 0.5;  //!< Sigma of the unseen motion in a gap [m/s], > 0
   double gapTurnRate = mrpt::DEG2RAD(30.0);  //!< ... [rad/s], > 0; INI in degrees
 
   void loadFromConfigFile(
