@@ -133,7 +133,7 @@ void setPartialPosition(
     view.center = view.camera + kBlindRange * direction;
     alongRay = kBlindRangeSigma;
   }
-  const double acrossRay = 0.05 + 0.3 * size.mean();
+  const double acrossRay = 0.05 + 0.24 * size.mean();
   view.centerCovariance =
       acrossRay * acrossRay * Eigen::Matrix3d::Identity() +
       (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();

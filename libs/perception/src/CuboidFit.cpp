@@ -52,8 +52,7 @@ void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator)
  * without a heading so do the corners that make the outline. */
 void addHeadingSigma(Faces& faces, const YawEstimate& yaw)
 {
-  constexpr double kUnknownSigma = 0.06;  // of the smallest rectangle's heading [rad]
-  constexpr double kLeastSigma = 0.02;    // a face is less straight than its heading is known [rad]
+  constexpr double kUnknownSigma = 0.045;  // of the smallest rectangle's heading [rad]
   const double middle[2] = {
       0.5 * (faces[0].position - faces[1].position), 0.5 * (faces[2].position - faces[3].position)};
   const double half[2] = {
@@ -63,9 +62,8 @@ void addHeadingSigma(Faces& faces, const YawEstimate& yaw)
     const std::size_t across = side < 2 ? 1 : 0;
     double lever = faces[side].shift - middle[across];
     if (!yaw.defined) lever = std::hypot(lever, half[across]);
-    faces[side].worth.sigma = std::hypot(
-        faces[side].worth.sigma,
-        lever * (yaw.defined ? std::max(yaw.sigma, kLeastSigma) : kUnknownSigma));
+    faces[side].worth.sigma =
+        std::hypot(faces[side].worth.sigma, lever * (yaw.defined ? yaw.sigma : kUnknownSigma));
   }
 }
 

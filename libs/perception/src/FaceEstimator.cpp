@@ -107,7 +107,9 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   out.source = FaceSource::Surface;
   out.shift = shift / count;
   out.position = median(shell);
-  out.worth = {FaceKind::Measured, surfaceSigma(range_, options_)};
+  out.worth = {
+      FaceKind::Measured,
+      face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
 
   // What stands out of the top (a handle) belongs to the object.
   if (face != kTop) return out;

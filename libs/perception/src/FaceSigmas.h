@@ -17,7 +17,7 @@ inline double outlineShift(double away, double perCell)
 {
   if (away < -0.25)
     return 0.0;  // the outermost point is no end of a line, but a point nearer to us
-  return (away > 0.25 ? 1.2 : 0.5) * perCell;
+  return (away > 0.25 ? 1.0 : 0.5) * perCell;
 }
 
 /** How far depth noise moves the outermost of some points along a face's normal [m]. */
@@ -38,7 +38,13 @@ inline double roundOutlineSigma(double radius, double outline)
  * sensor's depth and what is not quite flat are. */
 inline double surfaceSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.003, 0.4 * options.depthSigma(range));
+  return std::hypot(0.0028, 0.35 * options.depthSigma(range));
+}
+
+/** The same of the top, which no heading moves. */
+inline double topSurfaceSigma(double range, const PerceptionOptions& options)
+{
+  return std::hypot(0.0018, 0.28 * options.depthSigma(range));
 }
 
 /** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
@@ -46,7 +52,7 @@ inline double protrusionSigma(double cell) { return std::hypot(0.005, cell); }
 
 inline double roundSurfaceSigma(double range, double radius, const PerceptionOptions& options)
 {
-  return std::hypot(0.08 * radius, surfaceSigma(range, options));
+  return std::hypot(0.06 * radius, surfaceSigma(range, options));
 }
 
 /** The far side of something as deep as it is wide. \param near Of its near side [m]. */
@@ -73,7 +79,7 @@ inline double topEdgeSigma(double perCell, double range, const PerceptionOptions
 /** A plane of many points, below the object. */
 inline double supportSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.002, 0.15 * options.depthSigma(range));
+  return std::hypot(0.0015, 0.15 * options.depthSigma(range));
 }
 
 }  // namespace quadmap
