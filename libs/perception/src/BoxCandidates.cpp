@@ -213,6 +213,8 @@ BoxCandidates candidatesIn(
     const int plane = planes.all.planeAt(cloud, c, r, tolerance);
     return plane >= 0 && ownShares[static_cast<std::size_t>(plane)] < minOwnShare;
   };
+  out.cells.reserve(static_cast<std::size_t>(out.range.cells()));
+  out.points.reserve(static_cast<std::size_t>(out.range.cells()));
   const auto stride = static_cast<unsigned>(cloud.stride());
   for (int r = out.range.r0; r < out.range.r1; ++r)
     for (int c = out.range.c0; c < out.range.c1; ++c)

@@ -115,6 +115,15 @@ std::optional<Eigen::Vector3f> DepthCloud::normal(int c, int r) const
 bool DepthCloud::isFlyingPixel(int c, int r) const
 {
   const float z = depth(c, r), tolerance = jumpTolerance(z);
+  if (inside(c - 1, r - 1) && inside(c + 1, r + 1))
+  {
+    // Most cells lie within a surface: four near neighbours settle it.
+    const std::size_t i = index(c, r), row = static_cast<std::size_t>(columns_);
+    const auto isNear = [&](float zn) { return zn > 0 && std::abs(zn - z) < tolerance; };
+    if (isNear(depth_[i - 1]) && isNear(depth_[i + 1]) && isNear(depth_[i - row]) &&
+        isNear(depth_[i + row]))
+      return false;
+  }
   int near = 0, jumps = 0;
   for (int dr = -1; dr <= 1; ++dr)
     for (int dc = -1; dc <= 1; ++dc)

@@ -85,6 +85,8 @@ class EdgeJudge
     const auto inside = cloud.cellsOf(box);
     for (const auto& cell : context.object.cells)
       if (!inside.contains(cell.c, cell.r)) ownOutside_.insert(key(cell.c, cell.r));
+    for (const auto& other : context.boxes)
+      if (other.depth > 0) others_.push_back({cloud.cellsOf(other.box), other.depth});
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto edge = static_cast<BoxEdge>(i);
@@ -155,10 +157,8 @@ class EdgeJudge
     if (cloud_.valid(c, r))
       return cloud_.depth(c, r) < limit && ownOutside_.count(key(c, r)) == 0 && !isOnSupport(c, r);
     return std::any_of(
-        context_.boxes.begin(), context_.boxes.end(),
-        [&](const BoxAtDepth& other) {
-          return other.depth > 0 && other.depth < limit && cloud_.cellsOf(other.box).contains(c, r);
-        });
+        others_.begin(), others_.end(),
+        [&](const auto& other) { return other.depth < limit && other.cells.contains(c, r); });
   }
 
   /** Share of an edge's length along which `isIt(c, r)` for a cell of the strip outside it. */
@@ -258,10 +258,17 @@ class EdgeJudge
     if (top > 0) e.floating = std::clamp(low / top, 0.0, 1.0);
   }
 
+  struct CellsAtDepth
+  {
+    DepthCloud::CellRange cells;
+    double depth;  // [m]
+  };
+
   const DepthCloud& cloud_;
   const ImageBox box_;
   const EdgeContext& context_;
   const PerceptionOptions& options_;
+  std::vector<CellsAtDepth> others_;    // the boxes whose depth is known
   std::unordered_set<int> ownOutside_;  // cells of the object outside its box
   std::array<bool, 4> nearBorder_;
   std::array<double, 4> nearer_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 
 #include "FaceSigmas.h"
 #include "quadmap/geometry/RobustStatistics.h"
@@ -42,6 +42,8 @@ FaceEstimator::FaceEstimator(
   R_obj_optical_ =
       Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * level.R_level_optical;
   const Eigen::Matrix3d R_obj_level = R_obj_optical_ * level.R_level_optical.transpose();
+  points_.reserve(level.points.size());
+  normals_.reserve(level.points.size());
   for (std::size_t i = 0; i < level.points.size(); ++i)
   {
     points_.push_back(R_obj_level * level.points[i]);
@@ -91,6 +93,7 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   const double shellDepth = std::max(0.03, 4.0 * options_.depthSigma(range_));  // [m]
   const Eigen::Vector3d n = normalOf(face);
   std::vector<double> all, shell;
+  all.reserve(points_.size());
   for (const auto& p : points_) all.push_back(n.dot(p));
   const double extreme = quantile(all, 1.0 - kTailShare);
   const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
@@ -158,16 +161,19 @@ FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
   out.metresPerCell = kStep / std::max(cells, 1e-3);
   const Eigen::Vector2d across(-step.y() / std::max(cells, 1e-9), step.x() / std::max(cells, 1e-9));
 
-  std::map<int, Line> lines;
+  // No cell is farther from the first line than the image is long, either way.
+  const int reach = cloud_.columns() + cloud_.rows();
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  std::vector<Line> lines(static_cast<std::size_t>(2 * reach), Line{0, kNothing});
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    const int line =
-        static_cast<int>(std::floor(across.dot(Eigen::Vector2d(cells_[i].c, cells_[i].r))));
-    const Line candidate{i, n.dot(points_[i])};
-    const auto [it, isNew] = lines.try_emplace(line, candidate);
-    if (!isNew && candidate.along > it->second.along) it->second = candidate;
+    const double number = std::floor(across.x() * cells_[i].c + across.y() * cells_[i].r);
+    Line& line = lines[static_cast<std::size_t>(static_cast<int>(number) + reach)];
+    const double along = n.dot(points_[i]);
+    if (along > line.along) line = {i, along};
   }
-  for (const auto& [key, line] : lines) out.lines.push_back(line);
+  for (const auto& line : lines)
+    if (line.along > kNothing) out.lines.push_back(line);
   std::sort(
       out.lines.begin(), out.lines.end(),
       [](const Line& a, const Line& b) { return a.along > b.along; });
@@ -244,6 +250,8 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
   const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
   int profile = 0, rim = 0;
   std::vector<double> depth, width;
+  depth.reserve(points_.size());
+  width.reserve(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
     width.push_back(points_[i][across]);

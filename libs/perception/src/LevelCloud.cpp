@@ -29,17 +29,22 @@ LevelCloud levelCloud(
   LevelCloud out;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   std::vector<double> ranges;
+  ranges.reserve(object.points.size());
   for (const auto& p : object.points)
   {
     centroid += p;
     ranges.push_back(p.z());
   }
   out.R_level_optical = levelRotation(up_optical, centroid.normalized());
-  out.medianRange = median(ranges);
+  out.medianRange = median(std::move(ranges));
   constexpr std::size_t kMaxSamples = 5000;
   const std::size_t step = 1 + object.points.size() / kMaxSamples;
   out.cellsPerSample = static_cast<double>(step);
   out.cellsPerNormal = cloud.cellsPerNormal(out.medianRange);
+  const std::size_t samples = object.points.size() / step + 1;
+  out.cells.reserve(samples);
+  out.points.reserve(samples);
+  out.normals.reserve(samples);
   for (std::size_t i = 0; i < object.points.size(); i += step)
   {
     out.cells.push_back(object.cells[i]);

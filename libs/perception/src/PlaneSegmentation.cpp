@@ -70,7 +70,7 @@ pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>::Ptr edgeAwareComparat
 int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tolerance) const
 {
   const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-  int best = -1;
+  int best = -1, last = -1;  // neighbours mostly belong to one plane
   double bestDistance = tolerance;
   for (int dr = -2; dr <= 2; dr += 2)  // the segmentation leaves out the rim of each plane
     for (int dc = -2; dc <= 2; dc += 2)
@@ -78,7 +78,8 @@ int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tol
       const int cc = c / kPlaneStride + dc, rr = r / kPlaneStride + dr;
       if (cc < 0 || rr < 0 || cc >= columns_ || rr >= rows_) continue;
       const int label = labels_[static_cast<std::size_t>(rr * columns_ + cc)];
-      if (label < 0) continue;
+      if (label < 0 || label == last) continue;
+      last = label;
       const double distance =
           std::abs(planes[static_cast<std::size_t>(label)].plane.signedDistance(p));
       if (distance < bestDistance)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 
 namespace quadmap
 {
@@ -45,17 +44,29 @@ std::int64_t keyOf(const Eigen::Vector3i& cell)
   return ((cell.x() + kOffset) << 42) | ((cell.y() + kOffset) << 21) | (cell.z() + kOffset);
 }
 
-/** The occupied cells of the grid, each with a number. */
-struct Grid
+/** The occupied cells of the grid, each with a number, in an open hash table: most of the time goes
+ * into looking up neighbours. */
+class Grid
 {
-  std::unordered_map<std::int64_t, int> numbers;
-  std::vector<Eigen::Vector3i> cells;
+ public:
+  explicit Grid(std::size_t maxCells)
+  {
+    while ((std::size_t(1) << bits_) < 2 * maxCells) ++bits_;
+    slots_.resize(std::size_t(1) << bits_);
+  }
+
+  std::size_t size() const { return cells_.size(); }
 
   int numberOf(const Eigen::Vector3i& cell)
   {
-    const auto [it, isNew] = numbers.try_emplace(keyOf(cell), static_cast<int>(cells.size()));
-    if (isNew) cells.push_back(cell);
-    return it->second;
+    const std::int64_t key = keyOf(cell);
+    Slot& slot = slots_[slotOf(key)];
+    if (slot.number < 0)
+    {
+      slot = {key, static_cast<int>(cells_.size())};
+      cells_.push_back(cell);
+    }
+    return slot.number;
   }
 
   /** Gives `label` to every cell without one that hangs together with cell `seed`. */
@@ -65,18 +76,39 @@ struct Grid
     component[static_cast<std::size_t>(seed)] = label;
     while (!stack.empty())
     {
-      const Eigen::Vector3i cell = cells[static_cast<std::size_t>(stack.back())];
+      const Eigen::Vector3i cell = cells_[static_cast<std::size_t>(stack.back())];
       stack.pop_back();
       for (int i = 0; i < 27; ++i)
       {
-        const auto it =
-            numbers.find(keyOf(cell + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
-        if (it == numbers.end() || component[static_cast<std::size_t>(it->second)] >= 0) continue;
-        component[static_cast<std::size_t>(it->second)] = label;
-        stack.push_back(it->second);
+        const std::int64_t key = keyOf(cell + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+        const int number = slots_[slotOf(key)].number;
+        if (number < 0 || component[static_cast<std::size_t>(number)] >= 0) continue;
+        component[static_cast<std::size_t>(number)] = label;
+        stack.push_back(number);
       }
     }
   }
+
+ private:
+  struct Slot
+  {
+    std::int64_t key = 0;
+    int number = -1;  // free
+  };
+
+  /** Where a key is, or the free slot where it belongs. */
+  std::size_t slotOf(std::int64_t key) const
+  {
+    constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15u;  // 2^64 over the golden ratio
+    std::size_t slot = (static_cast<std::uint64_t>(key) * kGolden) >> (64 - bits_);
+    while (slots_[slot].number >= 0 && slots_[slot].key != key)
+      slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+
+  unsigned bits_ = 4;  // of the number of slots
+  std::vector<Slot> slots_;
+  std::vector<Eigen::Vector3i> cells_;
 };
 
 }  // namespace
@@ -85,13 +117,14 @@ PointClusters::PointClusters(
     const std::vector<Eigen::Vector3d>& points, double gap, const PerceptionOptions& options)
 {
   const DepthScale depthScale(gap, options);
-  Grid grid;
+  Grid grid(points.size());
+  labels_.reserve(points.size());
   for (const auto& p : points)
   {
     const Eigen::Vector3d cell(p.x() / gap, p.y() / gap, depthScale(p.z()));
     labels_.push_back(grid.numberOf(cell.array().floor().cast<int>()));
   }
-  std::vector<int> component(grid.cells.size(), -1);
+  std::vector<int> component(grid.size(), -1);
   for (std::size_t seed = 0; seed < component.size(); ++seed)
     if (component[seed] < 0) grid.flood(static_cast<int>(seed), count_++, component);
   for (int& label : labels_) label = component[static_cast<std::size_t>(label)];
