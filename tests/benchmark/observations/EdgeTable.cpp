@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "FrameMeasurer.h"
 
@@ -41,12 +42,10 @@ std::vector<Rule> rules()
   };
 }
 
-/** How much further out than the visible box the whole outline ends at each edge [px]. */
-std::array<double, 4> hiddenPixels(const simulator::VisibleObject& seen)
+/** How much further out than `box` the outline ends at each edge [px]. */
+std::array<double, 4> pixelsBeyond(const ImageBox& box, const ImageBox& outline)
 {
-  return {
-      seen.box.x1 - seen.outline.x1, seen.box.y1 - seen.outline.y1, seen.outline.x2 - seen.box.x2,
-      seen.outline.y2 - seen.box.y2};
+  return {box.x1 - outline.x1, box.y1 - outline.y1, outline.x2 - box.x2, outline.y2 - box.y2};
 }
 
 class EdgeTable
@@ -56,22 +55,25 @@ class EdgeTable
 
   void add(const std::string& rule, const ObservedFrame& frame, const CObservationObjects& measured)
   {
-    static const char* const kEdges[] = {"left", "top", "right", "bottom"};
     for (std::size_t b = 0; b < measured.objects.size(); ++b)
     {
       if (!frame.truth[b]) continue;
+      const DetectedObject& object = measured.objects[b];
       const auto& seen = frame.truth[b]->visible;
-      const auto hidden = hiddenPixels(seen);
-      const auto& edges = measured.objects[b].measurement.edges;
+      const auto sigma = PerceptionOptions().edgeSigmaIn(measured.cameraParams.ncols);
+      const auto beyond = pixelsBeyond(object.box, seen.outline);
+      const auto hidden = pixelsBeyond(seen.box, seen.outline);
       for (std::size_t e = 0; e < 4; ++e)
       {
-        const double size = e % 2 == 0 ? seen.box.width() : seen.box.height();
-        const double scale = measured.cameraParams.ncols / 640.0;
-        const bool isInvalid = hidden[e] > truth_.pixels * scale + truth_.share * size;
+        const auto& edges = object.measurement.edges;
         const bool isUsable = edges && (*edges)[e].state == EdgeState::Usable;
-        for (const std::string& row :
-             {std::string("all"), std::string(kEdges[e]), frame.truth[b]->label})
+        const bool isInvalid = beyond[e] > truth_.sigmas * sigma;
+        for (const std::string& row : {std::string("all"), kEdges[e], frame.truth[b]->label})
           counts_[row][rule].add(isInvalid, isUsable);
+        for (std::size_t k = 0; k < kSigmas.size(); ++k)
+          bySigmas_[rule][k].add(beyond[e] > kSigmas[k] * sigma, isUsable);
+        const double size = e % 2 == 0 ? seen.box.width() : seen.box.height();
+        byVisible_[rule].add(hidden[e] > 0.5 * sigma + 0.03 * size, isUsable);
       }
     }
   }
@@ -79,13 +81,21 @@ class EdgeTable
   void print(std::ostream& out) const
   {
     out << mrpt::format(
-        "%-16s %-10s %6s %6s %8s %16s %12s\n", "edges", "rule", "good", "invalid", "usable",
+        "%-20s %-10s %6s %7s %8s %16s %12s\n", "edges", "rule", "good", "invalid", "usable",
         "invalid of them", "good kept");
     printRow("all", out);
-    for (const char* edge : {"left", "top", "right", "bottom"}) printRow(edge, out);
+    for (const auto& edge : kEdges) printRow(edge, out);
     for (const auto& [row, byRule] : counts_)
-      if (row != "all" && row != "left" && row != "top" && row != "right" && row != "bottom")
+      if (row != "all" && std::find(kEdges.begin(), kEdges.end(), row) == kEdges.end())
         printRow(row, out);
+    out << "\nall edges, invalid when the outline ends beyond them by more than\n";
+    for (std::size_t k = 0; k < kSigmas.size(); ++k)
+      for (const auto& rule : rules())
+        printCounts(
+            mrpt::format("%.0f sigma", kSigmas[k]), rule.name, bySigmas_.at(rule.name)[k], out);
+    out << "all edges, invalid when it ends beyond the visible part by more than\n";
+    for (const auto& rule : rules())
+      printCounts("3 px of 640 + 3 %", rule.name, byVisible_.at(rule.name), out);
   }
 
  private:
@@ -93,19 +103,26 @@ class EdgeTable
   {
     const auto found = counts_.find(row);
     if (found == counts_.end()) return;
-    for (const auto& rule : rules())
-    {
-      const EdgeCounts& n = found->second.at(rule.name);
-      const auto usable = static_cast<double>(n.usableGood + n.usableInvalid);
-      out << mrpt::format(
-          "%-16s %-10s %6zu %6zu %8.0f %14.2f %% %10.1f %%\n", row.c_str(), rule.name, n.good,
-          n.invalid, usable, 100.0 * static_cast<double>(n.usableInvalid) / std::max(1.0, usable),
-          100.0 * static_cast<double>(n.usableGood) / std::max(1.0, static_cast<double>(n.good)));
-    }
+    for (const auto& rule : rules()) printCounts(row, rule.name, found->second.at(rule.name), out);
   }
 
+  static void printCounts(
+      const std::string& row, const std::string& rule, const EdgeCounts& n, std::ostream& out)
+  {
+    const auto usable = static_cast<double>(n.usableGood + n.usableInvalid);
+    out << mrpt::format(
+        "%-20s %-10s %6zu %7zu %8.0f %14.2f %% %10.1f %%\n", row.c_str(), rule.c_str(), n.good,
+        n.invalid, usable, 100.0 * static_cast<double>(n.usableInvalid) / std::max(1.0, usable),
+        100.0 * static_cast<double>(n.usableGood) / std::max(1.0, static_cast<double>(n.good)));
+  }
+
+  inline static const std::array<std::string, 4> kEdges{"left", "top", "right", "bottom"};
+  static constexpr std::array<double, 3> kSigmas{1, 2, 3};  // definitions to compare
+
   EdgeTruthOptions truth_;
-  std::map<std::string, std::map<std::string, EdgeCounts>> counts_;  // row, rule
+  std::map<std::string, std::map<std::string, EdgeCounts>> counts_;         // row, rule
+  std::map<std::string, std::array<EdgeCounts, kSigmas.size()>> bySigmas_;  // rule
+  std::map<std::string, EdgeCounts> byVisible_;  // rule; sterner: what is hidden at all
 };
 
 }  // namespace

@@ -6,12 +6,13 @@
 
 namespace quadmap::observations
 {
-/** When an edge of a box is invalid: the object's whole outline ends further out than what is
- * visible of it by more than this. */
+/** When an edge of a box is invalid: the object goes on beyond it, so that the plane through it is
+ * not tangent to the object within what its own sigma allows. */
 struct EdgeTruthOptions
 {
-  double pixels = 3;    //!< Of an image 640 px wide; scaled with the width
-  double share = 0.03;  //!< ... plus this share of the box's size across the edge
+  /** From the measured edge outwards to the edge of the object's whole outline, in sigmas stored
+   * with the edge. */
+  double sigmas = 3;
 };
 
 /** Prints how well the usable edges are told from those that the object goes on beyond: for each

@@ -40,11 +40,10 @@ struct Cli
       "", "resolution", "Image size, same width of view.", false, "320x240", "WxH", line.args()};
   TCLAP::ValueArg<int> framesStep{"",  "frames-step", "Every n-th frame only.", false, 1,
                                   "N", line.args()};
-  TCLAP::ValueArg<double> invalidPixels{
+  TCLAP::ValueArg<double> invalidSigmas{
       "",
-      "invalid-px",
-      "edges: one is invalid when the object goes on by more than this [px of an image 640 wide] "
-      "and 3 % of its size.",
+      "invalid-sigmas",
+      "edges: one is invalid when the object's outline ends beyond it by more sigmas of its own.",
       false,
       3,
       "N",
@@ -85,7 +84,7 @@ void printTable(Cli& cli)
 {
   const RunOptions run = runOptions(cli);
   const std::string& table = cli.table.getValue();
-  if (table == "edges") return printEdgeTable(run, {cli.invalidPixels.getValue()}, std::cout);
+  if (table == "edges") return printEdgeTable(run, {cli.invalidSigmas.getValue()}, std::cout);
   if (table == "ablation") return printAblationTable(run, std::cout);
   std::ofstream raw;
   if (cli.raw.isSet())
