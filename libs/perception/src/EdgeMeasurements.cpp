@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <unordered_set>
 
 #include "HiddenPart.h"
@@ -132,9 +134,12 @@ class EdgeJudge
     return depths.size() < kMinCells ? context_.depth : quantile(std::move(depths), kNearPart);
   }
 
+  /** Of a point at a depth that may lie on a supporting surface [m]. */
+  double supportTolerance(double depth) const { return 0.03 + 2.0 * options_.depthSigma(depth); }
+
   bool isOnSupport(int c, int r) const
   {
-    const double tolerance = 0.03 + 2.0 * options_.depthSigma(cloud_.depth(c, r));
+    const double tolerance = supportTolerance(cloud_.depth(c, r));
     const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
     return std::any_of(
         context_.surfaces.begin(), context_.surfaces.end(),
@@ -190,6 +195,54 @@ class EdgeJudge
         [&](int c, int r) { return isNearer(c, r, limit); });
   }
 
+  /** Share of the object's cells at one of its ends that something nearer touches. What stands
+   * before another part of the edge hides nothing there. */
+  double nearerShareAtEnd(BoxEdge edge) const
+  {
+    const bool upright = isUpright(edge);
+    const int outwards = edge == BoxEdge::Left || edge == BoxEdge::Top ? -1 : 1;
+    std::map<int, int> ends;                    // of the object in each row (left, right) or column
+    int end = std::numeric_limits<int>::min();  // outwards
+    for (const auto& [c, r] : context_.object.cells)
+    {
+      const int position = outwards * (upright ? c : r);
+      const auto added = ends.emplace(upright ? r : c, position).first;
+      added->second = std::max(added->second, position);
+      end = std::max(end, position);
+    }
+    const double sigma = options_.edgeSigmaIn(cloud_.camera().width) / cloud_.stride();
+    int cells = 0, touched = 0;
+    for (const auto& [line, position] : ends)
+      if (end - position <= sigma)
+      {
+        ++cells;
+        touched += isNearerBeyond(upright, line, position, outwards) ? 1 : 0;
+      }
+    return cells > 0 ? static_cast<double>(touched) / cells : 0.0;
+  }
+
+  /** Is something nearer in the strip beyond a cell of the object?
+   * \param line Row (left and right edges) or column of the cell.
+   * \param position Its column or row, times `outwards`, which is 1 or -1. */
+  bool isNearerBeyond(bool upright, int line, int position, int outwards) const
+  {
+    const auto cell = [&](int p) {
+      return upright ? ObjectCloud::Cell{p * outwards, line}
+                     : ObjectCloud::Cell{line, p * outwards};
+    };
+    const auto own = cell(position);
+    const double depth = cloud_.depth(own.c, own.r);
+    const double limit = depth - depthMargin(depth);
+    const int width = std::max(
+        2, static_cast<int>(scaledPixels(cloud_, options_.occlusionStrip)) / cloud_.stride());
+    for (int k = 1; k <= width; ++k)
+    {
+      const auto [c, r] = cell(position + k);
+      if (cloud_.inside(c, r) && isNearer(c, r, limit)) return true;
+    }
+    return false;
+  }
+
   /** Near the border of the image, and the object is not seen to end before it. */
   bool isNearBorder(BoxEdge edge, double depth) const
   {
@@ -220,6 +273,7 @@ class EdgeJudge
     const auto i = static_cast<std::size_t>(edge);
     HiddenEvidence e;
     e.nearer = nearer_[i];
+    e.touching = e.nearer * nearerShareAtEnd(edge);
     e.opposite = nearer_[(i + 2) % 4];
     e.depth = context_.depth;
     e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
@@ -241,7 +295,6 @@ class EdgeJudge
     if (std::abs(context_.up.x()) > std::abs(context_.up.y())) std::swap(width, height);
     const double lower = std::log(label.typicalSize.z() / height) / label.sizeSpread;
     e.tooLow = std::max(0.0, lower);
-    e.higher = std::max(0.0, -lower);
     e.tooNarrow =
         std::max(0.0, std::log(label.typicalSize.head<2>().maxCoeff() / width) / label.sizeSpread);
   }
@@ -255,7 +308,9 @@ class EdgeJudge
     for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
       heights.push_back(support.signedDistance(points[i]));
     const double top = quantile(heights, 0.98), low = quantile(std::move(heights), 0.02);
-    if (top > 0) e.floating = std::clamp(low / top, 0.0, 1.0);
+    // As much above the support was cut away with it.
+    const double gap = low - supportTolerance(context_.depth);
+    if (top > 0) e.floating = std::clamp(gap / top, 0.0, 1.0);
   }
 
   struct CellsAtDepth

@@ -5,7 +5,10 @@ namespace quadmap
 /** What speaks for and against that an object goes on beyond an edge of its box. */
 struct HiddenEvidence
 {
-  double nearer = 0;        //!< Share of the edge along which something nearer stands outside it
+  double nearer = 0;  //!< Share of the edge along which something nearer stands outside it
+  /** The same times the share of the object's outermost cells that it touches: what hides the end
+   * of an object does so where the object seems to end */
+  double touching = 0;
   double opposite = 0;      //!< The same of the opposite edge: then what is hidden is over there
   double depth = 0;         //!< Of the object [m]: from afar, contacts are harder to see
   bool cutBeside = false;   //!< One of the two edges that meet this one is at the image border
@@ -13,7 +16,6 @@ struct HiddenEvidence
   /** Standard deviations by which the visible part is smaller than such things usually are; 0 when
    * it is not or nobody knows. */
   double tooLow = 0, tooNarrow = 0;
-  double higher = 0;  //!< The same for higher than usual
   /** Height of the lowest visible point above the support over that of the highest one, in [0, 1]:
    * things stand on something. */
   double floating = 0;

@@ -49,8 +49,9 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double borderMargin = 30;   //!< Box edges this near to the border are cut; 0: the rule is off
   double occlusionStrip = 8;  //!< Width of the strip outside an edge that is looked at
   /** An edge is not used when the object goes on beyond it with more than this probability; 1: the
-   * rule is off. 0.15: 2 % of the edges in use are wrong, and the map is best (doc/benchmarks.md). */
-  double maxHiddenProbability = 0.15;
+   * rule is off. 0.1: below 1 % of the edges in use are wrong on simulated homes
+   * (doc/benchmarks.md). */
+  double maxHiddenProbability = 0.10;
   /** Standard deviation of a detector's box edge [px of an image 640 px wide], > 0: detectors look
    * at images of one size, whatever the camera's. */
   double edgeSigma = 6.0;
