@@ -18,9 +18,11 @@ constexpr double kAway = 0.25;  // cosine from which a side is turned away
 Eigen::Index axisOf(std::size_t face) { return static_cast<Eigen::Index>(face / 2); }
 
 /** Extent of the middle 90 % of some values. */
-double spread(const std::vector<double>& values)
+double spread(std::vector<double> values)
 {
-  return values.empty() ? 0.0 : quantile(values, 0.95) - quantile(values, 0.05);
+  if (values.empty()) return 0.0;
+  const double high = quantile(values, 0.95);
+  return high - quantile(std::move(values), 0.05);
 }
 
 }  // namespace
@@ -263,7 +265,7 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
     profile += inProfile ? 1 : 0;
   }
   return profile > kMinProfile * rim &&
-         spread(depth) > std::max(kMinDepth, kMinBreadth * spread(width));
+         spread(std::move(depth)) > std::max(kMinDepth, kMinBreadth * spread(std::move(width)));
 }
 
 /** Does the object go on beyond a cell at its rim: at the image border, behind something nearer, or

@@ -83,6 +83,10 @@ class Segmenter
       cloud_(cloud), planes_(planes), tasks_(tasks), options_(options)
   {
     owner_.assign(static_cast<std::size_t>(cloud.columns() * cloud.rows()), kNobody);
+    constexpr double kMinIoU = 0.55;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      for (std::size_t j = 0; j < tasks.size(); ++j)
+        isSameThing_.push_back(i == j || imageBoxIoU(boxOf(i), boxOf(j)) > kMinIoU);
   }
 
   /** Small boxes first: what stands alone in one of them is no part of the larger ones around it.
@@ -124,8 +128,7 @@ class Segmenter
   /** Two boxes that a detector drew around one thing, under two names. */
   bool isSameThing(std::size_t i, std::size_t j) const
   {
-    constexpr double kMinIoU = 0.55;
-    return i == j || imageBoxIoU(boxOf(i), boxOf(j)) > kMinIoU;
+    return isSameThing_[i * tasks_.size() + j];
   }
   bool belongsToOther(std::size_t i, const ObjectCloud::Cell& cell)
   {
@@ -279,7 +282,8 @@ class Segmenter
   const ScenePlanes& planes_;
   const std::vector<ObjectTask>& tasks_;
   const PerceptionOptions& options_;
-  std::vector<int> owner_;  // of each cell of the cloud: index of a task
+  std::vector<int> owner_;         // of each cell of the cloud: index of a task
+  std::vector<bool> isSameThing_;  // of each pair of tasks
 };
 
 }  // namespace
