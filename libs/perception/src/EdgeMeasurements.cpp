@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <unordered_set>
 
 #include "HiddenPart.h"
@@ -201,22 +200,24 @@ class EdgeJudge
   {
     const bool upright = isUpright(edge);
     const int outwards = edge == BoxEdge::Left || edge == BoxEdge::Top ? -1 : 1;
-    std::map<int, int> ends;                    // of the object in each row (left, right) or column
-    int end = std::numeric_limits<int>::min();  // outwards
+    constexpr int kNone = std::numeric_limits<int>::min() / 2;
+    // Of the object in each row (left, right) or column, outwards.
+    std::vector<int> ends(
+        static_cast<std::size_t>(upright ? cloud_.rows() : cloud_.columns()), kNone);
+    int end = kNone;
     for (const auto& [c, r] : context_.object.cells)
     {
-      const int position = outwards * (upright ? c : r);
-      const auto added = ends.emplace(upright ? r : c, position).first;
-      added->second = std::max(added->second, position);
-      end = std::max(end, position);
+      int& last = ends[static_cast<std::size_t>(upright ? r : c)];
+      last = std::max(last, outwards * (upright ? c : r));
+      end = std::max(end, last);
     }
     const double sigma = options_.edgeSigmaIn(cloud_.camera().width) / cloud_.stride();
     int cells = 0, touched = 0;
-    for (const auto& [line, position] : ends)
-      if (end - position <= sigma)
+    for (std::size_t line = 0; line < ends.size(); ++line)
+      if (ends[line] != kNone && end - ends[line] <= sigma)
       {
         ++cells;
-        touched += isNearerBeyond(upright, line, position, outwards) ? 1 : 0;
+        touched += isNearerBeyond(upright, static_cast<int>(line), ends[line], outwards) ? 1 : 0;
       }
     return cells > 0 ? static_cast<double>(touched) / cells : 0.0;
   }
@@ -273,7 +274,7 @@ class EdgeJudge
     const auto i = static_cast<std::size_t>(edge);
     HiddenEvidence e;
     e.nearer = nearer_[i];
-    e.touching = e.nearer * nearerShareAtEnd(edge);
+    if (e.nearer > 0) e.touching = e.nearer * nearerShareAtEnd(edge);
     e.opposite = nearer_[(i + 2) % 4];
     e.depth = context_.depth;
     e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
