@@ -151,11 +151,16 @@ int run(Cli& cli)
   request.configuration = configurationOf(cli);
   request.version = QUADMAP_VERSION;
   const auto verbosity = cli.line.verbosity();
-  request.onMessage = [verbosity](mrpt::system::VerbosityLevel level, const std::string& text)
+  std::vector<std::string> notes;
+  request.onMessage =
+      [verbosity, &notes](mrpt::system::VerbosityLevel level, const std::string& text)
   {
     if (level < verbosity) return;
-    std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "") << text
-              << "\n";
+    if (level == mrpt::system::LVL_INFO && verbosity == mrpt::system::LVL_INFO)
+      notes.push_back(text);  // of a run that succeeds
+    else
+      std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "") << text
+                << "\n";
   };
   request.onProgress = showProgress;
   request.shouldStop = [] { return stopRequested != 0; };
@@ -164,6 +169,7 @@ int run(Cli& cli)
 
   RawlogRunSummary summary = runOnRawlog(request);
   summary.files.push_back(writeSceneOf(summary.result, request.outputDirectory));
+  for (const auto& note : notes) std::printf("%s\n", note.c_str());
   if (verbosity <= mrpt::system::LVL_INFO) printSummary(summary);
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;

@@ -172,7 +172,7 @@ TEST_F(QuadmapSlam, TellsAsMuchAsAsked)
 TEST_F(QuadmapSlam, WrongUsage)
 {
   for (const auto* arguments :
-       {"", "IN", "-o DIR/out", "IN -o DIR/out --method magic", "IN -o DIR/out --odometry visual",
+       {"", "IN", "-o DIR/out", "IN -o DIR/out --method magic", "IN -o DIR/out --odometry dead",
         "IN -o DIR/out --every 0", "IN -o DIR/out --every two", "IN -o DIR/out --evry 2"})
   {
     const auto result = run(arguments);
