@@ -35,7 +35,7 @@ struct ExistenceOptions
 
   double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
   double minBoxSize = 30;                 //!< Both sides of the projected box [px]
-  double visibleShare = 0.6;              //!< Share of the projected box inside the image, (0, 1]
+  double visibleShare = 0.4;              //!< Share of the projected box inside the image, (0, 1]
   double occluderMargin = 0.1;            //!< Depth this much nearer than the object hides it [m]
   double maxHiddenShare = 0.3;            //!< Of the box's cells hidden or without depth, [0, 1]
 };
