@@ -1,5 +1,7 @@
 #include "quadmap/slam/JointBackEnd.h"
 
+#include <mrpt/poses/Lie/SE.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +54,43 @@ CPose3DPDFGaussian stiffAtRest(CPose3DPDFGaussian step)
 }
 
 Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
+
+/** Of the position of each keyframe relative to the first, by the odometry [m^2]. */
+std::vector<double> odometryVariances(const std::vector<Keyframe>& keyframes)
+{
+  std::vector<double> out;
+  double variance = 0;
+  for (const Keyframe& keyframe : keyframes)
+  {
+    if (const auto& step = keyframe.odometryStep)
+      variance += step->cov.asEigen().diagonal().head<3>().sum();
+    out.push_back(variance);
+  }
+  return out;
+}
+
+/** Brings the poses of a graph nearest to those of the odometry, as a motion of the map. A graph
+ * keeps its first pose, and the error of that one pose would move the whole map: all poses together
+ * know better where it is, each in proportion to what the odometry still knows of it. */
+CPose3D alignmentWithOdometry(const FactorGraph& graph, const std::vector<Keyframe>& keyframes)
+{
+  const std::vector<double> variances = odometryVariances(keyframes);
+  const auto first =
+      std::find_if(variances.begin(), variances.end(), [](double v) { return v > 0; });
+  if (first == variances.end()) return CPose3D();
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  double weights = 0;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    const double weight = *first / (*first + variances[k]);
+    const CPose3D difference = keyframes[k].T_odom_robot + (-graph.pose(k));
+    sum += weight * mrpt::poses::Lie::SE<3>::log(difference).asEigen();
+    weights += weight;
+  }
+  mrpt::poses::Lie::SE<3>::tangent_vector mean;
+  mean.asEigen() = sum / weights;
+  return mrpt::poses::Lie::SE<3>::exp(mean);
+}
 
 }  // namespace
 
@@ -223,12 +262,14 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
   {
     FactorGraph graph = globalGraph(boxesOf, result);
     graph.optimise();
+    const CPose3D T_map_graph = alignmentWithOdometry(graph, result.keyframes);
     summary.lastMove = 0;
     for (std::size_t k = 0; k < result.keyframes.size(); ++k)
     {
       CPose3D& pose = result.keyframes[k].T_map_robot;
-      summary.lastMove = std::max(summary.lastMove, pose.distanceTo(graph.pose(k)));
-      pose = graph.pose(k);
+      const CPose3D corrected = T_map_graph + graph.pose(k);
+      summary.lastMove = std::max(summary.lastMove, pose.distanceTo(corrected));
+      pose = corrected;
     }
     rebuildMap(boxesOf, result);
     summary.converged = summary.lastMove < options_.smallMove;
