@@ -213,7 +213,8 @@ TEST_F(QuadmapImport, FullDiskLeavesNothing)
       const FileSizeLimit full(400);  // the program inherits it
       result = run("tum IN -o OUT/x.rawlog" + option);
     }
-    expectFailure(result, option.empty() ? "x.rawlog: cannot be written: " : "x_Images/camera_000000");
+    expectFailure(
+        result, option.empty() ? "x.rawlog: cannot be written: " : "x_Images/camera_000000");
     EXPECT_EQ(out_.fileCount(), 0u);
   }
 }

@@ -113,7 +113,8 @@ void finalRounds()
   std::vector<Measured> measured;
   for (std::size_t k = 0; k < world.truth.size(); ++k)
     for (std::size_t i = 0; i < world.objects.size(); ++i)
-      if (world.visible(k, i) && (3 * i + k) % 40 < 27) measured.push_back({k, i, world.view(k, i)});
+      if (world.visible(k, i) && (3 * i + k) % 40 < 27)
+        measured.push_back({k, i, world.view(k, i)});
   std::vector<CPose3D> poses = world.odometry;
   std::vector<std::optional<Ellipsoid>> objects(world.objects.size());
   for (const auto& m : measured)

@@ -150,7 +150,8 @@ TEST(RawlogWriter, KeepsTheOldFileWhenTheDiskIsFull)
     options.external = external;
     const std::string error = errorOnFullDisk(file, options);
     EXPECT_NE(
-        error.find(external ? "x_Images/camera_" : "x.rawlog: cannot be written"), std::string::npos)
+        error.find(external ? "x_Images/camera_" : "x.rawlog: cannot be written"),
+        std::string::npos)
         << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     EXPECT_EQ(readFile(file), "old");

@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
+#include <Eigen/Dense>
 #include <stdexcept>
 
 #include "quadmap/sensors/RawlogNames.h"

@@ -134,7 +134,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   ObjectId nextId_ = 1;
   WaitingList waiting_;
   FramePairing pairing_;
-  RoomPlanes room_;  // what the scans measured here showed
+  RoomPlanes room_;                                     // what the scans measured here showed
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
   std::set<std::string> unknownLabels_;

@@ -18,7 +18,7 @@ struct RgbdFrame
   mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< Loaded; time stamp and sensorLabel inside
   CObservationObjects::Ptr objects;     //!< Boxes of the same label and time; null: nobody looked
   bool objectsFromPixelLabels = false;  //!< They were made of the scan's pixelLabels
-  std::optional<mrpt::poses::CPose3D> T_odom_robot;   //!< From the rawlog's odometry, any kind
+  std::optional<mrpt::poses::CPose3D> T_odom_robot;  //!< From the rawlog's odometry, any kind
   /** Of T_odom_robot, (x, y, z, yaw, pitch, roll), as far as the odometry says so: zero where it
    *  does not. What actions say is added up from their first on. */
   std::optional<mrpt::math::CMatrixDouble66> odometryCovariance;
