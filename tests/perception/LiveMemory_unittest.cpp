@@ -42,9 +42,17 @@ TEST(FramePerception, KeepsNoMemoryOfFrames)
         ASSERT_NE(measured.objects[0].measurement.kind, MeasurementKind::None);
       }
   };
-  measureAll(2);  // whatever libraries keep for ever
-  const std::size_t before = liveMemory();
-  measureAll(10);
-  if (before == 0) GTEST_SKIP() << "malloc is not that of the C library";
-  EXPECT_LE(liveMemory(), before) << "bytes";
+  // Threads of the libraries keep a few freed bytes for themselves, more or fewer as they happen to
+  // run; what a frame leaves behind adds up in every pass.
+  constexpr int kPasses = 20;
+  measureAll(2);
+  int grown = 0;
+  for (int pass = 0; pass < kPasses; ++pass)
+  {
+    const std::size_t before = liveMemory();
+    if (before == 0) GTEST_SKIP() << "malloc is not that of the C library";
+    measureAll(1);
+    if (liveMemory() > before) ++grown;
+  }
+  EXPECT_LT(grown, kPasses / 2) << "of " << kPasses << " passes";
 }
