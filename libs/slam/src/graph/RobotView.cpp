@@ -21,6 +21,7 @@ RobotView robotViewOf(
   r.complete = view.complete;
   r.halfSizes = view.halfSizes;
   r.faces = view.faces;
+  r.faceExponent = view.faceExponent;
   r.yawDefined = view.complete && view.yawDefined;
   r.yawSigma = view.yawSigma;
   if (view.complete)

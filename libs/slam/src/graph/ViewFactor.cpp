@@ -99,7 +99,7 @@ class SeenView
   {
     const auto axis = static_cast<Eigen::Index>(f / 2);
     const Vector3d n = (f % 2 == 0 ? 1.0 : -1.0) * axes_.col(axis);
-    const Width width(object, n, 2.0);
+    const Width width(object, n, view_.faceExponent);
     const Vector3d toCenter = pose_.t + fromRobot_ - object.t;
     Row row;
     row.r = n.dot(toCenter) + view_.halfSizes[axis] - width.h;

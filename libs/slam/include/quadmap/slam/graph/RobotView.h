@@ -29,6 +29,7 @@ struct RobotView
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();   //!< Of the cuboid, one per column
   Eigen::Vector3d halfSizes = Eigen::Vector3d::Ones();  //!< [m]
   std::array<FaceMeasurement, kFaces> faces;
+  double faceExponent = 2.0;  //!< q of the faces' tangency, as ObjectView::faceExponent
   bool yawDefined = false;
   double yawSigma = 0;  //!< [rad]
   double tiltSigma =
