@@ -84,9 +84,7 @@ std::vector<ObjectTask> FramePerception::Impl::tasksOf(
   std::vector<ObjectTask> tasks;
   const auto supports = chooseSupports(cloud, planes, detections, labels, options);
   for (std::size_t i = 0; i < detections.size(); ++i)
-    tasks.push_back(
-        {&detections[i], labels.properties(detections[i].label), supports[i].plane,
-         supports[i].wall, supports[i].carries});
+    tasks.push_back({&detections[i], labels.properties(detections[i].label), supports[i].plane});
   return tasks;
 }
 

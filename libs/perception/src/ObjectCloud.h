@@ -33,9 +33,7 @@ struct ObjectTask
 {
   const DetectedObject* detection = nullptr;  //!< Never null
   LabelProperties label;
-  std::optional<int> support;        //!< Plane it stands on, index in ScenePlanes
-  std::optional<int> wall;           //!< Plane its back hangs at, index in ScenePlanes
-  std::vector<std::size_t> carries;  //!< Detections of the frame that stand on this object
+  std::optional<int> support;  //!< Plane it stands on, index in ScenePlanes
 };
 
 /** Cuts the objects of a frame out of their boxes. Of each box the support, the walls around and

@@ -227,29 +227,6 @@ std::vector<std::optional<int>> addTops(
   return tops;
 }
 
-/** Finds out what stands on what: a surface that mostly shows within a box, and that the box's own
- * object does not stand on, is a part of the object. */
-void findCarried(
-    const DepthCloud& cloud,
-    const ScenePlanes& planes,
-    const std::vector<DetectedObject>& boxes,
-    std::vector<BoxSupport>& supports)
-{
-  constexpr double kMinOwnShare = 0.6;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-  {
-    const auto shares = planes.all.sharesWithin(cloud.cellsOf(boxes[i].box));
-    for (std::size_t k = 0; k < boxes.size(); ++k)
-    {
-      const auto& plane = supports[k].plane;
-      if (k == i || !plane || plane == planes.floor || plane == supports[i].plane) continue;
-      if (shares[static_cast<std::size_t>(*plane)] > kMinOwnShare &&
-          endsWithin(cloud.camera(), planes.up, boxes[k].box, boxes[i].box))
-        supports[i].carries.push_back(k);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<BoxSupport> chooseSupports(
@@ -277,7 +254,6 @@ std::vector<BoxSupport> chooseSupports(
         objects[i] ? SupportJudge(cloud, planes, boxes[i], properties[i], *objects[i], options)
                          .decide(tops[i])
                    : BoxSupport());
-  findCarried(cloud, planes, boxes, out);
   return out;
 }
 

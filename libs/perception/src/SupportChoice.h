@@ -10,12 +10,11 @@
 
 namespace quadmap
 {
-/** What the object of one box stands on or hangs at, and what stands on it. */
+/** What the object of one box stands on or hangs at. */
 struct BoxSupport
 {
-  std::optional<int> plane;          //!< Horizontal, index in ScenePlanes; nothing: unknown
-  std::optional<int> wall;           //!< Vertical, index in ScenePlanes: its back is there
-  std::vector<std::size_t> carries;  //!< Boxes of the frame whose objects stand on this one
+  std::optional<int> plane;  //!< Horizontal, index in ScenePlanes; nothing: unknown
+  std::optional<int> wall;   //!< Vertical, index in ScenePlanes: its back is there
 };
 
 /** Decides the supports of all boxes of a frame with the whole scene in view.
