@@ -75,7 +75,8 @@ ObjectSlam::ObjectSlam(
     spool_(spool),
     perception_(configuration.perception, labels),
     selector_(configuration.keyframes),
-    odometry_(configuration.slam.odometry, configuration.poses, configuration.visual, up_robot)
+    odometry_(configuration.slam.odometry, configuration.poses, configuration.visual, up_robot),
+    backEnd_(createBackEnd(configuration, labels_))
 {
   result_.odometry.upFromFloor = up_robot.has_value();
   result_.map.insertionOptions = configuration.mapInsertion;
@@ -83,10 +84,6 @@ ObjectSlam::ObjectSlam(
   result_.map.renderOptions = configuration.mapRender;
   result_.map.perceptionOptions = configuration.perception;
   result_.map.setLabels(labels);
-  const auto& slam = configuration.slam;
-  if (slam.method == SlamMethod::Rgbd && slam.odometry != PoseSource::GroundTruth &&
-      configuration.joint.correctPoses)
-    backEnd_.emplace(configuration.joint, configuration.mapInsertion, labels_);
 }
 
 bool ObjectSlam::addFrame(const RgbdFrame& frame)
@@ -185,11 +182,6 @@ void ObjectSlam::warnOfMissingDepth()
 void ObjectSlam::correctEverything()
 {
   const auto scope = times_.measure("consolidation");
-  if (!backEnd_)
-  {
-    result_.map.consolidate();
-    return;
-  }
   backEnd_->finish([this](std::size_t k) { return spool_.objects(k); }, result_);
 }
 
@@ -197,7 +189,7 @@ bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_rob
 {
   const CPose3D T_odom_sensor = T_odom_robot + frame.scan->sensorPose;
   if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor)) return false;
-  const CPose3D predicted = backEnd_ ? backEnd_->predict(T_odom_robot) : T_odom_robot;
+  const CPose3D predicted = backEnd_->predict(T_odom_robot);
 
   CObservationObjects::Ptr boxes;
   if (frame.objects && configuration_.slam.method == SlamMethod::Rgbd)
@@ -250,16 +242,7 @@ CPose3D ObjectSlam::insertIntoMap(
 {
   const auto scope = times_.measure("map");
   if (boxes) count(*boxes);
-  CPose3D T_map_robot = T_odom_robot;
-  if (backEnd_)
-    T_map_robot = backEnd_->addKeyframe(T_odom_robot, step, boxes, result_.map);
-  else if (boxes)
-    result_.map.insertObservation(*boxes, T_map_robot);
-  if (!boxes) return T_map_robot;
-  const auto keyframe = static_cast<std::uint32_t>(result_.keyframes.size());
-  for (const auto& decision : result_.map.lastDecisions())
-    result_.decisions.push_back({keyframe, decision});
-  return T_map_robot;
+  return backEnd_->addKeyframe(T_odom_robot, step, boxes, result_);
 }
 
 void ObjectSlam::count(const CObservationObjects& boxes)

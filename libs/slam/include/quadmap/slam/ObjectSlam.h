@@ -2,6 +2,7 @@
 
 #include <mrpt/system/COutputLogger.h>
 
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -11,13 +12,13 @@
 #include "quadmap/perception/FramePerception.h"
 #include "quadmap/perception/RoomPlanes.h"
 #include "quadmap/sensors/RgbdFrame.h"
-#include "quadmap/slam/JointBackEnd.h"
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/KeyframeSpool.h"
 #include "quadmap/slam/ModuleTimes.h"
 #include "quadmap/slam/OdometryInput.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/backend/BackEnd.h"
 
 namespace quadmap
 {
@@ -79,7 +80,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   RoomPlanes room_;
   KeyframeSelector selector_;
   OdometryInput odometry_;
-  std::optional<JointBackEnd> backEnd_;  //!< Unless poses are taken as given
+  std::unique_ptr<BackEnd> backEnd_;
   SlamResult result_;
   ModuleTimes times_;
   bool hasOneMoment_ = true;            //!< No frame had a pose, and all are of one moment:

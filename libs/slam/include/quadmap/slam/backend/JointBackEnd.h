@@ -4,14 +4,11 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <deque>
-#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
 
-#include "quadmap/maps/CQuadricObjectMap.h"
-#include "quadmap/slam/JointOptions.h"
-#include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/backend/BackEnd.h"
 #include "quadmap/slam/graph/FactorGraph.h"
 
 namespace quadmap
@@ -21,7 +18,7 @@ namespace quadmap
  * While running, the latest keyframes are estimated with the objects seen from them; every
  * observation goes into the object map at the corrected pose, with the pose's uncertainty. At the
  * end all poses are estimated, in turn with the associations. */
-class JointBackEnd
+class JointBackEnd : public BackEnd
 {
  public:
   /** \param labels Must outlive this object. */
@@ -30,25 +27,16 @@ class JointBackEnd
       const CQuadricObjectMap::TInsertionOptions& mapOptions,
       const LabelTable& labels);
 
-  /** Where the robot is by odometry from the last corrected keyframe.
-   *  \param T_odom_robot Its pose as the odometry has it; that of the first keyframe is kept. */
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
-
-  /** Estimates the next keyframe and inserts its boxes (may be null) into the map.
-   *  \param step Since the keyframe before; nothing for the first one.
-   *  \return Its corrected pose; those of earlier ones may have changed too. */
+  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const override;
   mrpt::poses::CPose3D addKeyframe(
       const mrpt::poses::CPose3D& T_odom_robot,
       const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
       const CObservationObjects* boxes,
-      CQuadricObjectMap& map);
-
-  /** Boxes of a keyframe, with their measurements; null when nobody looked. */
-  using BoxesOf = std::function<CObservationObjects::Ptr(std::size_t)>;
+      SlamResult& result) override;
 
   /** Optimises everything in turn with the associations, and rebuilds the map at the corrected
-   * poses. `result`'s poses, map and decisions become the final ones; it is told how it went. */
-  void finish(const BoxesOf& boxesOf, SlamResult& result);
+   * poses. `result` is told how it went. */
+  void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
   using Decisions = std::vector<CQuadricObjectMap::Decision>;

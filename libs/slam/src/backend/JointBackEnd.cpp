@@ -1,4 +1,4 @@
-#include "quadmap/slam/JointBackEnd.h"
+#include "quadmap/slam/backend/JointBackEnd.h"
 
 #include <mrpt/poses/Lie/SE.h>
 
@@ -156,7 +156,7 @@ CPose3D JointBackEnd::addKeyframe(
     const CPose3D& T_odom_robot,
     const std::optional<CPose3DPDFGaussian>& step,
     const CObservationObjects* boxes,
-    CQuadricObjectMap& map)
+    SlamResult& result)
 {
   const CPose3D predicted = predict(T_odom_robot);
   lastOdometry_ = T_odom_robot;
@@ -164,6 +164,7 @@ CPose3D JointBackEnd::addKeyframe(
   if (pose > 0 && step) graph_.addStep(pose - 1, pose, stiffAtRest(*step));
   if (!boxes) return predicted;
 
+  CQuadricObjectMap& map = result.map;
   const auto window = static_cast<std::size_t>(options_.window);
   const std::size_t firstFree = pose < window ? 1 : pose + 1 - window;
   auto& noise = map.insertionOptions.poseNoise;
@@ -172,7 +173,7 @@ CPose3D JointBackEnd::addKeyframe(
   graph_.optimiseWindow(firstFree);
 
   noise = sum(viewNoise_, noiseOf(graph_.marginals(firstFree, false).lastPose));
-  map.insertObservation(*boxes, graph_.pose(pose));
+  insertIntoMap(*boxes, pose, graph_.pose(pose), result);
   noise = viewNoise_;
   forgetMerged(map);
   graph_.removeViews(pose);
@@ -244,10 +245,7 @@ void JointBackEnd::rebuildMap(const BoxesOf& boxesOf, SlamResult& result)
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
     const auto boxes = boxesOf(k);
-    if (!boxes) continue;
-    result.map.insertObservation(*boxes, result.keyframes[k].T_map_robot);
-    for (const auto& decision : result.map.lastDecisions())
-      result.decisions.push_back({static_cast<std::uint32_t>(k), decision});
+    if (boxes) insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
   }
   result.map.consolidate();
 }

@@ -1,0 +1,29 @@
+#include "quadmap/slam/backend/BackEnd.h"
+
+#include "quadmap/slam/backend/GivenPoses.h"
+#include "quadmap/slam/backend/JointBackEnd.h"
+
+namespace quadmap
+{
+void BackEnd::insertIntoMap(
+    const CObservationObjects& boxes,
+    std::size_t keyframe,
+    const mrpt::poses::CPose3D& T_map_robot,
+    SlamResult& result)
+{
+  result.map.insertObservation(boxes, T_map_robot);
+  for (const auto& decision : result.map.lastDecisions())
+    result.decisions.push_back({static_cast<std::uint32_t>(keyframe), decision});
+}
+
+std::unique_ptr<BackEnd> createBackEnd(
+    const SlamConfiguration& configuration, const LabelTable& labels)
+{
+  const auto& slam = configuration.slam;
+  if (slam.method == SlamMethod::Odometry || slam.odometry == PoseSource::GroundTruth ||
+      !configuration.joint.correctPoses)
+    return std::make_unique<GivenPoses>();
+  return std::make_unique<JointBackEnd>(configuration.joint, configuration.mapInsertion, labels);
+}
+
+}  // namespace quadmap
