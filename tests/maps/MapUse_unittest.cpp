@@ -65,6 +65,67 @@ TEST(MapQueries, FootprintIsTheOutlineCounterClockwise)
   EXPECT_THROW(map.footprint(99), std::out_of_range);
 }
 
+TEST(MapEditing, AddedObjectIsKeptAsItWasEstimated)
+{
+  const CQuadricObjectMap source = smallMap();
+  CQuadricObjectMap map;
+  ASSERT_EQ(source.objects().size(), 2u);
+  for (const auto& [id, estimated] : source.objects()) map.addObject(estimated);
+  ASSERT_EQ(map.confirmedObjects().size(), 2u) << map.asString();
+  map.consolidate();  // estimates anew, from what was put in
+  for (const auto& [id, object] : source.objects())
+  {
+    const MapObject* added = map.nearest(object.object.center());
+    EXPECT_EQ(added->labelCounts, object.labelCounts);
+    EXPECT_EQ(added->observations(), object.observations());
+    EXPECT_EQ(added->orientationDefined, object.orientationDefined);
+    const UprightState moved = uprightStateOf(added->object) - uprightStateOf(object.object);
+    EXPECT_LT(moved.cwiseAbs().maxCoeff(), 1e-4) << "[m], [rad], [-]: the estimator's last step";
+    const UprightCovariance ratio = added->covariance * object.covariance.inverse();
+    EXPECT_LT((ratio - UprightCovariance::Identity()).cwiseAbs().maxCoeff(), 1e-4);
+  }
+}
+
+TEST(MapEditing, AddedObjectTakesMoreObservations)
+{
+  const std::vector<TrueObject> world = {cuboid("suitcase", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4)};
+  MapObject rough;
+  rough.object =
+      Ellipsoid(mrpt::poses::CPose3D(0.1, 0, 0.3, 0.4, 0, 0), Eigen::Vector3d(0.35, 0.2, 0.3));
+  rough.covariance *= 0.01;
+  rough.labelCounts = {
+      {"suitcase", 8}
+  };
+  rough.partialCount = 8;
+  CQuadricObjectMap map;
+  const ObjectId id = map.addObject(rough);
+  EXPECT_FALSE(map.find(id)->confirmed) << "nothing says that it exists";
+  SyntheticCamera camera(43);
+  walkAround(map, camera, world, 12);
+  ASSERT_EQ(map.objects().size(), 1u);
+  EXPECT_EQ(map.find(id)->observations(), 20u);
+  expectMapOf(map, world, 0.03);
+}
+
+TEST(MapEditing, RefusesObjectsThatDoNotFit)
+{
+  MapObject good;
+  good.labelCounts = {
+      {"chair", 3}
+  };
+  good.partialCount = 3;
+  CQuadricObjectMap map;
+  EXPECT_EQ(map.find(map.addObject(good))->label(), "chair");
+  MapObject tilted = good, flat = good, unseen = good, nameless = good;
+  tilted.object = Ellipsoid(mrpt::poses::CPose3D(0, 0, 0, 0, 0.1, 0), Eigen::Vector3d(1, 1, 1));
+  flat.covariance(3, 3) = 0;
+  unseen.partialCount = 0;
+  nameless.labelCounts.clear();
+  for (const MapObject& bad : {tilted, flat, unseen, nameless})
+    EXPECT_THROW(map.addObject(bad), std::invalid_argument);
+  EXPECT_EQ(map.objects().size(), 1u);
+}
+
 TEST(MapEditing, MergeRelabelRemove)
 {
   CQuadricObjectMap map = smallMap();

@@ -111,6 +111,27 @@ MapObject& CQuadricObjectMap::require(ObjectId id)
 
 // Editing ------------------------------------------------------------------------------------
 
+ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
+{
+  constexpr double kMaxTilt = 1e-4;  // [rad]: rounding
+  if (estimated.object.rotation().col(2).head<2>().norm() > kMaxTilt)
+    throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
+  if (estimated.covariance.llt().info() != Eigen::Success)
+    throw std::invalid_argument("the covariance of an object must be positive definite");
+  if (estimated.labelCounts.empty() || estimated.observations() == 0)
+    throw std::invalid_argument("an object of the map needs observations and their labels");
+
+  MapObject object = estimated;
+  object.id = nextId_++;
+  object.object = ellipsoidOf(uprightStateOf(estimated.object));
+  object.confirmed = isConfirmed(object);
+  estimators_[object.id] = ObjectEstimator::fromEstimate(
+      {uprightStateOf(object.object), object.covariance, 0, object.orientationDefined},
+      labels_->properties(object.label()), insertionOptions.estimator);
+  objects_[object.id] = object;
+  return object.id;
+}
+
 void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
 {
   MapObject& a = require(kept);

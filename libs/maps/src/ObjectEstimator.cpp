@@ -77,6 +77,23 @@ std::vector<double> weightsAt(const std::deque<ObjectView>& views, const Upright
   return weights;
 }
 
+/** What is known of position and yaw without any measurement. */
+UprightCovariance freeInformation()
+{
+  UprightCovariance information = UprightCovariance::Zero();
+  information.diagonal().head<3>().setConstant(1.0 / (kFreePositionSigma * kFreePositionSigma));
+  information(3, 3) = 1.0 / (kFreeYawSigma * kFreeYawSigma);
+  return information;
+}
+
+/** The nearest matrix without negative eigenvalues. */
+UprightCovariance withoutNegative(const UprightCovariance& symmetric)
+{
+  const Eigen::SelfAdjointEigenSolver<UprightCovariance> eigen(symmetric);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 /** Steps stay where the linearisation means something. */
 UprightState limited(UprightState step)
 {
@@ -196,9 +213,7 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   Estimate e;
   e.state = x;
   e.cost = best.cost;
-  UprightCovariance information = best.H;
-  information.diagonal().head<3>().array() += 1.0 / (kFreePositionSigma * kFreePositionSigma);
-  information(3, 3) += 1.0 / (kFreeYawSigma * kFreeYawSigma);
+  const UprightCovariance information = best.H + freeInformation();
   e.covariance = information.ldlt().solve(UprightCovariance::Identity());
   double complete = prior_.complete, defined = prior_.yawDefined;
   for (const auto& v : views_)
@@ -243,6 +258,19 @@ ObjectEstimator ObjectEstimator::fromSummary(const InformationPrior& prior)
   ObjectEstimator e;
   e.prior_ = prior;
   return e;
+}
+
+ObjectEstimator ObjectEstimator::fromEstimate(
+    const Estimate& estimate, const LabelProperties& label, const EstimatorOptions& options)
+{
+  NormalEquations eq;  // estimate() adds these by itself
+  addLabelPrior(estimate.state, label, options, eq);
+  InformationPrior rest;
+  rest.L = withoutNegative(estimate.covariance.inverse() - eq.H - freeInformation());
+  rest.xi = rest.L * estimate.state + eq.g;
+  rest.complete = 1;
+  rest.yawDefined = estimate.orientationDefined ? 1 : 0;
+  return fromSummary(rest);
 }
 
 }  // namespace quadmap

@@ -80,6 +80,12 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::vector<Eigen::Vector2d> footprint(ObjectId id) const;
 
   // Editing ----------------------------------------------------------------------------------
+  /** Puts in an object that was estimated elsewhere. It is as one of an archive: further
+   * observations join it, and the map's options say whether it is confirmed.
+   * \param estimated Its `id` and `confirmed` are not looked at.
+   * \return Its id here. \exception std::invalid_argument If the object is not upright, the
+   * covariance not positive definite, or nothing was observed. */
+  ObjectId addObject(const MapObject& estimated);
   void merge(ObjectId kept, ObjectId absorbed);         //!< \exception std::out_of_range
   void relabel(ObjectId id, const std::string& label);  //!< \exception std::out_of_range
   void remove(ObjectId id);                             //!< \exception std::out_of_range

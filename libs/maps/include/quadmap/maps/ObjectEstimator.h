@@ -91,6 +91,12 @@ class ObjectEstimator
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
   static ObjectEstimator fromSummary(const InformationPrior& prior);
 
+  /** Knows what another estimation found out: estimate() started there returns that state and, as
+   *  far as the label's prior alone does not know more, that covariance. \param estimate `cost` is
+   * not looked at. */
+  static ObjectEstimator fromEstimate(
+      const Estimate& estimate, const LabelProperties& label, const EstimatorOptions& options);
+
   const std::deque<ObjectView>& views() const { return views_; }
 
  private:
