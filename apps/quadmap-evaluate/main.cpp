@@ -19,10 +19,16 @@ struct Cli
       "quadmap-evaluate",
       "Compares what quadmap-slam wrote with the truth: ATE of the trajectory; position, "
       "orientation, shape and overlap of the objects; precision, recall and F1. At least one of "
-      "--objects and --trajectory is needed.",
+      "--objects and --trajectory is needed. A trajectory alone (EST.tum) is compared as evo_ape "
+      "--align does.",
       QUADMAP_VERSION};
-  TCLAP::UnlabeledValueArg<std::string> outputFolder{
-      "OUTDIR", "Folder quadmap-slam wrote.", true, "", "OUTDIR", line.args()};
+  TCLAP::UnlabeledValueArg<std::string> estimate{
+      "OUTDIR",
+      "Folder quadmap-slam wrote, or the file of a trajectory: time tx ty tz qx qy qz qw.",
+      true,
+      "",
+      "OUTDIR|EST.tum",
+      line.args()};
   Text objects{"",        "objects",  "True objects, same form as objects.json.", false, "",
                "gt.json", line.args()};
   Text trajectory{"",       "trajectory", "True trajectory: time tx ty tz qx qy qz qw.", false, "",
@@ -33,9 +39,9 @@ struct Cli
   TCLAP::ValueArg<double> maxTimeDifference{
       "",
       "max-time-difference",
-      "Between an estimated and a true pose [s] (default 0.02).",
+      "Between an estimated and a true pose [s] (default 0.02; 0.01 for EST.tum).",
       false,
-      0.02,
+      kMaxTimeDifference,
       "S",
       line.args()};
 };
@@ -55,11 +61,11 @@ void run(Cli& cli)
     throw cli::UsageError("--max-time-difference: must be >= 0");
 
   EvaluationInput input;
-  input.outputFolder = cli.outputFolder.getValue();
+  input.estimate = cli.estimate.getValue();
   input.trueObjectsPath = given(cli.objects);
   input.trueTrajectoryPath = given(cli.trajectory);
   input.inPlace = cli.inPlace.getValue();
-  input.maxTimeDifference = cli.maxTimeDifference.getValue();
+  if (cli.maxTimeDifference.isSet()) input.maxTimeDifference = cli.maxTimeDifference.getValue();
   const EvaluationReport report = evaluateRun(input);
 
   if (cli.line.verbosity() == mrpt::system::LVL_DEBUG)

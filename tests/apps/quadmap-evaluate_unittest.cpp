@@ -77,6 +77,15 @@ TEST_F(QuadmapEvaluate, TakesEitherTruthAlone)
   EXPECT_NE(trajectory.out.find("ATE"), kNotFound);
 }
 
+TEST_F(QuadmapEvaluate, ComparesATrajectoryAlone)
+{
+  const auto result = run("DIR/trajectory.tum --trajectory DIR/gt.tum --json DIR/figures.json");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("ATE RMSE 0.0000 m over 10 of 10 poses"), kNotFound) << result.out;
+  const auto json = nlohmann::json::parse(readFile(folder_.path("figures.json")));
+  EXPECT_NEAR(json["trajectory"]["ate_rmse_m"].get<double>(), 0, 1e-9);
+}
+
 TEST_F(QuadmapEvaluate, TellsTheAlignmentWhenDebugging)
 {
   const auto result = run("DIR --trajectory DIR/gt.tum -v debug");
@@ -118,13 +127,14 @@ TEST_F(QuadmapEvaluate, AnswersBadInputWithStatus1AndOneLineNamingTheFile)
   folder_.write("short.tum", "1 2 3 4 5 6 7\n");
   folder_.write("other.tum", "1e6 0 0 0 0 0 0 1\n");
   const std::pair<const char*, const char*> cases[] = {
-      {                       "DIR/nowhere --objects DIR/gt.json",                                "nowhere"},
-      {                             "DIR --objects DIR/none.json",                              "none.json"},
-      {                           "DIR --objects DIR/broken.json",                            "broken.json"},
-      {                           "DIR --trajectory DIR/none.tum",                               "none.tum"},
-      {                          "DIR --trajectory DIR/short.tum", "short.tum:1: expected 8 columns, got 7"},
-      {                          "DIR --trajectory DIR/other.tum",                              "other.tum"},
-      {"DIR --objects DIR/gt.json --json DIR/no/such/folder.json",                            "folder.json"}
+      {                               "DIR/nowhere --objects DIR/gt.json",                                "nowhere"},
+      {"DIR/trajectory.tum --objects DIR/gt.json --trajectory DIR/gt.tum",                         "trajectory.tum"},
+      {                                     "DIR --objects DIR/none.json",                              "none.json"},
+      {                                   "DIR --objects DIR/broken.json",                            "broken.json"},
+      {                                   "DIR --trajectory DIR/none.tum",                               "none.tum"},
+      {                                  "DIR --trajectory DIR/short.tum", "short.tum:1: expected 8 columns, got 7"},
+      {                                  "DIR --trajectory DIR/other.tum",                              "other.tum"},
+      {        "DIR --objects DIR/gt.json --json DIR/no/such/folder.json",                            "folder.json"}
   };
   for (const auto& [arguments, name] : cases)
   {

@@ -33,7 +33,7 @@ class EvaluatedRun : public testing::Test
     chair.object = chair.object.transformed(T_truth_map_);
     writeObjectsJson(folder_.path("gt.json"), {cup, chair});
 
-    input_.outputFolder = folder_.path("");
+    input_.estimate = folder_.path("");
     input_.trueObjectsPath = folder_.path("gt.json");
     input_.trueTrajectoryPath = folder_.path("gt.tum");
   }
@@ -165,6 +165,31 @@ TEST_F(EvaluatedRun, SaysWhenOrientationsWereNeeded)
   EXPECT_NE(toTable(report).find(report.notes[0]), std::string::npos);
 }
 
+TEST_F(EvaluatedRun, JudgesObjectsThatComeAndGoAsOfTheEndOfTheRun)
+{
+  // The run's poses are at 100 ... 107 s.
+  auto cup = record("a", "cup", 0, 0), gone = record("b", "cup", 1, 1),
+       before = record("c", "tv", 3, 0), after = record("d", "tv", 1, 0),
+       later = record("e", "vase", 2, 2);
+  gone.to = 107;
+  before.to = 105;
+  after.from = 105;
+  later.from = 107.5;
+  writeObjectsJson(folder_.path("moved.json"), {cup, gone, before, after, later});
+  input_.trueTrajectoryPath.reset();
+  input_.trueObjectsPath = folder_.path("moved.json");
+  const auto report = evaluateRun(input_);
+  ASSERT_EQ(report.objects->matches.size(), 2u);
+  EXPECT_EQ(report.objects->matches[0].truth.id, "a");
+  EXPECT_EQ(report.objects->matches[1].truth.id, "d");
+  EXPECT_TRUE(report.objects->missed.empty());
+  ASSERT_EQ(report.notes.size(), 2u);
+  EXPECT_NE(report.notes[1].find("the 2 that stand there at the end"), std::string::npos);
+
+  std::filesystem::remove(folder_.path("trajectory.tum"));
+  EXPECT_NE(errorWith(input_).find("trajectory.tum"), std::string::npos);
+}
+
 TEST_F(EvaluatedRun, ListsMatchesMissedAndFalseObjectsForPeople)
 {
   const std::string table = toTable(evaluateRun(input_));
@@ -177,7 +202,7 @@ TEST_F(EvaluatedRun, ListsMatchesMissedAndFalseObjectsForPeople)
 TEST_F(EvaluatedRun, NamesTheFileThatIsMissingOrWrong)
 {
   auto noFolder = input_;
-  noFolder.outputFolder = folder_.path("nowhere");
+  noFolder.estimate = folder_.path("nowhere");
   EXPECT_NE(errorWith(noFolder).find("nowhere: no such folder"), std::string::npos);
 
   auto noTruth = input_;

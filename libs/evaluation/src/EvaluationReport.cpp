@@ -2,6 +2,7 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -9,22 +10,36 @@ namespace quadmap
 {
 namespace
 {
+/** The default of evo_ape [s]. */
+constexpr double kMaxTimeDifferenceOfEvo = 0.01;
+
 std::string inFolder(const EvaluationInput& input, const char* file)
 {
-  return (std::filesystem::path(input.outputFolder) / file).string();
+  return (std::filesystem::path(input.estimate) / file).string();
+}
+
+bool isTrajectoryAlone(const EvaluationInput& input)
+{
+  return std::filesystem::is_regular_file(input.estimate);
 }
 
 std::vector<PosePair> pairsWithTruth(
     const std::string& path, const Trajectory& estimated, const EvaluationInput& input)
 {
   const Trajectory truth = readTumTrajectory(*input.trueTrajectoryPath);
-  auto pairs = pairByTime(truth, estimated, input.maxTimeDifference);
+  const double maxTimeDifference = input.maxTimeDifference.value_or(
+      isTrajectoryAlone(input) ? kMaxTimeDifferenceOfEvo : kMaxTimeDifference);
+  auto pairs = pairByTime(truth, estimated, maxTimeDifference);
   if (pairs.empty())
     throw std::runtime_error(mrpt::format(
         "%s: none of its %zu poses is within %g s of one of the %zu poses of %s", path.c_str(),
-        estimated.size(), input.maxTimeDifference, truth.size(),
-        input.trueTrajectoryPath->c_str()));
+        estimated.size(), maxTimeDifference, truth.size(), input.trueTrajectoryPath->c_str()));
   return pairs;
+}
+
+double ateOf(const std::vector<PosePair>& pairs, bool inPlace)
+{
+  return ateRmse(pairs, inPlace ? mrpt::poses::CPose3D() : alignPositions(pairs));
 }
 
 /** \param T_truth_estimated Receives the alignment; untouched when comparing in place. */
@@ -33,39 +48,69 @@ TrajectoryEvaluation evaluateTrajectory(
     mrpt::poses::CPose3D& T_truth_estimated,
     std::vector<std::string>& notes)
 {
-  const std::string path = inFolder(input, "trajectory.tum");
+  const std::string path =
+      isTrajectoryAlone(input) ? input.estimate : inFolder(input, "trajectory.tum");
   const Trajectory estimated = readTumTrajectory(path);
   const auto pairs = pairsWithTruth(path, estimated, input);
   if (!input.inPlace)
   {
     const TrajectoryAlignment alignment = alignTrajectories(pairs);
     T_truth_estimated = alignment.T_truth_estimated;
-    if (alignment.source == AlignmentSource::Orientations)
+    if (alignment.source == AlignmentSource::Orientations && input.trueObjectsPath)
       notes.push_back(mrpt::format(
           "The positions do not determine the rotation between the two worlds (their second extent "
-          "is %.3f m, less than %.3f m): the orientations of the poses were used as well.",
+          "is %.3f m, less than %.3f m): for the objects the orientations of the poses were used "
+          "as well.",
           alignment.secondSpread, kMinSecondSpread));
   }
-  return {estimated.size(), pairs.size(), ateRmse(pairs, T_truth_estimated), std::nullopt};
+  return {estimated.size(), pairs.size(), ateOf(pairs, input.inPlace), std::nullopt};
 }
 
 std::optional<double> odometryAte(const EvaluationInput& input)
 {
+  if (isTrajectoryAlone(input)) return std::nullopt;
   const std::string path = inFolder(input, "trajectory_odometry.tum");
   if (!std::filesystem::exists(path)) return std::nullopt;
   const Trajectory odometry = readTumTrajectory(path);
   if (odometry.empty()) return std::nullopt;
-  const auto pairs = pairsWithTruth(path, odometry, input);
-  const auto T =
-      input.inPlace ? mrpt::poses::CPose3D() : alignTrajectories(pairs).T_truth_estimated;
-  return ateRmse(pairs, T);
+  return ateOf(pairsWithTruth(path, odometry, input), input.inPlace);
+}
+
+/** The true objects that stand there when the run ends. */
+std::vector<ObjectRecord> trueObjects(const EvaluationInput& input, std::vector<std::string>& notes)
+{
+  auto truth = readObjectsJson(*input.trueObjectsPath);
+  const auto comesOrGoes = [](const ObjectRecord& object) { return object.from || object.to; };
+  if (std::none_of(truth.begin(), truth.end(), comesOrGoes)) return truth;
+  const std::string path = inFolder(input, "trajectory.tum");
+  const Trajectory trajectory = readTumTrajectory(path);
+  if (trajectory.empty())
+    throw std::runtime_error(
+        path + ": no pose; the last one says which objects of " + *input.trueObjectsPath +
+        " are still there");
+  double end = trajectory.front().time;
+  for (const StampedPose& pose : trajectory) end = std::max(end, pose.time);
+  const auto before = truth.size();
+  truth.erase(
+      std::remove_if(
+          truth.begin(), truth.end(),
+          [&](const ObjectRecord& object)
+          { return (object.from && end < *object.from) || (object.to && end >= *object.to); }),
+      truth.end());
+  if (truth.size() < before)
+    notes.push_back(mrpt::format(
+        "Objects come and go: the %zu that stand there at the end, %.3f s, are the truth.",
+        truth.size(), end));
+  return truth;
 }
 }  // namespace
 
 EvaluationReport evaluateRun(const EvaluationInput& input)
 {
-  if (!std::filesystem::is_directory(input.outputFolder))
-    throw std::runtime_error(input.outputFolder + ": no such folder");
+  if (isTrajectoryAlone(input) && input.trueObjectsPath)
+    throw std::runtime_error(input.estimate + ": a trajectory alone has no objects to compare");
+  if (!std::filesystem::exists(input.estimate))
+    throw std::runtime_error(input.estimate + ": no such folder, nor a file with a trajectory");
 
   EvaluationReport report;
   if (input.inPlace)
@@ -80,7 +125,7 @@ EvaluationReport evaluateRun(const EvaluationInput& input)
   }
   if (input.trueObjectsPath)
     report.objects = evaluateObjects(
-        readObjectsJson(*input.trueObjectsPath), readObjectsJson(inFolder(input, "objects.json")),
+        trueObjects(input, report.notes), readObjectsJson(inFolder(input, "objects.json")),
         report.T_truth_estimated, input.objects);
   return report;
 }

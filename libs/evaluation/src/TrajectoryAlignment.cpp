@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 #include "quadmap/geometry/PinholeCamera.h"
@@ -108,6 +107,14 @@ const StampedPose* nearestInTime(const Trajectory& sorted, double time)
   return &*after;
 }
 
+Trajectory sortedByTime(Trajectory trajectory)
+{
+  std::stable_sort(
+      trajectory.begin(), trajectory.end(),
+      [](const StampedPose& a, const StampedPose& b) { return a.time < b.time; });
+  return trajectory;
+}
+
 void requirePairs(const std::vector<PosePair>& pairs)
 {
   if (pairs.empty()) throw std::invalid_argument("trajectories: no pair of poses to compare");
@@ -117,24 +124,22 @@ void requirePairs(const std::vector<PosePair>& pairs)
 std::vector<PosePair> pairByTime(
     const Trajectory& truth, const Trajectory& estimated, double maxTimeDifference)
 {
-  Trajectory sorted = truth;
-  std::stable_sort(
-      sorted.begin(), sorted.end(),
-      [](const StampedPose& a, const StampedPose& b) { return a.time < b.time; });
-
-  std::map<const StampedPose*, const StampedPose*> estimatedOfTruth;
-  for (const StampedPose& pose : estimated)
-  {
-    const StampedPose* nearest = nearestInTime(sorted, pose.time);
-    if (!nearest || std::abs(nearest->time - pose.time) > maxTimeDifference) continue;
-    const StampedPose*& partner = estimatedOfTruth[nearest];
-    if (!partner || std::abs(pose.time - nearest->time) < std::abs(partner->time - nearest->time))
-      partner = &pose;
-  }
+  const Trajectory sortedTruth = sortedByTime(truth), sortedEstimated = sortedByTime(estimated);
+  const bool truthIsShorter = truth.size() < estimated.size();
+  const Trajectory& shorter = truthIsShorter ? sortedTruth : sortedEstimated;
+  const Trajectory& longer = truthIsShorter ? sortedEstimated : sortedTruth;
 
   std::vector<PosePair> pairs;
-  pairs.reserve(estimatedOfTruth.size());
-  for (const auto& [t, e] : estimatedOfTruth) pairs.push_back({t->pose, e->pose});
+  pairs.reserve(shorter.size());
+  for (const StampedPose& pose : shorter)
+  {
+    const StampedPose* nearest = nearestInTime(longer, pose.time);
+    if (!nearest || std::abs(nearest->time - pose.time) > maxTimeDifference) continue;
+    if (truthIsShorter)
+      pairs.push_back({pose.pose, nearest->pose});
+    else
+      pairs.push_back({nearest->pose, pose.pose});
+  }
   return pairs;
 }
 
@@ -152,6 +157,14 @@ TrajectoryAlignment alignTrajectories(const std::vector<PosePair>& pairs)
                                 : rotationWithOrientations(pairs, H);
   result.T_truth_estimated = poseFrom(R, mean.truth - R * mean.estimated);
   return result;
+}
+
+mrpt::poses::CPose3D alignPositions(const std::vector<PosePair>& pairs)
+{
+  requirePairs(pairs);
+  const Centroids mean = centroidsOf(pairs);
+  const Eigen::Matrix3d R = nearestRotation(crossCovariance(pairs, mean));
+  return poseFrom(R, mean.truth - R * mean.estimated);
 }
 
 double ateRmse(const std::vector<PosePair>& pairs, const mrpt::poses::CPose3D& T_truth_estimated)

@@ -10,14 +10,19 @@
 
 namespace quadmap
 {
+/** Between a pose of a run and a true one [s]: half the time between images of 30 Hz. */
+constexpr double kMaxTimeDifference = 0.02;
+
 /** What a run of quadmap-slam is compared with. */
 struct EvaluationInput
 {
-  std::string outputFolder;                       //!< OUTDIR of quadmap-slam
+  std::string estimate;  //!< OUTDIR of quadmap-slam, or a trajectory alone (TUM form)
   std::optional<std::string> trueObjectsPath;     //!< Form of objects.json
   std::optional<std::string> trueTrajectoryPath;  //!< TUM form
-  bool inPlace = false;             //!< Both worlds are the same: compare without alignment
-  double maxTimeDifference = 0.02;  //!< Between a true and an estimated pose [s]
+  bool inPlace = false;  //!< Both worlds are the same: compare without alignment
+  /** Between a true and an estimated pose [s]; nothing: kMaxTimeDifference, and that of `evo_ape`,
+   *  0.01 s, for a trajectory alone. */
+  std::optional<double> maxTimeDifference;
   ObjectEvaluationOptions objects;
 };
 
@@ -38,7 +43,8 @@ struct EvaluationReport
 };
 
 /** Reads OUTDIR's trajectory.tum, trajectory_odometry.tum (if there) and objects.json, as far as
- * there is a truth for them, and compares.
+ * there is a truth for them, and compares. Objects that come and go (`from`, `to`) are true as of
+ * the last pose of trajectory.tum. The ATE is that of `evo_ape --align`.
  * \exception std::runtime_error On files that are missing, malformed, or have no common times. */
 EvaluationReport evaluateRun(const EvaluationInput& input);
 

@@ -17,8 +17,9 @@ struct PosePair
   mrpt::poses::CPose3D T_estimated_body;  //!< In the estimated map
 };
 
-/** Pairs every estimated pose with the true one nearest in time; a true pose serves one estimated
- * pose, the nearest. Neither trajectory needs to be sorted.
+/** The association of `evo_ape`: every pose of the shorter trajectory (of equally long ones, the
+ * estimated) with the one of the other that is nearest in time, the earlier of two equally near.
+ * Neither trajectory needs to be sorted; the pairs are in the order of time.
  * \param maxTimeDifference Pairs farther apart [s] are left out. */
 std::vector<PosePair> pairByTime(
     const Trajectory& truth, const Trajectory& estimated, double maxTimeDifference = 0.02);
@@ -51,6 +52,11 @@ constexpr double kMinSecondSpread = 0.02;
  * B is the identity, or the optical axes in a robot's (x forward) when the truth follows the
  * optical frame and this agrees better. \exception std::invalid_argument If there are no pairs. */
 TrajectoryAlignment alignTrajectories(const std::vector<PosePair>& pairs);
+
+/** Umeyama without scale on the positions alone, as `evo_ape --align`. Where they leave the
+ * rotation open this is one of the equally good ones: good for ateRmse(), useless for objects.
+ * \exception std::invalid_argument If there are no pairs. */
+mrpt::poses::CPose3D alignPositions(const std::vector<PosePair>& pairs);
 
 /** Root mean square distance of the paired positions after alignment [m].
  * \exception std::invalid_argument If there are no pairs. */
