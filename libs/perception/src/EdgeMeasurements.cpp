@@ -8,6 +8,7 @@
 #include "HiddenPart.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/perception/BoxEdges.h"
 
 namespace quadmap
 {
@@ -24,24 +25,7 @@ bool isUpright(BoxEdge edge) { return edge == BoxEdge::Left || edge == BoxEdge::
 /** Options in pixels are meant for images of this width, and grow with the image. */
 double scaledPixels(const DepthCloud& cloud, double pixels)
 {
-  constexpr double kReferenceWidth = 640;
-  return pixels * cloud.camera().width / kReferenceWidth;
-}
-
-/** From the edge to the border of the image that it faces [px]. */
-double distanceToBorder(const PinholeCamera& camera, const ImageBox& box, BoxEdge edge)
-{
-  switch (edge)
-  {
-    case BoxEdge::Left:
-      return box.x1;
-    case BoxEdge::Top:
-      return box.y1;
-    case BoxEdge::Right:
-      return camera.width - 1 - box.x2;
-    default:
-      return camera.height - 1 - box.y2;
-  }
+  return PerceptionOptions::scaledPixels(pixels, cloud.camera().width);
 }
 
 ImageBox stripOutside(const ImageBox& box, BoxEdge edge, double width)
@@ -248,7 +232,7 @@ class EdgeJudge
   bool isNearBorder(BoxEdge edge, double depth) const
   {
     const double distance = distanceToBorder(cloud_.camera(), box_, edge);
-    if (distance >= scaledPixels(cloud_, options_.borderMargin)) return false;
+    if (distance >= options_.borderMarginIn(cloud_.camera().width)) return false;
     return depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px) ||
            !endsBefore(edge, distance, depth);
   }
@@ -338,18 +322,9 @@ std::array<EdgeMeasurement, 4> measureEdges(
     const EdgeContext& context,
     const PerceptionOptions& options)
 {
-  const auto& camera = cloud.camera();
-  const auto planes = boxEdgePlanes(camera, box);
   const EdgeJudge judge(cloud, box, context, options);
-  std::array<EdgeMeasurement, 4> out;
-  for (std::size_t i = 0; i < out.size(); ++i)
-  {
-    const auto edge = static_cast<BoxEdge>(i);
-    out[i].plane_sensor = planes[i];
-    out[i].sigmaAngle =
-        options.edgeSigmaIn(camera.width) / std::abs(isUpright(edge) ? camera.fx : camera.fy);
-    out[i].state = judge.state(edge);
-  }
+  auto out = edgesWithoutDepth(cloud.camera(), box, options);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].state = judge.state(static_cast<BoxEdge>(i));
   return out;
 }
 

@@ -28,7 +28,7 @@ struct EdgeContext
   std::vector<BoxAtDepth> boxes;  //!< Of the frame: a screen in front returns no depth
 };
 
-/** The four box edges as tangent planes in the optical frame, with what speaks against each: near
+/** The four box edges as tangent planes in the sensor frame, with what speaks against each: near
  * the image border, or the object probably goes on behind something nearer (doc/mathematics.md,
  * "Edges"). */
 std::array<EdgeMeasurement, 4> measureEdges(

@@ -73,7 +73,7 @@ struct FramePerception::Impl
       const ObjectTask& task,
       ObjectMeasurement& out) const;
   /** Takes the edges over and chooses between partial and rejected. */
-  void setEdges(std::array<EdgeMeasurement, 4> edges, ObjectMeasurement& out) const;
+  void setEdges(const std::array<EdgeMeasurement, 4>& edges, ObjectMeasurement& out) const;
 };
 
 std::vector<ObjectTask> FramePerception::Impl::tasksOf(
@@ -158,14 +158,10 @@ ObjectMeasurement FramePerception::Impl::measureBox(
 }
 
 void FramePerception::Impl::setEdges(
-    std::array<EdgeMeasurement, 4> edges, ObjectMeasurement& out) const
+    const std::array<EdgeMeasurement, 4>& edges, ObjectMeasurement& out) const
 {
   int usable = 0;
-  for (auto& edge : edges)
-  {
-    edge.plane_sensor = edge.plane_sensor.transformed(T_sensor_optical());
-    usable += edge.state == EdgeState::Usable ? 1 : 0;
-  }
+  for (const auto& edge : edges) usable += edge.state == EdgeState::Usable ? 1 : 0;
   if (out.kind != MeasurementKind::Complete)
   {
     if (options.models == ObservationModels::Complete)

@@ -61,8 +61,16 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   void saveToConfigFile(
       mrpt::config::CConfigFileBase& config, const std::string& section) const override;
 
-  /** edgeSigma in an image of another width [px]. */
-  double edgeSigmaIn(unsigned imageWidth) const { return edgeSigma * imageWidth / 640.0; }
+  /** Options in pixels are meant for images 640 px wide, and grow with the image [px]. */
+  static double scaledPixels(double pixels, unsigned imageWidth)
+  {
+    return pixels * imageWidth / 640.0;
+  }
+  double edgeSigmaIn(unsigned imageWidth) const { return scaledPixels(edgeSigma, imageWidth); }
+  double borderMarginIn(unsigned imageWidth) const
+  {
+    return scaledPixels(borderMargin, imageWidth);
+  }
 
   /** Standard deviation of a depth [m]. */
   double depthSigma(double z) const
