@@ -14,20 +14,6 @@ namespace
 /** A position this unlikely is not made up for by anything else; saves looking. */
 constexpr double kHopeless = -60;
 
-/** Another box of the same frame around nearly the same pixels, which the detector is surer of. */
-bool hasBetterTwin(
-    const std::vector<DetectedObject>& objects, std::size_t k, const AgreementOptions& options)
-{
-  for (std::size_t j = 0; j < objects.size(); ++j)
-  {
-    if (j == k || imageBoxIoU(objects[j].box, objects[k].box) <= options.duplicateIoU) continue;
-    const bool better =
-        objects[j].score > objects[k].score || (objects[j].score == objects[k].score && j < k);
-    if (better) return true;
-  }
-  return false;
-}
-
 AssociationTarget targetOf(const MapObject& object)
 {
   AssociationTarget t;
@@ -130,7 +116,7 @@ CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
     frame.allBoxes.push_back(detected.box);
     frame.allLabels.push_back(sure ? labels_->canonical(detected.label) : "");
     if (!sure) continue;
-    if (hasBetterTwin(obs.objects, k, insertionOptions.agreement)) continue;
+    if (hasBetterTwin(obs.objects, k, insertionOptions.agreement.duplicateIoU)) continue;
     auto view = viewOf(
         detected, frame.geometry.T_map_sensor,
         labels_->properties(labels_->canonical(detected.label)), insertionOptions.poseNoise);

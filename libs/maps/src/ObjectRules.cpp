@@ -81,6 +81,18 @@ double halfWidthAlong(const Ellipsoid& object, const Eigen::Vector3d& n)
 
 }  // namespace
 
+bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU)
+{
+  for (std::size_t j = 0; j < objects.size(); ++j)
+  {
+    if (j == k || imageBoxIoU(objects[j].box, objects[k].box) <= duplicateIoU) continue;
+    const bool better =
+        objects[j].score > objects[k].score || (objects[j].score == objects[k].score && j < k);
+    if (better) return true;
+  }
+  return false;
+}
+
 double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels)
 {
   double fitting = 0, total = 0;

@@ -1,10 +1,9 @@
 #include "quadmap/slam/backend/JointBackEnd.h"
 
-#include <mrpt/poses/Lie/SE.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "OdometryChain.h"
 #include "ViewRedundancy.h"
 
 namespace quadmap
@@ -40,57 +39,7 @@ PoseNoise sum(const PoseNoise& a, const PoseNoise& b)
   return noise;
 }
 
-/** The step; of a robot that stands still the odometry knows more than its options say: images of
- * several cameras at one moment have one pose. */
-CPose3DPDFGaussian stiffAtRest(CPose3DPDFGaussian step)
-{
-  constexpr double kRest = 1e-4;       // [m], [rad]: less than this is no motion
-  constexpr double kVariance = 1e-10;  // [m^2], [rad^2]
-  const Eigen::Matrix3d R = step.mean.getRotationMatrix().asEigen();
-  if (step.mean.norm() > kRest || (R - Eigen::Matrix3d::Identity()).norm() > kRest) return step;
-  step.cov.setZero();
-  for (int i = 0; i < 6; ++i) step.cov(i, i) = kVariance;
-  return step;
-}
-
 Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
-
-/** Of the position of each keyframe relative to the first, by the odometry [m^2]. */
-std::vector<double> odometryVariances(const std::vector<Keyframe>& keyframes)
-{
-  std::vector<double> out;
-  double variance = 0;
-  for (const Keyframe& keyframe : keyframes)
-  {
-    if (const auto& step = keyframe.odometryStep)
-      variance += step->cov.asEigen().diagonal().head<3>().sum();
-    out.push_back(variance);
-  }
-  return out;
-}
-
-/** Brings the poses of a graph nearest to those of the odometry, as a motion of the map. A graph
- * keeps its first pose, and the error of that one pose would move the whole map: all poses together
- * know better where it is, each in proportion to what the odometry still knows of it. */
-CPose3D alignmentWithOdometry(const FactorGraph& graph, const std::vector<Keyframe>& keyframes)
-{
-  const std::vector<double> variances = odometryVariances(keyframes);
-  const auto first =
-      std::find_if(variances.begin(), variances.end(), [](double v) { return v > 0; });
-  if (first == variances.end()) return CPose3D();
-  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-  double weights = 0;
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
-  {
-    const double weight = *first / (*first + variances[k]);
-    const CPose3D difference = keyframes[k].T_odom_robot + (-graph.pose(k));
-    sum += weight * mrpt::poses::Lie::SE<3>::log(difference).asEigen();
-    weights += weight;
-  }
-  mrpt::poses::Lie::SE<3>::tangent_vector mean;
-  mean.asEigen() = sum / weights;
-  return mrpt::poses::Lie::SE<3>::exp(mean);
-}
 
 }  // namespace
 

@@ -86,4 +86,9 @@ FactorGraph::Marginals FactorGraph::marginals(std::size_t firstFree, bool withOb
   return GraphProblem(*this, firstFree, firstFree > 0).marginals(withObjects);
 }
 
+std::map<ObjectId, Eigen::MatrixXd> FactorGraph::objectMarginals()
+{
+  return GraphProblem(*this, poses(), false).marginals(true).objects;
+}
+
 }  // namespace quadmap

@@ -151,6 +151,11 @@ FactorGraph::Summary GraphProblem::solve()
 
 FactorGraph::Summary FactorGraph::optimise() { return GraphProblem(*this, 1, false).solve(); }
 
+FactorGraph::Summary FactorGraph::optimiseObjects()
+{
+  return GraphProblem(*this, poses(), false).solve();
+}
+
 FactorGraph::Summary FactorGraph::optimiseWindow(std::size_t firstFree)
 {
   foldBefore(firstFree);

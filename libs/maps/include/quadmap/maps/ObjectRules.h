@@ -28,6 +28,10 @@ struct MergeOptions
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
 };
 
+/** Is there another box of the same frame around nearly the same pixels, which the detector is
+ * surer of? \param k Index of the box. \param duplicateIoU As in AgreementOptions. */
+bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU);
+
 /** Share of the object's measurements whose label a detector takes for this one, in [0, 1]. */
 double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels);
 

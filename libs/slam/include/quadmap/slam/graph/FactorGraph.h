@@ -75,6 +75,8 @@ class FactorGraph
   Summary optimise();
   /** \param firstFree Poses before it stay where they are (pose 0 always). Never decreases. */
   Summary optimiseWindow(std::size_t firstFree);
+  /** The objects alone: all poses stay. */
+  Summary optimiseObjects();
 
   struct Marginals
   {
@@ -85,6 +87,8 @@ class FactorGraph
   /** Of the free part, given the rest. \param firstFree As in optimiseWindow(); 0: everything.
    *  \param withObjects False: of the last pose only. */
   Marginals marginals(std::size_t firstFree, bool withObjects);
+  /** Of the objects, given all poses. */
+  std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
 
  private:
   friend class GraphProblem;

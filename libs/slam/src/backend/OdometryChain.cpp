@@ -1,0 +1,61 @@
+#include "OdometryChain.h"
+
+#include <mrpt/poses/Lie/SE.h>
+
+#include <algorithm>
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+using mrpt::poses::CPose3DPDFGaussian;
+
+namespace
+{
+/** Of the position of each keyframe relative to the first, by the odometry [m^2]. */
+std::vector<double> odometryVariances(const std::vector<Keyframe>& keyframes)
+{
+  std::vector<double> out;
+  double variance = 0;
+  for (const Keyframe& keyframe : keyframes)
+  {
+    if (const auto& step = keyframe.odometryStep)
+      variance += step->cov.asEigen().diagonal().head<3>().sum();
+    out.push_back(variance);
+  }
+  return out;
+}
+
+}  // namespace
+
+CPose3DPDFGaussian stiffAtRest(CPose3DPDFGaussian step)
+{
+  constexpr double kRest = 1e-4;       // [m], [rad]: less than this is no motion
+  constexpr double kVariance = 1e-10;  // [m^2], [rad^2]
+  const Eigen::Matrix3d R = step.mean.getRotationMatrix().asEigen();
+  if (step.mean.norm() > kRest || (R - Eigen::Matrix3d::Identity()).norm() > kRest) return step;
+  step.cov.setZero();
+  for (int i = 0; i < 6; ++i) step.cov(i, i) = kVariance;
+  return step;
+}
+
+CPose3D alignmentWithOdometry(const FactorGraph& graph, const std::vector<Keyframe>& keyframes)
+{
+  const std::vector<double> variances = odometryVariances(keyframes);
+  const auto first =
+      std::find_if(variances.begin(), variances.end(), [](double v) { return v > 0; });
+  if (first == variances.end()) return CPose3D();
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  double weights = 0;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    const double weight = *first / (*first + variances[k]);
+    const CPose3D difference = keyframes[k].T_odom_robot + (-graph.pose(k));
+    sum += weight * mrpt::poses::Lie::SE<3>::log(difference).asEigen();
+    weights += weight;
+  }
+  mrpt::poses::Lie::SE<3>::tangent_vector mean;
+  mean.asEigen() = sum / weights;
+  return mrpt::poses::Lie::SE<3>::exp(mean);
+}
+
+}  // namespace quadmap

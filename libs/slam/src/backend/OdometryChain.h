@@ -1,0 +1,22 @@
+#pragma once
+
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <vector>
+
+#include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/graph/FactorGraph.h"
+
+namespace quadmap
+{
+/** The step; of a robot that stands still the odometry knows more than its options say: images of
+ * several cameras at one moment have one pose. */
+mrpt::poses::CPose3DPDFGaussian stiffAtRest(mrpt::poses::CPose3DPDFGaussian step);
+
+/** Brings the poses of a graph nearest to those of the odometry, as a motion of the map. A graph
+ * keeps its first pose, and the error of that one pose would move the whole map: all poses together
+ * know better where it is, each in proportion to what the odometry still knows of it. */
+mrpt::poses::CPose3D alignmentWithOdometry(
+    const FactorGraph& graph, const std::vector<Keyframe>& keyframes);
+
+}  // namespace quadmap
