@@ -35,7 +35,7 @@ struct Cli
       "from NAME.objects.rawlog beside it. Ctrl-C stops early: the files then hold what was done, "
       "and the exit status is 130.",
       QUADMAP_VERSION};
-  std::vector<std::string> methodNames{"rgbd", "odometry"};
+  std::vector<std::string> methodNames{"rgbd", "quadric", "odometry"};
   std::vector<std::string> sourceNames{"auto", "rawlog", "visual", "ground-truth"};
   TCLAP::ValuesConstraint<std::string> methods{methodNames}, sources{sourceNames};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
@@ -46,8 +46,13 @@ struct Cli
       "c",        "config",   "Options; share/quadmap/quadmap.ini lists them all.", false, "",
       "FILE.ini", line.args()};
   TCLAP::ValueArg<std::string> method{
-      "",         "method", "rgbd: objects from boxes and depth; odometry: the trajectory alone.",
-      false,      "rgbd",   &methods,
+      "",
+      "method",
+      "rgbd: objects from boxes and depth; quadric: from box edges alone, as QuadricSLAM, for "
+      "comparison; odometry: the trajectory alone.",
+      false,
+      "rgbd",
+      &methods,
       line.args()};
   TCLAP::ValueArg<std::string> odometry{
       "",

@@ -109,7 +109,7 @@ TEST(SlamConfiguration, EverySectionIsRead)
 
 TEST(SlamConfiguration, EveryMethodAndPoseSourceHasAName)
 {
-  for (const auto method : {SlamMethod::Rgbd, SlamMethod::Odometry})
+  for (const auto method : {SlamMethod::Rgbd, SlamMethod::Quadric, SlamMethod::Odometry})
     EXPECT_EQ(slamMethodFrom(nameOf(method)), method);
   for (const auto source :
        {PoseSource::Auto, PoseSource::Rawlog, PoseSource::Visual, PoseSource::GroundTruth})
@@ -124,7 +124,7 @@ TEST(SlamConfiguration, RejectsWhatItDoesNotKnow)
   } cases[] = {
       {                   "[slamm]\nmethod=rgbd\n",": unknown section [slamm]; known: slam, "                                                   },
       {                     "[slam]\nmetod=rgbd\n",                   ": [slam] unknown key \"metod\""},
-      {                   "[slam]\nmethod=magic\n",    ": method=magic: must be one of rgbd, odometry"},
+      {                   "[slam]\nmethod=magic\n",    ": method=magic: must be one of rgbd, "},
       {                  "[slam]\nodometry=none\n",
        ": odometry=none: must be one of auto, rawlog, visual, ground-truth"                           },
       {                "[input]\nmaxBoxDelay=-1\n",                  "[input] maxBoxDelay=-1: must be"},

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "quadmap/perception/BoxEdges.h"
+
 namespace quadmap
 {
 using mrpt::poses::CPose3D;
@@ -192,7 +194,7 @@ bool ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_rob
   const CPose3D predicted = backEnd_->predict(T_odom_robot);
 
   CObservationObjects::Ptr boxes;
-  if (frame.objects && configuration_.slam.method == SlamMethod::Rgbd)
+  if (frame.objects && configuration_.slam.method != SlamMethod::Odometry)
   {
     boxes = CObservationObjects::Create(*frame.objects);
     measureBoxes(frame, *boxes, predicted + frame.scan->sensorPose);
@@ -225,6 +227,11 @@ void ObjectSlam::measureBoxes(
   const auto scope = times_.measure("perception");
   try
   {
+    if (configuration_.slam.method == SlamMethod::Quadric)
+    {
+      measureWithoutDepth(boxes, configuration_.perception);
+      return;
+    }
     const auto surfaces = perception_.measure(
         *frame.scan, boxes, upInSensor(T_map_sensor), room_.around(T_map_sensor));
     room_.add(surfaces, T_map_sensor);

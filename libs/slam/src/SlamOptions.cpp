@@ -12,6 +12,7 @@ namespace
 {
 constexpr std::pair<SlamMethod, const char*> kMethods[] = {
     {    SlamMethod::Rgbd,     "rgbd"},
+    { SlamMethod::Quadric,  "quadric"},
     {SlamMethod::Odometry, "odometry"}
 };
 

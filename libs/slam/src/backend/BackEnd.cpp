@@ -2,6 +2,7 @@
 
 #include "quadmap/slam/backend/GivenPoses.h"
 #include "quadmap/slam/backend/JointBackEnd.h"
+#include "quadmap/slam/backend/QuadricBackEnd.h"
 
 namespace quadmap
 {
@@ -20,9 +21,12 @@ std::unique_ptr<BackEnd> createBackEnd(
     const SlamConfiguration& configuration, const LabelTable& labels)
 {
   const auto& slam = configuration.slam;
-  if (slam.method == SlamMethod::Odometry || slam.odometry == PoseSource::GroundTruth ||
-      !configuration.joint.correctPoses)
-    return std::make_unique<GivenPoses>();
+  const bool correctPoses =
+      slam.odometry != PoseSource::GroundTruth && configuration.joint.correctPoses;
+  if (slam.method == SlamMethod::Quadric)
+    return std::make_unique<QuadricBackEnd>(
+        configuration.joint, configuration.mapInsertion, correctPoses, labels);
+  if (slam.method == SlamMethod::Odometry || !correctPoses) return std::make_unique<GivenPoses>();
   return std::make_unique<JointBackEnd>(configuration.joint, configuration.mapInsertion, labels);
 }
 

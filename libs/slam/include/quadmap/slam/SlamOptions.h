@@ -10,6 +10,7 @@ namespace quadmap
 enum class SlamMethod
 {
   Rgbd,     //!< Complete and partial measurements from colour boxes and depth
+  Quadric,  //!< QuadricSLAM: ellipsoids that touch the boxes' edges, no depth
   Odometry  //!< No objects: the trajectory alone
 };
 
@@ -22,7 +23,7 @@ enum class PoseSource
   GroundTruth  //!< The rawlog's "ground_truth" poses
 };
 
-/** The names of the command line and the INI file: rgbd, odometry.
+/** The names of the command line and the INI file: rgbd, quadric, odometry.
  * \exception std::invalid_argument For another name; lists the known ones. */
 SlamMethod slamMethodFrom(const std::string& name);
 std::string nameOf(SlamMethod method);

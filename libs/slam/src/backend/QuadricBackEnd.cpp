@@ -1,0 +1,229 @@
+#include "quadmap/slam/backend/QuadricBackEnd.h"
+
+#include <algorithm>
+
+#include "OdometryChain.h"
+#include "ViewRedundancy.h"
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+using mrpt::poses::CPose3DPDFGaussian;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+namespace
+{
+FactorGraphOptions graphOptions(const JointOptions& options, const EstimatorOptions& estimator)
+{
+  FactorGraphOptions graph;
+  graph.estimator = estimator;
+  graph.maxIterations = options.maxIterations;
+  graph.floorSigma = 0;  // whatever an ellipsoid that touches boxes stands on, it is no floor
+  return graph;
+}
+
+bool isSame(const std::vector<BoxDecision>& a, const std::vector<BoxDecision>& b)
+{
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const BoxDecision& x, const BoxDecision& y)
+      {
+        return x.keyframe == y.keyframe && x.decision.box == y.decision.box &&
+               x.decision.object == y.decision.object;
+      });
+}
+
+}  // namespace
+
+QuadricBackEnd::QuadricBackEnd(
+    const JointOptions& options,
+    const CQuadricObjectMap::TInsertionOptions& mapOptions,
+    bool correctPoses,
+    const LabelTable& labels) :
+    options_(options),
+    mapOptions_(mapOptions),
+    correctPoses_(correctPoses),
+    labels_(labels),
+    graph_(graphOptions(options, mapOptions.estimator)),
+    objects_(mapOptions, labels)
+{
+}
+
+CPose3D QuadricBackEnd::predict(const CPose3D& T_odom_robot) const
+{
+  if (!correctPoses_ || graph_.poses() == 0) return T_odom_robot;
+  return graph_.pose(graph_.poses() - 1) + (T_odom_robot - lastOdometry_);
+}
+
+QuadricBackEnd::Decisions QuadricBackEnd::associate(
+    const CObservationObjects& boxes,
+    std::size_t keyframe,
+    const Matrix6& poseCovariance,
+    const QuadricObjects::PoseOf& poseOf)
+{
+  const auto views = boxViewsOf(boxes, keyframe, labels_, mapOptions_);
+  return objects_.add(views, boxes.timestamp, poseCovariance, poseOf);
+}
+
+RobotView QuadricBackEnd::viewFor(
+    const BoxView& view, const CPose3D& T_map_robot, const Ellipsoid& object) const
+{
+  const double range = (object.center() - view.placedAt(T_map_robot).camera).norm();
+  return view.robotView(range, mapOptions_.poseNoise, mapOptions_.estimator);
+}
+
+CPose3D QuadricBackEnd::addKeyframe(
+    const CPose3D& T_odom_robot,
+    const std::optional<CPose3DPDFGaussian>& step,
+    const CObservationObjects* boxes,
+    SlamResult& result)
+{
+  const std::size_t pose = graph_.addPose(predict(T_odom_robot));
+  lastOdometry_ = T_odom_robot;
+  if (pose > 0 && step) graph_.addStep(pose - 1, pose, stiffAtRest(*step));
+  if (!boxes) return graph_.pose(pose);
+
+  const auto window = static_cast<std::size_t>(options_.window);
+  const std::size_t firstFree = pose < window ? 1 : pose + 1 - window;
+  const auto poseOf = [&](std::size_t k) { return graph_.pose(k); };
+  const Matrix6 poseCovariance =
+      correctPoses_ ? graph_.marginals(firstFree, false).lastPose : Matrix6(Matrix6::Zero());
+  const Decisions decisions = associate(*boxes, pose, poseCovariance, poseOf);
+  for (const auto& decision : decisions)
+    result.decisions.push_back({static_cast<std::uint32_t>(pose), decision});
+  const auto merged = objects_.mergeOverlapping(poseOf);
+  if (!correctPoses_) return graph_.pose(pose);
+
+  for (const auto& decision : decisions)
+    if (decision.object) addToWindow(*decision.object, pose, decision.startedObject);
+  for (const auto& [kept, absorbed] : merged)
+  {
+    cameras_.erase(absorbed);
+    if (!graph_.hasObject(absorbed)) continue;
+    if (!graph_.hasObject(kept)) addToWindow(kept, pose, true);
+    graph_.removeObject(absorbed, kept);
+  }
+  graph_.optimiseWindow(firstFree);
+  return graph_.pose(pose);
+}
+
+void QuadricBackEnd::addToWindow(ObjectId id, std::size_t keyframe, bool isNew)
+{
+  const auto it = objects_.all().find(id);
+  if (it == objects_.all().end()) return;  // absorbed meanwhile
+  const QuadricObject& object = it->second;
+  if (isNew || !graph_.hasObject(id))
+    graph_.setObject(
+        id, object.record.object, withEllipsoidOutline(labels_.properties(object.record.label())),
+        ObjectFreedom::Free);
+  for (const BoxView& seen : object.views)
+  {
+    if (!isNew && seen.keyframe != keyframe) continue;
+    const CPose3D T_map_robot = graph_.pose(seen.keyframe);
+    RobotView view = viewFor(seen, T_map_robot, object.record.object);
+    const Eigen::Vector3d camera = seen.placedAt(T_map_robot).camera;
+    auto& cameras = cameras_[id];
+    view.weight =
+        independentShare(camera, object.record.object.center(), cameras, mapOptions_.existence);
+    rememberCamera(camera, cameras);
+    graph_.addView(seen.keyframe, id, view);
+  }
+}
+
+FactorGraph QuadricBackEnd::globalGraph(const SlamResult& result) const
+{
+  FactorGraph graph(graphOptions(options_, mapOptions_.estimator));
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+  {
+    const Keyframe& keyframe = result.keyframes[k];
+    graph.addPose(keyframe.T_map_robot);
+    if (k > 0 && keyframe.odometryStep)
+      graph.addStep(k - 1, k, stiffAtRest(*keyframe.odometryStep));
+  }
+  for (const auto& [id, object] : objects_.all())
+  {
+    graph.setObject(
+        id, object.record.object, withEllipsoidOutline(labels_.properties(object.record.label())),
+        ObjectFreedom::Free);
+    std::vector<Eigen::Vector3d> cameras;
+    for (const auto& view : object.views)
+      cameras.push_back(view.placedAt(graph.pose(view.keyframe)).camera);
+    const auto shares =
+        independentShares(cameras, object.record.object.center(), mapOptions_.existence);
+    for (std::size_t i = 0; i < object.views.size(); ++i)
+    {
+      const BoxView& seen = object.views[i];
+      RobotView view = viewFor(seen, graph.pose(seen.keyframe), object.record.object);
+      view.weight = shares[i];
+      graph.addView(seen.keyframe, id, view);
+    }
+  }
+  return graph;
+}
+
+double QuadricBackEnd::round(const BoxesOf& boxesOf, SlamResult& result)
+{
+  const auto poseOf = [&](std::size_t k) { return result.keyframes[k].T_map_robot; };
+  result.decisions.clear();
+  objects_.beginRound();
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    if (const auto boxes = boxesOf(k))
+      for (const auto& decision : associate(*boxes, k, Matrix6::Zero(), poseOf))
+        result.decisions.push_back({static_cast<std::uint32_t>(k), decision});
+  objects_.mergeOverlapping(poseOf);
+  objects_.endRound();
+
+  FactorGraph graph = globalGraph(result);
+  CPose3D T_map_graph;
+  if (correctPoses_)
+  {
+    graph.optimise();
+    T_map_graph = alignmentWithOdometry(graph, result.keyframes);
+  }
+  else
+    graph.optimiseObjects();
+  double farthest = 0;
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+  {
+    CPose3D& pose = result.keyframes[k].T_map_robot;
+    const CPose3D corrected = T_map_graph + graph.pose(k);
+    farthest = std::max(farthest, pose.distanceTo(corrected));
+    pose = corrected;
+  }
+  const auto marginals = correctPoses_ ? graph.marginals(0, true).objects : graph.objectMarginals();
+  for (const auto& [id, covariance] : marginals)
+    objects_.settle(id, graph.object(id).transformed(T_map_graph), covariance);
+  return farthest;
+}
+
+void QuadricBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
+{
+  CorrectionSummary summary;
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    result.keyframes[k].T_map_robot = graph_.pose(k);
+  for (; summary.rounds < options_.rounds && !summary.converged; ++summary.rounds)
+  {
+    const auto before = result.decisions;
+    summary.lastMove = round(boxesOf, result);
+    summary.converged = summary.lastMove < options_.smallMove &&
+                        (correctPoses_ || isSame(before, result.decisions));
+  }
+  if (correctPoses_) result.correction = summary;
+  fillMap(result);
+}
+
+void QuadricBackEnd::fillMap(SlamResult& result) const
+{
+  const auto poseOf = [&](std::size_t k) { return result.keyframes[k].T_map_robot; };
+  result.map.clear();
+  std::map<ObjectId, ObjectId> idInMap;
+  for (const auto& [id, object] : objects_.all())
+    if (!object.waits) idInMap[id] = result.map.addObject(objects_.finished(object, poseOf));
+  for (auto& [keyframe, decision] : result.decisions)
+  {
+    const auto known = decision.object ? idInMap.find(*decision.object) : idInMap.end();
+    decision.object = known == idInMap.end() ? std::nullopt : std::optional(known->second);
+  }
+}
+
+}  // namespace quadmap
