@@ -68,8 +68,7 @@ QuadricBackEnd::Decisions QuadricBackEnd::associate(
 RobotView QuadricBackEnd::viewFor(
     const BoxView& view, const CPose3D& T_map_robot, const Ellipsoid& object) const
 {
-  const double range = (object.center() - view.placedAt(T_map_robot).camera).norm();
-  return view.robotView(range, mapOptions_.poseNoise, mapOptions_.estimator);
+  return view.robotView(T_map_robot, object, mapOptions_.poseNoise, mapOptions_.estimator);
 }
 
 CPose3D QuadricBackEnd::addKeyframe(

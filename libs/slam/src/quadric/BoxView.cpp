@@ -11,6 +11,10 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
+/** Views of an object from other sides share what its outline has over an ellipsoid's: as much is
+ * known from four of them as from one, if they erred independently. */
+constexpr double kSharedOutline = 2;
+
 Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
 
 /** Of the image as angles, the geometric mean of width and height [rad]. */
@@ -42,15 +46,21 @@ PlacedBox BoxView::placedAt(const CPose3D& T_map_robot) const
 }
 
 RobotView BoxView::robotView(
-    double range, const PoseNoise& noise, const EstimatorOptions& options) const
+    const CPose3D& T_map_robot,
+    const Ellipsoid& object,
+    const PoseNoise& noise,
+    const EstimatorOptions& options) const
 {
+  const double range = (object.center() - placedAt(T_map_robot).camera).norm();
+  const double outline = kSharedOutline * kOutlineSpread * object.semiAxes().mean();
   RobotView view;
   view.camera = camera;
   for (const Edge& edge : edges)
-    if (edge.usable)
-      view.edges.push_back(
-          {edge.normal,
-           range * std::hypot(edge.angleSigma, noise.angle) + noise.position + options.edgeFloor});
+  {
+    const double sigma =
+        range * std::hypot(edge.angleSigma, noise.angle) + noise.position + options.edgeFloor;
+    if (edge.usable) view.edges.push_back({edge.normal, std::hypot(sigma, outline)});
+  }
   return view;
 }
 

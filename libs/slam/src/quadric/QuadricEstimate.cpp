@@ -15,9 +15,6 @@ namespace
 {
 using Eigen::Vector3d;
 
-/** Outlines of things are not those of ellipsoids: how far an edge may be off, as a share of the
- * mean semi-axis. A cuboid's corner is 0.73 semi-axes outside the ellipsoid, its faces are 0. */
-constexpr double kShapeShare = 0.15;
 /** A thing without a plausible distance is looked for in a room [m]. */
 constexpr double kNearest = 0.3, kFarthest = 8.0;
 
@@ -83,8 +80,8 @@ QuadricEstimate estimateQuadric(
   const auto shares = independentShares(cameras, start.center(), options.existence);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    const double range = (start.center() - cameras[i]).norm();
-    RobotView view = views[i].view->robotView(range, options.poseNoise, options.estimator);
+    RobotView view =
+        views[i].view->robotView(views[i].T_map_robot, start, options.poseNoise, options.estimator);
     view.weight = shares[i];
     graph.addView(graph.addPose(views[i].T_map_robot), kId, view);
   }
@@ -107,8 +104,10 @@ Ellipsoid usualObjectIn(
   const double range = acrossSeen == uprightSeen ? std::sqrt(across * upright)
                        : acrossSeen              ? across
                                                  : upright;
-  const Vector3d center = box.camera + range * forward(box);
-  return {mrpt::poses::CPose3D(center.x(), center.y(), center.z(), 0, 0, 0), 0.5 * size};
+  const Vector3d ahead = forward(box), center = box.camera + range * ahead;
+  // The longer horizontal side across the view.
+  const double yaw = std::atan2(ahead.y(), ahead.x()) + (size.x() > size.y() ? M_PI / 2 : 0);
+  return {mrpt::poses::CPose3D(center.x(), center.y(), center.z(), yaw, 0, 0), 0.5 * size};
 }
 
 double boxLogLikelihoodRatio(
@@ -122,7 +121,7 @@ double boxLogLikelihoodRatio(
   const Vector3d robot(seen.T_map_robot.x(), seen.T_map_robot.y(), seen.T_map_robot.z());
   const double range = forward(box).dot(object.center() - box.camera);
   if (range < object.semiAxes().minCoeff()) return -std::numeric_limits<double>::infinity();
-  const double shape = kShapeShare * object.semiAxes().mean();
+  const double shape = kOutlineSpread * object.semiAxes().mean();
 
   const auto rows = static_cast<Eigen::Index>(seen.view->usableEdges());
   Eigen::VectorXd r(rows);

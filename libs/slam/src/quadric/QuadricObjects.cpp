@@ -192,7 +192,7 @@ bool QuadricObjects::promote(QuadricObject& track, const PoseOf& poseOf)
   const auto label = labels_.properties(track.record.label());
   const auto plausible = [&](const Ellipsoid& object)
   { return isPlausible(object, boxes, label, options_.existence.maxSizeDeviation); };
-  std::vector<Ellipsoid> starts;
+  std::vector<Ellipsoid> starts = {track.record.object};
   if (const auto linear = ellipsoidTouching(boxes); linear && plausible(*linear))
     starts.push_back(*linear);
   const double radius = 0.5 * std::cbrt(label.typicalSize.prod());

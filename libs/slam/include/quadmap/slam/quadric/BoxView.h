@@ -15,6 +15,11 @@
 
 namespace quadmap
 {
+/** The outline of a thing is not that of an ellipsoid: standard deviation of an edge, as a share of
+ * the mean semi-axis. That of |n_x| + |n_y| + |n_z|, the half width of a cube, over all directions.
+ */
+constexpr double kOutlineSpread = 0.15;
+
 /** One detector box of one keyframe as planes through the camera, in the robot's frame: all that a
  * method without depth has of an object. */
 struct BoxView
@@ -36,8 +41,13 @@ struct BoxView
   std::size_t usableEdges() const;
   PlacedBox placedAt(const mrpt::poses::CPose3D& T_map_robot) const;
 
-  /** As the factor graph has it. \param range To the object [m]: sigmas grow with it. */
-  RobotView robotView(double range, const PoseNoise& noise, const EstimatorOptions& options) const;
+  /** As the factor graph has it. \param object As it is known: sigmas grow with its distance and
+   * its size. */
+  RobotView robotView(
+      const mrpt::poses::CPose3D& T_map_robot,
+      const Ellipsoid& object,
+      const PoseNoise& noise,
+      const EstimatorOptions& options) const;
 };
 
 /** The boxes of an image that are worth something: sure enough, no twins of a better one, with an

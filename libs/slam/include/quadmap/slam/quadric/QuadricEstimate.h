@@ -37,7 +37,8 @@ QuadricEstimate estimateQuadric(
     const LabelProperties& label,
     const InsertionOptions& options);
 
-/** A thing of the label's usual size at the distance at which it fills the box. */
+/** A thing of the label's usual size at the distance at which it fills the box, upright, its longer
+ * side across the view. */
 Ellipsoid usualObjectIn(
     const BoxView& view, const mrpt::poses::CPose3D& T_map_robot, const LabelProperties& label);
 

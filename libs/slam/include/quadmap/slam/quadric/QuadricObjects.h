@@ -36,7 +36,8 @@ struct QuadricObject
  * compared with objects and tracks alike, by how far their edges are from touching; the covariance
  * makes this the epipolar band for a track, and the posterior of the Dirichlet process decides
  * (doc/mathematics.md). When a track was seen from directions different enough it becomes an
- * object: that of the linear solution, or a sphere where there is none. */
+ * object: the best that the linear solution, a sphere at the triangulated centre and the track's
+ * own ellipsoid lead to. */
 class QuadricObjects
 {
  public:
