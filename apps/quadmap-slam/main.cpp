@@ -73,6 +73,14 @@ struct Cli
   TCLAP::ValueArg<int> every{
       "",  "every",    "Every n-th frame of a sensor is a keyframe (default: by motion).", false, 0,
       "N", line.args()};
+  TCLAP::ValueArg<int> threads{
+      "",
+      "threads",
+      "Threads that work; 0 or none: as many as useful. The results are the same with any number.",
+      false,
+      0,
+      "N",
+      line.args()};
 };
 
 SlamConfiguration configurationOf(Cli& cli)
@@ -85,6 +93,11 @@ SlamConfiguration configurationOf(Cli& cli)
   {
     if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be 1 or more");
     configuration.keyframes.every = cli.every.getValue();
+  }
+  if (cli.threads.isSet())
+  {
+    if (cli.threads.getValue() < 0) throw cli::UsageError("--threads: must be 0 or more");
+    configuration.slam.threads = cli.threads.getValue();
   }
   return configuration;
 }

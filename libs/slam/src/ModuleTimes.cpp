@@ -8,12 +8,20 @@
 
 namespace quadmap
 {
-double processCpuTime()
+namespace
+{
+double cpuTime(clockid_t clock)
 {
   timespec t{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  ::clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
+
+double threadCpuTime() { return cpuTime(CLOCK_THREAD_CPUTIME_ID); }
+
+}  // namespace
+
+double processCpuTime() { return cpuTime(CLOCK_PROCESS_CPUTIME_ID); }
 
 double peakMemory_mb()
 {
@@ -28,17 +36,20 @@ double peakMemory_mb()
 }
 
 ModuleTimes::Scope::Scope(ModuleTimes& times, const std::string& module) :
-    samples_ms_(times.samplesByModule_ms_[module]), start_ms_(1e3 * processCpuTime())
+    times_(times), module_(module), start_(threadCpuTime())
 {
 }
 
 ModuleTimes::Scope::~Scope()
 {
-  samples_ms_.push_back(static_cast<float>(1e3 * processCpuTime() - start_ms_));
+  const double spent_ms = 1e3 * (threadCpuTime() - start_);
+  const std::lock_guard lock(times_.mutex_);
+  times_.samplesByModule_ms_[module_].push_back(static_cast<float>(spent_ms));
 }
 
 std::map<std::string, ModuleTimes::Summary> ModuleTimes::summaries() const
 {
+  const std::lock_guard lock(mutex_);
   std::map<std::string, Summary> result;
   for (const auto& [module, samples] : samplesByModule_ms_)
   {

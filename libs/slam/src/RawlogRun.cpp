@@ -51,7 +51,12 @@ class RawlogRun
       directory_(request.outputDirectory),
       spool_(request.outputDirectory),
       survey_(surveyOdometry(request.rawlog, sourceOptions(request), request.configuration)),
-      slam_(configurationOf(request, survey_), LabelTable::installed(), spool_, survey_.up_robot)
+      slam_(
+          configurationOf(request, survey_),
+          LabelTable::installed(),
+          spool_,
+          survey_.up_robot,
+          request.keepGoing)
   {
     using mrpt::system::VerbosityLevel;
     for (mrpt::system::COutputLogger* logger :
@@ -71,11 +76,16 @@ class RawlogRun
   }
 
   RawlogRunSummary run()
+  try
   {
     const bool interrupted = addAllFrames();
     requireContent(interrupted);
     finish();
     return write(interrupted);
+  }
+  catch (const BadFrame& e)
+  {
+    throw std::runtime_error(problemOf(e).text());
   }
 
  private:
@@ -104,12 +114,28 @@ class RawlogRun
   /** \return True when asked to stop before the end. */
   bool addAllFrames()
   {
+    bool interrupted = false;
+    try
+    {
+      interrupted = addUntilStopped();
+    }
+    catch (...)
+    {
+      slam_.settle();  // what is wrong with earlier frames comes first
+      throw;
+    }
+    slam_.settle();
+    return interrupted;
+  }
+
+  bool addUntilStopped()
+  {
     while (!request_.shouldStop())
     {
       const auto frame = nextFrame();
       request_.onProgress(source_.progress());
       if (!frame) return false;
-      addFrame(*frame);
+      slam_.addFrame(*frame);
     }
     return true;
   }
@@ -120,18 +146,9 @@ class RawlogRun
     return source_.next();
   }
 
-  void addFrame(const RgbdFrame& frame)
+  InputProblem problemOf(const BadFrame& e) const
   {
-    try
-    {
-      slam_.addFrame(frame);
-    }
-    catch (const BadFrame& e)
-    {
-      const InputProblem problem{request_.rawlog, frame.record, frame.scan->sensorLabel, e.what()};
-      if (!request_.keepGoing) throw std::runtime_error(problem.text());
-      badFrames_.push_back(problem);
-    }
+    return {request_.rawlog, e.record, e.sensor, e.what()};
   }
 
   void requireContent(bool interrupted)
@@ -162,6 +179,10 @@ class RawlogRun
     {
       slam_.finish();
     }
+    catch (const BadFrame&)
+    {
+      throw;
+    }
     catch (const std::runtime_error& e)
     {
       throw std::runtime_error(request_.rawlog + ": " + e.what());
@@ -173,7 +194,7 @@ class RawlogRun
     InputDescription input{request_.rawlog,       request_.objectsFile,   request_.sensorLabel,
                            source_.recordsRead(), source_.odometryKind(), interrupted,
                            source_.problems()};
-    input.problems.insert(input.problems.end(), badFrames_.begin(), badFrames_.end());
+    for (const auto& e : slam_.badFrames()) input.problems.push_back(problemOf(e));
     RawlogRunSummary summary;
     summary.files = writeResult(
         request_.outputDirectory,
@@ -190,7 +211,6 @@ class RawlogRun
   KeyframeSpool spool_;
   OdometrySurvey survey_;
   ObjectSlam slam_;
-  std::vector<InputProblem> badFrames_;
 };
 
 }  // namespace

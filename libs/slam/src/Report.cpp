@@ -91,6 +91,7 @@ Json configurationJson(const SlamConfiguration& configuration)
     config.getAllKeys(section, keys);
     for (const auto& key : keys) json[section][key] = config.read_string(section, key, "");
   }
+  json["slam"].erase("threads");  // is told with the times: nothing else depends on it
   return json;
 }
 
@@ -147,10 +148,10 @@ Json problemsJson(const std::vector<InputProblem>& problems)
   return json;
 }
 
-Json timingJson(const ModuleTimes& times)
+Json timingJson(const RunRecord& run)
 {
   Json modules = Json::object();
-  for (const auto& [name, t] : times.summaries())
+  for (const auto& [name, t] : run.times.summaries())
     modules[name] = {
         {      "calls",           t.calls},
         { "cpu_mean_ms", rounded(t.mean_ms,           3)},
@@ -158,9 +159,10 @@ Json timingJson(const ModuleTimes& times)
         { "cpu_total_s", rounded(t.total_s,           3)}
     };
   return {
-      {       "modules",                  modules},
-      { "cpu_total_s", rounded(processCpuTime(),              3)},
-      { "peak_memory_mb",  rounded(peakMemory_mb(),              1)}
+      {       "threads", run.configuration.slam.workingThreads()},
+      { "modules",                                 modules               },
+      { "cpu_total_s",                rounded(processCpuTime(),                                                     3)},
+      { "peak_memory_mb",                 rounded(peakMemory_mb(),                                                     1)}
   };
 }
 
@@ -254,7 +256,7 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
       {     "correction",    correctionJson(run.result.correction)                                        },
       {       "warnings",                      run.result.warnings},
       {        "dropped",         problemsJson(run.input.problems)                                        },
-      {         "timing",                    timingJson(run.times)}
+      {         "timing",                          timingJson(run)}
   };
   std::string start = text(head, 2);
   start.erase(start.rfind('\n'));  // the closing brace comes after the associations

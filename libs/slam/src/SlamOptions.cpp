@@ -1,6 +1,8 @@
 #include "quadmap/slam/SlamOptions.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "OptionText.h"
@@ -22,6 +24,9 @@ constexpr std::pair<PoseSource, const char*> kSources[] = {
     {     PoseSource::Visual,       "visual"},
     {PoseSource::GroundTruth, "ground-truth"}
 };
+
+constexpr int kMostThreads = 64;
+constexpr unsigned kUsefulThreads = 4;  // the input, and three stages a keyframe goes through
 
 template <typename Table>
 auto valueOf(const Table& table, const std::string& what, const std::string& name)
@@ -51,12 +56,19 @@ std::string nameOf(SlamMethod method) { return textOf(kMethods, method); }
 PoseSource poseSourceFrom(const std::string& name) { return valueOf(kSources, "odometry", name); }
 std::string nameOf(PoseSource source) { return textOf(kSources, source); }
 
+std::size_t SlamOptions::workingThreads() const
+{
+  if (threads > 0) return static_cast<std::size_t>(threads);
+  return std::clamp(std::thread::hardware_concurrency(), 1u, kUsefulThreads);
+}
+
 void SlamOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& config, const std::string& section)
 {
-  rejectUnknownKeys(config, section, {"method", "odometry"});
+  rejectUnknownKeys(config, section, {"method", "odometry", "threads"});
   method = slamMethodFrom(config.read_string(section, "method", nameOf(method)));
   odometry = poseSourceFrom(config.read_string(section, "odometry", nameOf(odometry)));
+  readNumber(config, section, "threads", threads, 0, kMostThreads);
 }
 
 void SlamOptions::saveToConfigFile(
@@ -64,6 +76,7 @@ void SlamOptions::saveToConfigFile(
 {
   config.write(section, "method", nameOf(method));
   config.write(section, "odometry", nameOf(odometry));
+  config.write(section, "threads", threads);
 }
 
 void InputOptions::loadFromConfigFile(

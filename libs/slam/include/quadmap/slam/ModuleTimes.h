@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace quadmap
 {
-/** CPU time of the parts of a program, all threads together. */
+/** CPU time of the parts of a program; each counts the thread it runs in. Parts may run at the same
+ * time. */
 class ModuleTimes
 {
  public:
@@ -21,8 +23,9 @@ class ModuleTimes
     Scope& operator=(const Scope&) = delete;
 
    private:
-    std::vector<float>& samples_ms_;
-    double start_ms_;
+    ModuleTimes& times_;
+    const std::string module_;
+    const double start_;  //!< [s]
   };
   Scope measure(const std::string& module) { return Scope(*this, module); }
 
@@ -34,6 +37,7 @@ class ModuleTimes
   std::map<std::string, Summary> summaries() const;
 
  private:
+  mutable std::mutex mutex_;
   std::map<std::string, std::vector<float>> samplesByModule_ms_;
 };
 

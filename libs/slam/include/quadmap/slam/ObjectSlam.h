@@ -2,55 +2,73 @@
 
 #include <mrpt/system/COutputLogger.h>
 
-#include <memory>
+#include <cstddef>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/perception/FramePerception.h"
-#include "quadmap/perception/RoomPlanes.h"
 #include "quadmap/sensors/RgbdFrame.h"
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/KeyframeSpool.h"
 #include "quadmap/slam/ModuleTimes.h"
 #include "quadmap/slam/OdometryInput.h"
+#include "quadmap/slam/SingleMoment.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
-#include "quadmap/slam/backend/BackEnd.h"
+#include "quadmap/slam/pipeline/BackEndStage.h"
+#include "quadmap/slam/pipeline/KeyframeTask.h"
+#include "quadmap/slam/pipeline/PerceptionStage.h"
+#include "quadmap/slam/pipeline/StagePipeline.h"
 
 namespace quadmap
 {
 /** Something is wrong with this one frame; the next ones may be fine. */
 struct BadFrame : std::runtime_error
 {
-  using std::runtime_error::runtime_error;
+  BadFrame(const RgbdFrame& frame, const std::string& what) :
+      runtime_error(what), record(frame.record), sensor(frame.scan->sensorLabel)
+  {
+  }
+  std::size_t record;  //!< Of the scan in its rawlog
+  std::string sensor;
 };
 
 /** RGB-D frames with boxes in, trajectory and object map out: keyframes are measured, their
  * measurements go into the map, and correct the odometry's poses on the way. Ground truth poses are
- * taken as given. */
+ * taken as given.
+ *
+ * Works on several keyframes at the same time; the result is the same with any number of threads.
+ * Messages come from the caller's thread. */
 class ObjectSlam : public mrpt::system::COutputLogger
 {
  public:
   /** \param spool Takes the images; must outlive this object.
-   *  \param up_robot See OdometryInput. */
+   *  \param up_robot See OdometryInput.
+   *  \param keepGoing Leave out bad frames: they are then in badFrames(). */
   ObjectSlam(
       const SlamConfiguration& configuration,
       const LabelTable& labels,
       KeyframeSpool& spool,
-      const std::optional<Eigen::Vector3d>& up_robot = {});
+      const std::optional<Eigen::Vector3d>& up_robot = {},
+      bool keepGoing = false);
 
-  /** \return True when the frame became a keyframe.
-   *  \exception BadFrame The frame is unusable and was left out. */
-  bool addFrame(const RgbdFrame& frame);
+  /** \exception BadFrame This frame or one before is unusable. There is no going on.
+   *  \exception std::runtime_error Likewise; the spool's disk is full, for one. */
+  void addFrame(const RgbdFrame& frame);
+
+  /** Waits for the frames that are under way. \exception As in addFrame(). */
+  void settle();
 
   /** After the last frame: settles the map.
+   *  \exception As in addFrame().
    *  \exception std::runtime_error If there were frames, but none had a pose. */
   void finish();
 
+  /** Complete after finish(). Until then only what concerns frames and warnings may be read. */
   const SlamResult& result() const { return result_; }
+  const std::vector<BadFrame>& badFrames() const { return badFrames_; }
   ModuleTimes& times() { return times_; }
 
   /** Logs a warning and keeps it for the report. */
@@ -59,33 +77,36 @@ class ObjectSlam : public mrpt::system::COutputLogger
  private:
   std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
   void tellOdometry(const RgbdFrame& frame);
-  bool addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
-  void keepWhileOneMoment(const RgbdFrame& frame);
-  void measureBoxes(
-      const RgbdFrame& frame, CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_sensor);
-  /** \return The keyframe's pose, corrected. */
-  mrpt::poses::CPose3D insertIntoMap(
-      const CObservationObjects* boxes,
-      const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
-      const mrpt::poses::CPose3D& T_odom_robot);
-  void correctEverything();
-  void count(const CObservationObjects& boxes);
+  void addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
+  void placeFramesWithoutPose();
   void warnOfMissingDepth();
   void warnOfUnknownLabels(const CObservationObjects& boxes);
+
+  // The stages; each is called from one thread at a time
+  KeyframeTask& task(std::size_t item) { return tasks_[item % tasks_.size()]; }
+  void measure(std::size_t item);
+  void addToMap(std::size_t item);
+  void spool(std::size_t item);
+
+  void takeFinished();
+  void account(const KeyframeTask& task);
 
   SlamConfiguration configuration_;
   LabelTable labels_;
   KeyframeSpool& spool_;
-  FramePerception perception_;
-  RoomPlanes room_;
+  bool keepGoing_;
   KeyframeSelector selector_;
   OdometryInput odometry_;
-  std::unique_ptr<BackEnd> backEnd_;
-  SlamResult result_;
-  ModuleTimes times_;
-  bool hasOneMoment_ = true;            //!< No frame had a pose, and all are of one moment:
-  std::vector<RgbdFrame> withoutPose_;  //!< these; each of another sensor
+  SingleMoment moment_;
   std::set<std::string> unknownLabels_;
+  PerceptionStage perception_;
+  BackEndStage backEnd_;
+  SlamResult result_;
+  std::vector<BadFrame> badFrames_;
+  ModuleTimes times_;
+  std::vector<KeyframeTask> tasks_;  //!< Under way, round and round
+  std::size_t added_ = 0, taken_ = 0;
+  StagePipeline pipeline_;  //!< The last member: its threads use the others
 };
 
 }  // namespace quadmap

@@ -2,6 +2,7 @@
 
 #include <mrpt/config/CLoadableOptions.h>
 
+#include <cstddef>
 #include <string>
 
 namespace quadmap
@@ -37,6 +38,9 @@ struct SlamOptions : public mrpt::config::CLoadableOptions
 {
   SlamMethod method = SlamMethod::Rgbd;
   PoseSource odometry = PoseSource::Auto;
+  int threads = 0;  //!< That work, >= 0; 0: as many as useful. Results do not depend on it
+
+  std::size_t workingThreads() const;  //!< >= 1
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& config, const std::string& section) override;
