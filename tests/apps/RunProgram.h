@@ -15,17 +15,23 @@ struct ProgramResult
   std::string out, err;  //!< What it printed
 };
 
+/** Runs a command as typed in a shell to its end. */
+inline ProgramResult runCommand(const std::string& command)
+{
+  const TemporaryFolder folder;
+  const std::string redirected =
+      command + " >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'";
+  const int status = std::system(redirected.c_str());
+  return {
+      WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(folder.path("out")),
+      readFile(folder.path("err"))};
+}
+
 /** Runs one of our programs to its end.
  * \param arguments As typed in a shell. */
 inline ProgramResult runProgram(const std::string& program, const std::string& arguments)
 {
-  const TemporaryFolder folder;
-  const std::string command = std::string(QUADMAP_BIN_DIR) + "/" + program + " " + arguments +
-                              " >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'";
-  const int status = std::system(command.c_str());
-  return {
-      WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(folder.path("out")),
-      readFile(folder.path("err"))};
+  return runCommand(std::string(QUADMAP_BIN_DIR) + "/" + program + " " + arguments);
 }
 
 }  // namespace quadmap

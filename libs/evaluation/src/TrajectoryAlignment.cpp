@@ -136,9 +136,9 @@ std::vector<PosePair> pairByTime(
     const StampedPose* nearest = nearestInTime(longer, pose.time);
     if (!nearest || std::abs(nearest->time - pose.time) > maxTimeDifference) continue;
     if (truthIsShorter)
-      pairs.push_back({pose.pose, nearest->pose});
+      pairs.push_back({pose.pose, nearest->pose, nearest->time});
     else
-      pairs.push_back({nearest->pose, pose.pose});
+      pairs.push_back({nearest->pose, pose.pose, pose.time});
   }
   return pairs;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "FrameMeasurer.h"
+#include "quadmap/evaluation/MeanAndSpread.h"
 #include "quadmap/evaluation/ObjectEvaluation.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/slam/KeyframeSelector.h"
@@ -46,32 +47,9 @@ std::vector<Setting> settings()
   return out;
 }
 
-/** One number over the seeds; a seed for which it does not exist does not count. */
-class Figure
-{
- public:
-  void add(const std::optional<double>& value)
-  {
-    if (value) values_.push_back(*value);
-  }
-  std::string text(int decimals) const
-  {
-    if (values_.empty()) return "-";
-    double mean = 0, squares = 0;
-    for (const double v : values_) mean += v / static_cast<double>(values_.size());
-    for (const double v : values_) squares += (v - mean) * (v - mean);
-    const double n = static_cast<double>(values_.size());
-    const double deviation = n > 1 ? std::sqrt(squares / (n - 1)) : 0.0;
-    return mrpt::format("%.*f +- %.*f", decimals, mean, decimals, deviation);
-  }
-
- private:
-  std::vector<double> values_;
-};
-
 struct Figures
 {
-  Figure trans, rot, shape, iou, precision, recall, f1;
+  MeanAndSpread trans, rot, shape, iou, precision, recall, f1;
 
   void add(const ObjectEvaluation& e)
   {
@@ -82,6 +60,24 @@ struct Figures
     precision.add(e.precision());
     recall.add(e.recall());
     f1.add(e.f1());
+  }
+
+  /** The means that exist, under the names quadmap-evaluate gives them. */
+  std::map<std::string, double> means() const
+  {
+    std::map<std::string, double> out;
+    const std::pair<const char*, const MeanAndSpread*> all[] = {
+        {  "trans_m",     &trans},
+        {  "rot_deg",       &rot},
+        {"shape_iou",     &shape},
+        {   "iou_3d",       &iou},
+        {"precision", &precision},
+        {   "recall",    &recall},
+        {       "f1",        &f1}
+    };
+    for (const auto& [name, values] : all)
+      if (const auto mean = values->mean()) out[name] = *mean;
+    return out;
   }
 };
 
@@ -146,7 +142,7 @@ class Walk
 
 }  // namespace
 
-void printAblationTable(const RunOptions& run, std::ostream& out)
+Rows printAblationTable(const RunOptions& run, std::ostream& out)
 {
   const auto labels = LabelTable::installed();
   const auto all = settings();
@@ -173,6 +169,9 @@ void printAblationTable(const RunOptions& run, std::ostream& out)
         f.iou.text(3).c_str(), f.precision.text(2).c_str(), f.recall.text(2).c_str(),
         f.f1.text(3).c_str());
   }
+  Rows rows;
+  for (std::size_t i = 0; i < all.size(); ++i) rows.push_back({all[i].name, figures[i].means()});
+  return rows;
 }
 
 }  // namespace quadmap::observations

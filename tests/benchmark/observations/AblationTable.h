@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "ObservationJson.h"
 #include "SceneRun.h"
 
 namespace quadmap::observations
@@ -10,6 +11,6 @@ namespace quadmap::observations
  * without the rules for box edges: simulator, perception, map and evaluation in memory, at the true
  * poses; mean and standard deviation over the seeds (doc/benchmarks.md, "What each model is
  * worth"). */
-void printAblationTable(const RunOptions& run, std::ostream& out);
+Rows printAblationTable(const RunOptions& run, std::ostream& out);
 
 }  // namespace quadmap::observations

@@ -78,6 +78,29 @@ class EdgeTable
     }
   }
 
+  /** Of all edges and of each side. */
+  Rows rows() const
+  {
+    Rows out;
+    std::vector<std::string> names{"all"};
+    names.insert(names.end(), kEdges.begin(), kEdges.end());
+    for (const auto& name : names)
+      for (const auto& rule : rules())
+      {
+        const auto found = counts_.find(name);
+        if (found == counts_.end() || (name != "all" && rule.name != std::string("both"))) continue;
+        const EdgeCounts& n = found->second.at(rule.name);
+        out.push_back({
+            name + " / " + rule.name,
+            {{"good", static_cast<double>(n.good)},
+                                  {"invalid", static_cast<double>(n.invalid)},
+                                  {"usable_good", static_cast<double>(n.usableGood)},
+                                  {"usable_invalid", static_cast<double>(n.usableInvalid)}}
+        });
+      }
+    return out;
+  }
+
   void print(std::ostream& out) const
   {
     out << mrpt::format(
@@ -127,7 +150,7 @@ class EdgeTable
 
 }  // namespace
 
-void printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::ostream& out)
+Rows printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::ostream& out)
 {
   const auto labels = LabelTable::installed();
   EdgeTable table(truth);
@@ -153,6 +176,7 @@ void printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::o
         for (auto& [rule, measurer] : measurers) table.add(rule, frame, measurer.measure(frame));
       });
   table.print(out);
+  return table.rows();
 }
 
 }  // namespace quadmap::observations

@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "ObservationJson.h"
 #include "SceneRun.h"
 
 namespace quadmap::observations
@@ -18,6 +19,6 @@ struct EdgeTruthOptions
 /** Prints how well the usable edges are told from those that the object goes on beyond: for each
  * rule alone and for both, in total, per kind of edge and per label (doc/benchmarks.md, "Box
  * edges"). */
-void printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::ostream& out);
+Rows printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::ostream& out);
 
 }  // namespace quadmap::observations

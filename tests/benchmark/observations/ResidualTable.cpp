@@ -61,6 +61,25 @@ class Residuals
     for (const auto& [name, factor] : factors_) out << row(name, factor);
   }
 
+  /** Counts and sums, so that the rows of several runs can be added up. */
+  Rows rows() const
+  {
+    Rows out;
+    for (const auto& [name, factor] : factors_)
+    {
+      out.push_back({
+          name,
+          {{"count", static_cast<double>(factor.residuals.size())}, {"beyond", beyond(factor)}}
+      });
+      if (factor.isInequality) continue;
+      const Moments inside = momentsWithin(factor.residuals, kOutlier);
+      out.back().second["inside"] = inside.count;
+      out.back().second["sum"] = inside.mean * inside.count;
+      out.back().second["squares"] = (inside.variance + inside.mean * inside.mean) * inside.count;
+    }
+    return out;
+  }
+
  private:
   static std::string withoutBlanks(std::string text)
   {
@@ -75,15 +94,19 @@ class Residuals
     factor.residuals.push_back(normalised);
   }
 
+  static double beyond(const Factor& factor)
+  {
+    return static_cast<double>(std::count_if(
+        factor.residuals.begin(), factor.residuals.end(),
+        [&](double x) { return (factor.isInequality ? x : std::abs(x)) > kOutlier; }));
+  }
+
   static std::string row(const std::string& name, const Factor& factor)
   {
     const auto& r = factor.residuals;
     const Moments all = momentsWithin(r, std::numeric_limits<double>::infinity());
-    const double beyond = static_cast<double>(std::count_if(
-        r.begin(), r.end(),
-        [&](double x) { return (factor.isInequality ? x : std::abs(x)) > kOutlier; }));
     const std::string head = mrpt::format("%-40s %6zu", name.c_str(), r.size());
-    const std::string tail = mrpt::format(" %8.2f %%\n", 100 * beyond / all.count);
+    const std::string tail = mrpt::format(" %8.2f %%\n", 100 * beyond(factor) / all.count);
     if (factor.isInequality) return head + mrpt::format("%37s", "(violated)") + tail;
     // A normal distribution cut at 3 sigma keeps this share of its variance.
     constexpr double kKept = 0.9733;
@@ -205,7 +228,7 @@ void addFrame(const ObservedFrame& frame, const LabelTable& labels, Residuals& o
 
 }  // namespace
 
-void printResidualTable(const RunOptions& run, bool perLabel, std::ostream& out, std::ostream* raw)
+Rows printResidualTable(const RunOptions& run, bool perLabel, std::ostream& out, std::ostream* raw)
 {
   const auto labels = LabelTable::installed();
   Residuals residuals(perLabel, raw);
@@ -213,6 +236,7 @@ void printResidualTable(const RunOptions& run, bool perLabel, std::ostream& out,
       run, PerceptionOptions(), labels,
       [&](const ObservedFrame& frame) { addFrame(frame, labels, residuals); });
   residuals.print(out);
+  return residuals.rows();
 }
 
 }  // namespace quadmap::observations

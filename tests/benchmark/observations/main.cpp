@@ -5,6 +5,7 @@
 #include "../../../apps/common/CommandLine.h"
 #include "AblationTable.h"
 #include "EdgeTable.h"
+#include "OrientationTable.h"
 #include "ResidualTable.h"
 #include "quadmap/obs/ConfigCheck.h"
 
@@ -24,9 +25,9 @@ struct Cli
       "Measures the objects of simulated frames at their true poses and prints a table. residuals: "
       "residuals of the map's factors at the true state, in units of their sigmas; edges: how well "
       "the usable box edges are told from the others; ablation: the map's errors with each model "
-      "and rule.",
+      "and rule; orientation: errors of the measured headings per class.",
       "benchmark"};
-  std::vector<std::string> tables{"residuals", "edges", "ablation"};
+  std::vector<std::string> tables{"residuals", "edges", "ablation", "orientation"};
   TCLAP::ValuesConstraint<std::string> tableConstraint{tables};
   TCLAP::UnlabeledValueArg<std::string> table{"TABLE", "What to print.", true,
                                               "",      &tableConstraint, line.args()};
@@ -49,6 +50,8 @@ struct Cli
       "N",
       line.args()};
   TCLAP::SwitchArg perLabel{"", "per-label", "Rows for each label too.", line.args()};
+  TCLAP::ValueArg<std::string> json{
+      "", "json", "Write the table to this file too.", false, "", "FILE", line.args()};
   TCLAP::ValueArg<std::string> raw{
       "", "raw", "residuals: write every residual here.", false, "", "FILE", line.args()};
 };
@@ -80,19 +83,27 @@ RunOptions runOptions(Cli& cli)
   return run;
 }
 
-void printTable(Cli& cli)
+Rows printTable(Cli& cli)
 {
   const RunOptions run = runOptions(cli);
   const std::string& table = cli.table.getValue();
   if (table == "edges") return printEdgeTable(run, {cli.invalidSigmas.getValue()}, std::cout);
   if (table == "ablation") return printAblationTable(run, std::cout);
+  if (table == "orientation") return printOrientationTable(run, std::cout);
   std::ofstream raw;
   if (cli.raw.isSet())
   {
     raw.open(cli.raw.getValue());
     if (!raw) throw std::runtime_error("cannot write " + cli.raw.getValue());
   }
-  printResidualTable(run, cli.perLabel.getValue(), std::cout, cli.raw.isSet() ? &raw : nullptr);
+  return printResidualTable(
+      run, cli.perLabel.getValue(), std::cout, cli.raw.isSet() ? &raw : nullptr);
+}
+
+void run(Cli& cli)
+{
+  const Rows rows = printTable(cli);
+  if (cli.json.isSet()) writeRows(cli.json.getValue(), rows);
 }
 
 }  // namespace
@@ -104,6 +115,6 @@ int main(int argc, char** argv)
       [&]
       {
         Cli cli;
-        if (cli.line.parse(argc, argv)) printTable(cli);
+        if (cli.line.parse(argc, argv)) run(cli);
       });
 }

@@ -15,6 +15,7 @@ struct PosePair
 {
   mrpt::poses::CPose3D T_truth_body;      //!< In the world of the true trajectory
   mrpt::poses::CPose3D T_estimated_body;  //!< In the estimated map
+  double time = 0;                        //!< Of the estimated pose [s]
 };
 
 /** The association of `evo_ape`: every pose of the shorter trajectory (of equally long ones, the

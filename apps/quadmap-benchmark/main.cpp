@@ -1,0 +1,214 @@
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "common/Subcommands.h"
+#include "quadmap/evaluation/benchmark/BenchmarkPlots.h"
+#include "quadmap/evaluation/benchmark/BenchmarkTables.h"
+#include "quadmap/evaluation/benchmark/GeneratedSections.h"
+#include "quadmap/obs/OutputFile.h"
+#include "quadmap/slam/SlamOptions.h"
+
+// The parts of the benchmark that no existing program does; share/quadmap/benchmark/run calls them.
+
+namespace
+{
+using namespace quadmap;
+namespace fs = std::filesystem;
+
+std::vector<std::string> itemsOf(const std::string& list)
+{
+  std::vector<std::string> items;
+  std::istringstream text(list);
+  for (std::string item; std::getline(text, item, ',');)
+    if (!item.empty()) items.push_back(item);
+  return items;
+}
+
+std::vector<std::uint64_t> seedsOf(const std::string& list)
+{
+  std::vector<std::uint64_t> seeds;
+  for (const auto& item : itemsOf(list))
+  {
+    if (item.size() > 18 || item.find_first_not_of("0123456789") != std::string::npos)
+      throw cli::UsageError("--seeds: \"" + item + "\" is not a whole number");
+    seeds.push_back(std::stoull(item));
+  }
+  return seeds;
+}
+
+/** Those methods that quadmap-slam has. */
+std::vector<std::string> knownMethods(const std::string& list)
+{
+  std::vector<std::string> known;
+  for (const auto& method : itemsOf(list)) try
+    {
+      slamMethodFrom(method);
+      known.push_back(method);
+    }
+    catch (const std::invalid_argument&)
+    {
+      std::cerr << "quadmap-benchmark: left out: quadmap-slam has no method " << method << "\n";
+    }
+  return known;
+}
+
+/** jobs: prints the job list. */
+void jobsCommand(int argc, char** argv)
+{
+  cli::CommandLine line(
+      "quadmap-benchmark jobs", "Prints the jobs of a benchmark, one a line.", QUADMAP_VERSION);
+  const auto list = [&](const char* name, const char* what, const char* standard)
+  {
+    return std::make_unique<TCLAP::ValueArg<std::string>>(
+        "", name, what, false, standard, "A,B,...", line.args());
+  };
+  const auto scenes = list(
+      "scenes", "Scenes to map.",
+      "home,office,robot-home,robot-home-four,cluttered-desk,corridor,lifelong");
+  const auto observed = list(
+      "observed", "Scenes whose single frames are measured (default: these, if mapped).",
+      "home,office,cluttered-desk");
+  const auto recordings = list("recordings", "Real recordings, by the names of their folders.", "");
+  const auto seeds = list("seeds", "Of the simulations.", "1,2,3,4,5");
+  const auto methods = list("methods", "Of quadmap-slam.", "odometry,rgbd,quadric,point");
+  if (!line.parse(argc, argv)) return;
+  BenchmarkPlan plan{
+      itemsOf(scenes->getValue()), itemsOf(observed->getValue()), itemsOf(recordings->getValue()),
+      seedsOf(seeds->getValue()), knownMethods(methods->getValue())};
+  if (!observed->isSet())  // then only scenes that are mapped
+    plan.observedScenes.erase(
+        std::remove_if(
+            plan.observedScenes.begin(), plan.observedScenes.end(),
+            [&](const std::string& scene) {
+              return std::find(plan.scenes.begin(), plan.scenes.end(), scene) == plan.scenes.end();
+            }),
+        plan.observedScenes.end());
+  for (const auto& job : jobsOf(plan)) std::cout << job.line() << "\n";
+}
+
+/** The value of "KEY : value" (or KEY=value) in a system file. */
+std::string entryOf(const char* file, const std::string& key, char separator)
+{
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+  {
+    const auto at = line.find(separator);
+    if (line.rfind(key, 0) != 0 || at == std::string::npos) continue;
+    const auto begin = line.find_first_not_of(" \t\"", at + 1);
+    const auto end = line.find_last_not_of(" \t\"");
+    return begin == std::string::npos ? "" : line.substr(begin, end + 1 - begin);
+  }
+  return "unknown";
+}
+
+/** machine: prints what the figures depend on beside the code. */
+void machineCommand(int argc, char** argv)
+{
+  cli::CommandLine line(
+      "quadmap-benchmark machine", "Prints what machine and program this is, as JSON.",
+      QUADMAP_VERSION);
+  TCLAP::ValueArg<std::string> commit{
+      "", "commit", "Which commit the programs were built from.", false, "", "ID", line.args()};
+  if (!line.parse(argc, argv)) return;
+  constexpr double kBytesPerGb = 1e9;
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<double>(sysconf(_SC_PAGESIZE)) / kBytesPerGb;
+  utsname kernel{};
+  uname(&kernel);
+  nlohmann::ordered_json json;
+  json["processor"] = entryOf("/proc/cpuinfo", "model name", ':');
+  json["cores"] = std::to_string(sysconf(_SC_NPROCESSORS_ONLN));
+  json["memory"] = std::to_string(std::lround(memory)) + " GB";
+  json["system"] =
+      entryOf("/etc/os-release", "PRETTY_NAME", '=') + ", " + kernel.sysname + " " + kernel.release;
+#ifdef __clang__
+  json["compiler"] = "Clang " __clang_version__;
+#else
+  json["compiler"] = "GCC " __VERSION__;
+#endif
+  json["program"] = "quadmap " QUADMAP_VERSION;
+  if (commit.isSet()) json["commit"] = commit.getValue();
+  std::cout << json.dump(2) << "\n";
+}
+
+/** "pictures": every plot as an image of the page. */
+std::string pictureSection(
+    const std::map<std::string, std::string>& plots, const fs::path& folder, const fs::path& page)
+{
+  std::string text;
+  const fs::path from = fs::absolute(page).parent_path();
+  for (const auto& [name, svg] : plots)
+    text += "![" + fs::path(name).stem().string() + "](" +
+            fs::absolute(folder / name).lexically_relative(from).generic_string() + ")\n";
+  return text;
+}
+
+/** merge: from the results to tables and plots. */
+void mergeCommand(int argc, char** argv)
+{
+  cli::CommandLine line(
+      "quadmap-benchmark merge",
+      "Makes the tables of a page, between its markers <!-- generated: NAME -->, and the plots "
+      "from "
+      "all results that are there. Without --page the tables are printed.",
+      QUADMAP_VERSION);
+  TCLAP::UnlabeledValueArg<std::string> results{
+      "RESULTS", "Folder with the results.", true, "", "RESULTS", line.args()};
+  TCLAP::ValueArg<std::string> page{
+      "", "page", "The page to bring up to date.", false, "", "FILE.md", line.args()};
+  TCLAP::ValueArg<std::string> plots{
+      "",         "plots", "Where the plots go; made when missing. Without it there are none.",
+      false,      "",      "FOLDER",
+      line.args()};
+  if (!line.parse(argc, argv)) return;
+
+  const BenchmarkResults found = readBenchmarkResults(results.getValue());
+  auto sections = benchmarkTables(found);
+  std::map<std::string, std::string> pictures;
+  if (plots.isSet())
+  {
+    pictures = benchmarkPlots(found);
+    fs::create_directories(plots.getValue());
+    for (const auto& [name, svg] : pictures)
+      writeTextFile((fs::path(plots.getValue()) / name).string(), svg);
+  }
+  if (!page.isSet())
+    for (const auto& [name, text] : sections) std::cout << "## " << name << "\n\n" << text << "\n";
+  else
+  {
+    std::ifstream in(page.getValue());
+    if (!in) throw std::runtime_error(page.getValue() + ": cannot be read");
+    std::ostringstream text;
+    text << in.rdbuf();
+    sections["pictures"] = pictureSection(pictures, plots.getValue(), page.getValue());
+    writeTextFile(page.getValue(), withGeneratedSections(text.str(), sections));
+  }
+  for (const auto& job : found.missing)
+    std::cerr << "quadmap-benchmark: no result of: " << job << "\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return cli::runSubcommands(
+      "quadmap-benchmark",
+      "Lists the jobs of the benchmark and merges their results; share/quadmap/benchmark/run does "
+      "all of it.",
+      {
+          {   "jobs",    jobsCommand},
+          {"machine", machineCommand},
+          {  "merge",   mergeCommand}
+  },
+      argc, argv);
+}

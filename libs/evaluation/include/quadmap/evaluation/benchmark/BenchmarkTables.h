@@ -1,0 +1,15 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "quadmap/evaluation/benchmark/BenchmarkResults.h"
+
+namespace quadmap
+{
+/** All tables as Markdown by the name of their section: machine, trajectory, mapping,
+ * instantiation, orientation, ablation, edges, residuals, time, size. Each figure is the mean over
+ * the seeds and its standard deviation. */
+std::map<std::string, std::string> benchmarkTables(const BenchmarkResults& results);
+
+}  // namespace quadmap

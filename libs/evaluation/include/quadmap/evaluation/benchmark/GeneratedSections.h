@@ -1,0 +1,19 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace quadmap
+{
+/** Puts texts between their markers, and leaves everything else of a page as it is:
+ *
+ *     <!-- generated: NAME -->
+ *     ...
+ *     <!-- end of NAME -->
+ *
+ * \exception std::runtime_error For a section without an end, and for a section of the page that
+ * has no text; texts the page has no section for are left out. */
+std::string withGeneratedSections(
+    const std::string& page, const std::map<std::string, std::string>& sections);
+
+}  // namespace quadmap

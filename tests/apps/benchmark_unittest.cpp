@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "RunProgram.h"
+
+using namespace quadmap;
+
+// The benchmark's scripts with the real quadmap-benchmark; the programs that take long are
+// stand-ins that note each call and leave files of the right form.
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+class BenchmarkScripts : public testing::Test
+{
+ protected:
+  BenchmarkScripts()
+  {
+    std::filesystem::create_directory(folder_.path("bin"));
+    std::filesystem::create_symlink(
+        QUADMAP_BIN_DIR "/quadmap-benchmark", folder_.path("bin/quadmap-benchmark"));
+    addProgram("quadmap-simulate", R"(
+      while [[ $1 != -o ]]; do shift; done
+      touch "$2"
+      echo '{"objects": []}' >"${2%.rawlog}.objects.gt.json"
+      echo "1 0 0 0 0 0 0 1" >"${2%.rawlog}.groundtruth.tum")");
+    addProgram("quadmap-slam", R"(
+      while [[ $1 != -o ]]; do shift; done
+      mkdir "$2" && cd "$2"
+      touch objects.quadmap
+      echo '{"objects": []}' >objects.json
+      echo "1 0 0 0 0 0 0 1" | tee trajectory.tum >trajectory_odometry.tum
+      [[ ! -e $calls.fail ]] || { echo "no such luck" >&2; exit 1; }
+      echo '{"objects": 0}' >report.json)");
+    addProgram("quadmap-evaluate", R"(
+      while [[ $1 != --json ]]; do shift; done
+      echo '{"trajectory": {"ate_rmse_m": 0.125, "keyframes": 3}, "objects": {}, "matches": []}' >"$2")");
+    addProgram("observation_tables", R"(
+      while [[ $1 != --json ]]; do shift; done
+      echo '{"rows": {}}' >"$2")");
+    folder_.write(
+        "page.md", "by hand\n<!-- generated: trajectory -->\n<!-- end of trajectory -->\n");
+  }
+
+  void addProgram(const std::string& name, const std::string& body)
+  {
+    const auto path = folder_.write(
+        "bin/" + name, "#!/bin/bash\nset -e\ncalls='" + folder_.path("calls") + "'\necho \"" +
+                           name + " $*\" >>\"$calls\"\n" + body + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  }
+
+  /** \param more Further arguments. */
+  ProgramResult run(const std::string& more)
+  {
+    std::filesystem::remove(folder_.path("calls"));
+    return runCommand(
+        "QUADMAP_TEST_DATA= " QUADMAP_SOURCE_DIR "/share/quadmap/benchmark/run --bin '" +
+        folder_.path("bin") + "' --results '" + folder_.path("results") + "' --page '" +
+        folder_.path("page.md") + "' --jobs 2 " + more);
+  }
+
+  std::size_t calls(const std::string& program) const
+  {
+    const std::string text = readFile(folder_.path("calls"));
+    std::size_t count = 0;
+    for (auto at = text.find(program + " "); at != kNotFound; at = text.find(program + " ", at + 1))
+      ++count;
+    return count;
+  }
+
+  bool isDone(const std::string& job) const
+  {
+    return std::filesystem::exists(folder_.path("results/runs/" + job + "/job.txt"));
+  }
+
+  /** Folders of results, and what unfinished jobs have left. */
+  std::size_t folders() const
+  {
+    const std::filesystem::directory_iterator runs(folder_.path("results/runs"));
+    return static_cast<std::size_t>(std::distance(begin(runs), end(runs)));
+  }
+
+  TemporaryFolder folder_;
+};
+}  // namespace
+
+TEST_F(BenchmarkScripts, DoEveryJobAndFillThePage)
+{
+  const auto result = run("--scenes home --seeds 1,2 --methods odometry,rgbd");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(calls("quadmap-slam"), 2u * 3) << "odometry; rgbd on two kinds of poses";
+  EXPECT_GE(calls("quadmap-simulate"), 2u);
+  EXPECT_EQ(calls("observation_tables"), 2u * 4);
+  EXPECT_EQ(folders(), 6u + 8u);
+  EXPECT_TRUE(isDone("simulated.home.2.rgbd.ground-truth"));
+  const std::string page = readFile(folder_.path("page.md"));
+  EXPECT_NE(page.find("| home | drifting odometry | 3 +- 0 | - | 0.125 +- 0.000 |"), kNotFound) << page;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("results/recordings"))) << "large, done with";
+}
+
+TEST_F(BenchmarkScripts, DoNothingTwice)
+{
+  const std::string plan = "--scenes home --seeds 1 --methods rgbd";
+  ASSERT_EQ(run(plan).status, 0);
+  const std::string page = readFile(folder_.path("page.md"));
+  ASSERT_EQ(run(plan).status, 0);
+  EXPECT_EQ(readFile(folder_.path("calls")), "");
+  EXPECT_EQ(readFile(folder_.path("page.md")), page);
+  ASSERT_EQ(run("--scenes home --seeds 1,7 --methods rgbd").status, 0);
+  EXPECT_EQ(calls("quadmap-slam"), 2u) << "the new seed only";
+}
+
+TEST_F(BenchmarkScripts, GoOnAfterAFailureAndTryItAgain)
+{
+  const std::string plan = "--scenes home --observed home --seeds 1 --methods rgbd";
+  folder_.write("calls.fail", "");
+  const auto failed = run(plan);
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_NE(failed.err.find("failed: simulated home 1 rgbd rawlog"), kNotFound) << failed.err;
+  EXPECT_NE(failed.err.find("no result of: simulated home 1 rgbd rawlog"), kNotFound);
+  EXPECT_EQ(calls("observation_tables"), 4u) << "the others go on";
+  EXPECT_EQ(folders(), 4u) << "nothing is left of what failed";
+  EXPECT_NE(
+      readFile(folder_.path("results/logs/simulated.home.1.rgbd.rawlog.log")).find("no such luck"),
+      kNotFound);
+
+  std::filesystem::remove(folder_.path("calls.fail"));
+  const auto again = run(plan);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(calls("quadmap-slam"), 2u);
+  EXPECT_EQ(calls("observation_tables"), 0u);
+  EXPECT_EQ(calls("quadmap-simulate"), 0u) << "the recording is still there";
+}
+
+TEST_F(BenchmarkScripts, ListTheJobsForAnotherScheduler)
+{
+  const auto list = run("--scenes home --observed home --seeds 3 --methods rgbd,magic --list");
+  ASSERT_EQ(list.status, 0) << list.err;
+  EXPECT_EQ(std::count(list.out.begin(), list.out.end(), '\n'), 2 + 4);
+  EXPECT_EQ(readFile(folder_.path("results/jobs.txt")), list.out);
+  EXPECT_NE(list.err.find("no method magic"), kNotFound) << list.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("calls")));
+
+  // Line 2 as an element of a Slurm array does it.
+  const std::string scripts = QUADMAP_SOURCE_DIR "/share/quadmap/benchmark";
+  const auto element = runCommand(
+      "PATH='" + folder_.path("bin") + "':$PATH SLURM_ARRAY_TASK_ID=2 BENCHMARK=" + scripts +
+      " QUADMAP_BENCHMARK_RESULTS='" + folder_.path("results") + "' bash " + scripts +
+      "/slurm.sbatch");
+  ASSERT_EQ(element.status, 0) << element.err;
+  EXPECT_EQ(folders(), 1u);
+  EXPECT_TRUE(isDone("simulated.home.3.rgbd.ground-truth"));
+}
+
+TEST_F(BenchmarkScripts, AnswerWrongUsageWithStatus2)
+{
+  EXPECT_EQ(run("--sceens home").status, 2);
+  EXPECT_EQ(run("--scenes").status, 2);
+  EXPECT_EQ(runProgram("quadmap-benchmark", "jobs --seeds one").status, 2);
+  EXPECT_EQ(runProgram("quadmap-benchmark", "merge").status, 2);
+  EXPECT_EQ(runProgram("quadmap-benchmark", "").status, 2);
+  const auto nothing = runProgram("quadmap-benchmark", "merge /nonexistent");
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_NE(nothing.err.find("/nonexistent"), kNotFound) << nothing.err;
+}
