@@ -85,6 +85,28 @@ TEST_F(RawlogRun, MapsTheBoxAndWritesEveryFile)
   EXPECT_LT((odometry[3].pose - room.robotAt(0.75)).norm(), 1e-6);
 }
 
+TEST_F(RawlogRun, QuadricLooksAtNoDepth)
+{
+  const SyntheticRoom room;
+  auto records = recordsOf(room, {12});
+  const auto writeAndRun = [&](const std::string& name)
+  {
+    auto request = requestFor(writeObjects(folder_.path(name + ".rawlog"), records), name);
+    request.configuration.slam.method = SlamMethod::Quadric;
+    runOnRawlog(request);
+    return readFile(output("objects.json", name)) + readFile(output("trajectory.tum", name));
+  };
+  const std::string withDepth = writeAndRun("with");
+  const auto objects = readObjectsJson(output("objects.json", "with"));
+  ASSERT_EQ(objects.size(), 1u);
+  EXPECT_EQ(objects[0].label, room.label);
+  EXPECT_LT((objects[0].object.center() - room.box.center()).norm(), 0.1) << "[m]";
+  for (auto& record : records)
+    if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(record.get()))
+      scan->rangeImage.fill(0);
+  EXPECT_EQ(writeAndRun("without"), withDepth);
+}
+
 TEST_F(RawlogRun, MapFilesHoldTheSameObjects)
 {
   const auto summary = runOnRawlog(requestFor(recording()));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "quadmap/geometry/Projection.h"
+#include "quadmap/slam/quadric/BoxView.h"
 #include "quadmap/slam/quadric/QuadricInitialisation.h"
 
 namespace quadmap::testing
@@ -18,6 +19,38 @@ inline mrpt::poses::CPose3D lookingAt(const Eigen::Vector3d& eye, const Eigen::V
   return {
       eye.x(), eye.y(), eye.z(), std::atan2(d.y(), d.x()), std::atan2(-d.z(), d.head<2>().norm()),
       0};
+}
+
+constexpr double kEdgeSigma = 3.0 / 525;  //!< Of the edges that viewOf() makes [rad]
+
+/** A camera 0.6 m above a robot that drives around a point at 2.5 m, looking at it. */
+inline mrpt::poses::CPose3D robotOnCircle(const Eigen::Vector3d& center, double angle)
+{
+  const Eigen::Vector3d eye =
+      center + Eigen::Vector3d(2.5 * std::cos(angle), 2.5 * std::sin(angle), 0);
+  return {eye.x(), eye.y(), 0, angle + M_PI, 0, 0};
+}
+inline mrpt::poses::CPose3D robotCamera() { return {0.1, 0, 1.1, 0, 0.25, 0}; }
+
+/** What the robot's camera has of an ellipsoid. \param error Of its edges left, top, right, bottom
+ * [px]. */
+inline BoxView viewOf(
+    const Ellipsoid& object,
+    const mrpt::poses::CPose3D& T_map_robot,
+    std::size_t keyframe,
+    const Eigen::Vector4d& error = Eigen::Vector4d::Zero())
+{
+  const auto T_robot_optical = robotCamera() + T_sensor_optical();
+  ImageBox box = *projectEllipsoidBox(kVga, object.transformed(-(T_map_robot + T_robot_optical)));
+  box = {box.x1 + error[0], box.y1 + error[1], box.x2 + error[2], box.y2 + error[3]};
+  BoxView view;
+  view.keyframe = keyframe;
+  view.label = "chair";
+  view.camera = {T_robot_optical.x(), T_robot_optical.y(), T_robot_optical.z()};
+  const auto planes = boxEdgePlanes(kVga, box);
+  for (std::size_t e = 0; e < 4; ++e)
+    view.edges[e] = {planes[e].transformed(T_robot_optical).n, kEdgeSigma, true};
+  return view;
 }
 
 /** The box of the outline, with Gaussian noise on its edges [px]. */
