@@ -96,7 +96,8 @@ TEST_F(BenchmarkScripts, DoEveryJobAndFillThePage)
   EXPECT_EQ(folders(), 6u + 8u);
   EXPECT_TRUE(isDone("simulated.home.2.rgbd.ground-truth"));
   const std::string page = readFile(folder_.path("page.md"));
-  EXPECT_NE(page.find("| home | drifting odometry | 3 +- 0 | - | 0.125 +- 0.000 |"), kNotFound) << page;
+  EXPECT_NE(page.find("| home | drifting odometry | 3 +- 0 | - | 0.125 +- 0.000 |"), kNotFound)
+      << page;
   EXPECT_FALSE(std::filesystem::exists(folder_.path("results/recordings"))) << "large, done with";
 }
 

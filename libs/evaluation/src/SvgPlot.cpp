@@ -157,6 +157,7 @@ SvgPlot::View SvgPlot::view() const
     view.low.setZero();
     view.high.setOnes();
   }
+  if (!equalScales_) view.low.y() = std::min(view.low.y(), 0.0);  // errors are read from zero
   for (int i : {0, 1})
     if (view.high[i] - view.low[i] < 1e-9) view.high[i] = view.low[i] + 1;
   const Eigen::Vector2d margin = 0.04 * (view.high - view.low);
