@@ -204,13 +204,12 @@ BoxCandidates candidatesIn(
   const auto around = surroundings(cloud, planes, box, options);
   const auto walls = wallsAround(planes, around, ownShares, minOwnShare, options);
   const auto& mask = task.detection->mask;
+  const Plane* support = task.support ? &planes.plane(*task.support).plane : nullptr;
   const auto isBackground = [&](int c, int r, const Eigen::Vector3d& p)
   {
-    if (task.support && planes.plane(*task.support).plane.signedDistance(p) <
-                            supportTolerance(p.z(), task.label, options))
+    if (support && support->signedDistance(p) < supportTolerance(p.z(), task.label, options))
       return true;
-    const double tolerance = planeTolerance(p.z(), options);
-    const int plane = planes.all.planeAt(cloud, c, r, tolerance);
+    const int plane = planes.all.planeAt(cloud, c, r, planeTolerance(p.z(), options));
     return plane >= 0 && ownShares[static_cast<std::size_t>(plane)] < minOwnShare;
   };
   out.cells.reserve(static_cast<std::size_t>(out.range.cells()));

@@ -10,9 +10,6 @@ namespace
 {
 constexpr int kWorkingColumns = 320;  // planes and objects need no more; see doc/benchmarks.md
 
-/** Two neighbouring depths on one surface: differences grow with range and slope [m]. */
-float jumpTolerance(float z) { return 0.015f + 0.015f * z; }
-
 void requireDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 {
   if (!scan.hasRangeImage || scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
@@ -112,18 +109,9 @@ std::optional<Eigen::Vector3f> DepthCloud::normal(int c, int r) const
   return n.dot(point(c, r)) > 0 ? Eigen::Vector3f(-n) : n;
 }
 
-bool DepthCloud::isFlyingPixel(int c, int r) const
+bool DepthCloud::isAmongJumps(int c, int r) const
 {
   const float z = depth(c, r), tolerance = jumpTolerance(z);
-  if (inside(c - 1, r - 1) && inside(c + 1, r + 1))
-  {
-    // Most cells lie within a surface: four near neighbours settle it.
-    const std::size_t i = index(c, r), row = static_cast<std::size_t>(columns_);
-    const auto isNear = [&](float zn) { return zn > 0 && std::abs(zn - z) < tolerance; };
-    if (isNear(depth_[i - 1]) && isNear(depth_[i + 1]) && isNear(depth_[i - row]) &&
-        isNear(depth_[i + row]))
-      return false;
-  }
   int near = 0, jumps = 0;
   for (int dr = -1; dr <= 1; ++dr)
     for (int dc = -1; dc <= 1; ++dc)

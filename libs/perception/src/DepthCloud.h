@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -45,7 +46,12 @@ class DepthCloud
   double cellsPerNormal(double z) const;
 
   /** Between a near and a far surface, on neither: an artefact of the sensor. */
-  bool isFlyingPixel(int c, int r) const;
+  bool isFlyingPixel(int c, int r) const
+  {
+    // Most cells lie within a surface: four near neighbours settle it.
+    return !(c > 0 && r > 0 && c + 1 < columns_ && r + 1 < rows_ && isWithinSurface(c, r)) &&
+           isAmongJumps(c, r);
+  }
 
   /** Cells of an image box, clipped: first column and row, one past the last ones. */
   struct CellRange
@@ -60,6 +66,17 @@ class DepthCloud
 
  private:
   int normalReach(float z) const;  // cells to either side
+
+  /** Two neighbouring depths on one surface: differences grow with range and slope [m]. */
+  static float jumpTolerance(float z) { return 0.015f + 0.015f * z; }
+  bool isWithinSurface(int c, int r) const
+  {
+    const float* cell = &depth_[index(c, r)];
+    const float z = *cell, tolerance = jumpTolerance(z);  // < z: cells without depth are not near
+    return std::abs(cell[-1] - z) < tolerance && std::abs(cell[1] - z) < tolerance &&
+           std::abs(cell[-columns_] - z) < tolerance && std::abs(cell[columns_] - z) < tolerance;
+  }
+  bool isAmongJumps(int c, int r) const;
   std::size_t index(int c, int r) const { return static_cast<std::size_t>(r * columns_ + c); }
 
   PinholeCamera camera_;

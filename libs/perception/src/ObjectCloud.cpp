@@ -13,6 +13,7 @@ namespace quadmap
 namespace
 {
 constexpr int kNobody = -1;
+constexpr double kCentrality = 0.35;  // spread of the weights over the box, share of its size
 
 double coverageOf(const DepthCloud& cloud, const ImageBox& box)
 {
@@ -29,6 +30,15 @@ double medianDepth(const std::vector<Eigen::Vector3d>& points)
   std::vector<double> z;
   for (const auto& p : points) z.push_back(p.z());
   return median(std::move(z));
+}
+
+/** Weights exp(-((i - middle) / sigma)^2 / 2) of i = first ... last - 1. */
+std::vector<double> gaussian(int first, int last, double middle, double sigma)
+{
+  std::vector<double> out;
+  for (int i = first; i < last; ++i)
+    out.push_back(std::exp(-0.5 * (i - middle) * (i - middle) / (sigma * sigma)));
+  return out;
 }
 
 /** One cluster of a box's candidates, and how well it plays the part of the object. */
@@ -80,7 +90,7 @@ class Segmenter
       const ScenePlanes& planes,
       const std::vector<ObjectTask>& tasks,
       const PerceptionOptions& options) :
-      cloud_(cloud), planes_(planes), tasks_(tasks), options_(options)
+      cloud_(cloud), planes_(planes), tasks_(tasks), options_(options), candidates_(tasks.size())
   {
     owner_.assign(static_cast<std::size_t>(cloud.columns() * cloud.rows()), kNobody);
     constexpr double kMinIoU = 0.55;
@@ -176,7 +186,8 @@ class Segmenter
     out.object.support = task.support;
     if (!boxOf(index).isValid()) return out;
     out.object.coverage = coverageOf(cloud_, boxOf(index));
-    BoxCandidates candidates = candidatesIn(cloud_, planes_, task, options_);
+    if (!candidates_[index]) candidates_[index] = candidatesIn(cloud_, planes_, task, options_);
+    BoxCandidates& candidates = *candidates_[index];
     keepOnly(
         candidates, [&](std::size_t i) { return !belongsToOther(index, candidates.cells[i]); });
     if (static_cast<int>(candidates.points.size()) < options_.minPoints) return out;
@@ -215,14 +226,20 @@ class Segmenter
     const double s = cloud_.stride();
     const ImageBox target =
         task.detection->box.clipped(cloud_.camera().width, cloud_.camera().height);
+    const auto& range = candidates.range;
+    const auto columnWeights =
+        gaussian(range.c0, range.c1, target.centerX() / s, kCentrality * target.width() / s);
+    const auto rowWeights =
+        gaussian(range.r0, range.r1, target.centerY() / s, kCentrality * target.height() / s);
     std::vector<Cluster> clusters(static_cast<std::size_t>(parts.count()));
     for (std::size_t i = 0; i < candidates.cells.size(); ++i)
     {
       const auto& cell = candidates.cells[i];
-      const double du = (cell.c * s - target.centerX()) / (0.35 * target.width());
-      const double dv = (cell.r * s - target.centerY()) / (0.35 * target.height());
       auto& cluster = clusters[static_cast<std::size_t>(parts.labels()[i])];
-      cluster.add(cell, candidates.points[i].z(), std::exp(-0.5 * (du * du + dv * dv)));
+      cluster.add(
+          cell, candidates.points[i].z(),
+          columnWeights[static_cast<std::size_t>(cell.c - range.c0)] *
+              rowWeights[static_cast<std::size_t>(cell.r - range.r0)]);
       cluster.leaking += goesOn(task, candidates.range, cell);
     }
     const double outline = 2.0 * (candidates.range.c1 - candidates.range.c0) +
@@ -283,6 +300,7 @@ class Segmenter
   const std::vector<ObjectTask>& tasks_;
   const PerceptionOptions& options_;
   std::vector<int> owner_;         // of each cell of the cloud: index of a task
+  std::vector<std::optional<BoxCandidates>> candidates_;  // of each task, but others' cells
   std::vector<bool> isSameThing_;  // of each pair of tasks
 };
 

@@ -19,6 +19,8 @@ using PclNormals = pcl::PointCloud<pcl::Normal>;
 
 constexpr int kPlaneStride = 2;           // of the cloud's cells: 160x120 for the usual sensors
 constexpr std::size_t kMaxSamples = 600;  // of a plane: 5 cm apart on a large table
+constexpr int kNone = -1, kSeveral = -2;  // instead of a label
+constexpr int kRimWidth = 2;              // cells; the segmentation leaves out the rim of planes
 
 PclCloud::Ptr reducedCloud(const DepthCloud& cloud)
 {
@@ -69,19 +71,25 @@ pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>::Ptr edgeAwareComparat
 
 int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tolerance) const
 {
+  const int pc = std::min(c / kPlaneStride, columns_ - 1);
+  const int pr = std::min(r / kPlaneStride, rows_ - 1);
+  const int only = around_[static_cast<std::size_t>(pr * columns_ + pc)];
+  if (only == kNone) return -1;
   const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-  int best = -1, last = -1;  // neighbours mostly belong to one plane
+  const auto distanceTo = [&](int label)
+  { return std::abs(planes[static_cast<std::size_t>(label)].plane.signedDistance(p)); };
+  if (only != kSeveral) return distanceTo(only) < tolerance ? only : -1;
+  int best = -1, last = -1;
   double bestDistance = tolerance;
-  for (int dr = -2; dr <= 2; dr += 2)  // the segmentation leaves out the rim of each plane
-    for (int dc = -2; dc <= 2; dc += 2)
+  for (int dr = -kRimWidth; dr <= kRimWidth; dr += kRimWidth)
+    for (int dc = -kRimWidth; dc <= kRimWidth; dc += kRimWidth)
     {
-      const int cc = c / kPlaneStride + dc, rr = r / kPlaneStride + dr;
+      const int cc = pc + dc, rr = pr + dr;
       if (cc < 0 || rr < 0 || cc >= columns_ || rr >= rows_) continue;
       const int label = labels_[static_cast<std::size_t>(rr * columns_ + cc)];
       if (label < 0 || label == last) continue;
       last = label;
-      const double distance =
-          std::abs(planes[static_cast<std::size_t>(label)].plane.signedDistance(p));
+      const double distance = distanceTo(label);
       if (distance < bestDistance)
       {
         bestDistance = distance;
@@ -162,7 +170,42 @@ PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions
     out.planes.push_back(std::move(plane));
   }
   out.findRims(cloud, options);
+  out.findLabelsAround();
   return out;
+}
+
+void PlaneSegmentation::findLabelsAround()
+{
+  // Lowest and highest label of the cells that planeAt() looks at, first along the rows. As
+  // unsigned, no label is above all others.
+  const auto width = static_cast<std::size_t>(columns_), height = static_cast<std::size_t>(rows_);
+  constexpr std::size_t kRim = kRimWidth;
+  std::vector<unsigned> low(labels_.begin(), labels_.end());
+  std::vector<int> high = labels_;
+  const auto spread = [&](std::size_t to, std::size_t from, const auto& lows, const auto& highs)
+  {
+    low[to] = std::min(low[to], lows[from]);
+    high[to] = std::max(high[to], highs[from]);
+  };
+  for (std::size_t r = 0; r < height; ++r)
+    for (std::size_t i = r * width; i + kRim < (r + 1) * width; ++i)
+    {
+      const auto label = labels_[i], other = labels_[i + kRim];
+      low[i] = std::min(low[i], static_cast<unsigned>(other));
+      high[i] = std::max(high[i], other);
+      low[i + kRim] = std::min(low[i + kRim], static_cast<unsigned>(label));
+      high[i + kRim] = std::max(high[i + kRim], label);
+    }
+  const auto rowLow = low;
+  const auto rowHigh = high;
+  for (std::size_t i = 0; i + kRim * width < labels_.size(); ++i)
+  {
+    spread(i, i + kRim * width, rowLow, rowHigh);
+    spread(i + kRim * width, i, rowLow, rowHigh);
+  }
+  around_.resize(labels_.size());
+  for (std::size_t i = 0; i < around_.size(); ++i)
+    around_[i] = high[i] < 0 ? kNone : high[i] == static_cast<int>(low[i]) ? high[i] : kSeveral;
 }
 
 void PlaneSegmentation::findRims(const DepthCloud& cloud, const PerceptionOptions& options)

@@ -36,9 +36,11 @@ class PlaneSegmentation
  private:
   friend PlaneSegmentation segmentPlanes(const DepthCloud&, const PerceptionOptions&);
   void findRims(const DepthCloud& cloud, const PerceptionOptions& options);
+  void findLabelsAround();
 
   int columns_ = 0, rows_ = 0;
   std::vector<int> labels_;
+  std::vector<int> around_;  // the only label at or near each cell; kNone, or kSeveral
 };
 
 /** All planes of the frame (PCL's organised segmentation at quarter resolution). */

@@ -119,10 +119,14 @@ PointClusters::PointClusters(
   const DepthScale depthScale(gap, options);
   Grid grid(points.size());
   labels_.reserve(points.size());
+  Eigen::Vector3i last(0, 0, 0);  // neighbours mostly share a cell
+  const double cellsPerMetre = 1.0 / gap;
   for (const auto& p : points)
   {
-    const Eigen::Vector3d cell(p.x() / gap, p.y() / gap, depthScale(p.z()));
-    labels_.push_back(grid.numberOf(cell.array().floor().cast<int>()));
+    const Eigen::Vector3d position(p.x() * cellsPerMetre, p.y() * cellsPerMetre, depthScale(p.z()));
+    const Eigen::Vector3i cell = position.array().floor().cast<int>();
+    labels_.push_back(!labels_.empty() && cell == last ? labels_.back() : grid.numberOf(cell));
+    last = cell;
   }
   std::vector<int> component(grid.size(), -1);
   for (std::size_t seed = 0; seed < component.size(); ++seed)
