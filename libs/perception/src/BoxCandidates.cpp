@@ -8,6 +8,17 @@ namespace quadmap
 {
 namespace
 {
+/** Of a larger box every second, third ... row and column is looked at: its cells lie as close on
+ * the object, in shares of its size, and it costs no more than a small one. */
+int stepFor(int cells)
+{
+  constexpr double kMaxCells = 8000;
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(cells / kMaxCells))));
+}
+
+/** The first multiple of `step` from `cell` on: boxes that overlap share their cells. */
+int firstOf(int cell, int step) { return (cell + step - 1) / step * step; }
+
 ImageBox enlarged(const ImageBox& box, double share)
 {
   const double dx = share * box.width() + 2.0, dy = share * box.height() + 2.0;
@@ -71,15 +82,13 @@ constexpr double kMinWallShare = 0.15;
 std::vector<Plane> wallsAround(
     const ScenePlanes& planes,
     const std::vector<Eigen::Vector3d>& around,
-    const std::vector<double>& ownShares,
-    double minOwnShare,
+    const CandidateRule& rule,
     const PerceptionOptions& options)
 {
   std::vector<Plane> out;
   for (const int i : planes.vertical)
-    if (ownShares[static_cast<std::size_t>(i)] < minOwnShare &&
-        countOn(planes.plane(i).plane, around, options) >
-            kMinWallShare * static_cast<double>(around.size()))
+    if (rule.reachesBeyond(i) && countOn(planes.plane(i).plane, around, options) >
+                                     kMinWallShare * static_cast<double>(around.size()))
       out.push_back(planes.plane(i).plane);
   return out;
 }
@@ -163,6 +172,7 @@ void dropWalls(
 {
   const auto drop = [&](const Plane& wall)
   {
+    candidates.rule.addWall(wall);
     keepOnly(
         candidates,
         [&](std::size_t i)
@@ -188,45 +198,66 @@ double supportTolerance(double z, const LabelProperties& label, const Perception
   return std::max(allowed, 2.5 * options.depthSigma(z));
 }
 
+CandidateRule::CandidateRule(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ObjectTask& task,
+    const DepthCloud::CellRange& range,
+    const PerceptionOptions& options) :
+    cloud_(cloud), planes_(planes), task_(task), options_(options)
+{
+  if (task.support) support_ = &planes.plane(*task.support).plane;
+  // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
+  // on a wall covers much of what is seen of it.
+  const double minOwnShare = task.label.support == UsualSupport::Wall ? 0.85 : 0.5;
+  for (const double share : planes.all.sharesWithin(range))
+    reachesBeyond_.push_back(share < minOwnShare);
+}
+
+bool CandidateRule::isMaskedOut(int c, int r) const
+{
+  const auto& mask = task_.detection->mask;
+  const auto stride = static_cast<unsigned>(cloud_.stride());
+  return mask &&
+         !mask->contains(static_cast<unsigned>(c) * stride, static_cast<unsigned>(r) * stride);
+}
+
+bool CandidateRule::isBackground(int c, int r, const Eigen::Vector3d& p) const
+{
+  if (support_ && support_->signedDistance(p) < supportTolerance(p.z(), task_.label, options_))
+    return true;
+  const double tolerance = planeTolerance(p.z(), options_);
+  const int plane = planes_.all.planeAt(cloud_, c, r, tolerance);
+  if (plane >= 0 && reachesBeyond(plane)) return true;
+  return std::any_of(
+      walls_.begin(), walls_.end(),
+      [&](const Plane& wall) { return std::abs(wall.signedDistance(p)) < tolerance; });
+}
+
 BoxCandidates candidatesIn(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const ObjectTask& task,
     const PerceptionOptions& options)
 {
-  BoxCandidates out;
   const ImageBox box = enlarged(task.detection->box, options.boxMargin);
-  out.range = cloud.cellsOf(box);
-  const auto ownShares = planes.all.sharesWithin(out.range);
-  // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
-  // on a wall covers much of what is seen of it.
-  const double minOwnShare = task.label.support == UsualSupport::Wall ? 0.85 : 0.5;
-  const auto around = surroundings(cloud, planes, box, options);
-  const auto walls = wallsAround(planes, around, ownShares, minOwnShare, options);
-  const auto& mask = task.detection->mask;
-  const Plane* support = task.support ? &planes.plane(*task.support).plane : nullptr;
-  const auto isBackground = [&](int c, int r, const Eigen::Vector3d& p)
-  {
-    if (support && support->signedDistance(p) < supportTolerance(p.z(), task.label, options))
-      return true;
-    const int plane = planes.all.planeAt(cloud, c, r, planeTolerance(p.z(), options));
-    return plane >= 0 && ownShares[static_cast<std::size_t>(plane)] < minOwnShare;
+  const auto range = cloud.cellsOf(box);
+  BoxCandidates out = {
+      {cloud, planes, task, range, options},
+      range, stepFor(range.cells())
   };
-  out.cells.reserve(static_cast<std::size_t>(out.range.cells()));
-  out.points.reserve(static_cast<std::size_t>(out.range.cells()));
-  const auto stride = static_cast<unsigned>(cloud.stride());
-  for (int r = out.range.r0; r < out.range.r1; ++r)
-    for (int c = out.range.c0; c < out.range.c1; ++c)
-    {
-      if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
-      if (mask &&
-          !mask->contains(static_cast<unsigned>(c) * stride, static_cast<unsigned>(r) * stride))
-        continue;
-      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      if (isBackground(c, r, p)) continue;
-      out.cells.push_back({c, r});
-      out.points.push_back(p);
-    }
+  const auto around = surroundings(cloud, planes, box, options);
+  const auto walls = wallsAround(planes, around, out.rule, options);
+  const auto atMost = static_cast<std::size_t>(range.cells() / (out.step * out.step));
+  out.cells.reserve(atMost);
+  out.points.reserve(atMost);
+  for (int r = firstOf(range.r0, out.step); r < range.r1; r += out.step)
+    for (int c = firstOf(range.c0, out.step); c < range.c1; c += out.step)
+      if (const auto p = out.rule.candidate(c, r))
+      {
+        out.cells.push_back({c, r});
+        out.points.push_back(*p);
+      }
   dropWalls(walls, around, planes, options, out);
   return out;
 }

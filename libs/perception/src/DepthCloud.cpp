@@ -62,7 +62,7 @@ int DepthCloud::normalReach(float z) const
   constexpr double kMinBase = 0.03, kSigmas = 2.0;  // [m], of depth
   const double base = std::max(kMinBase, kSigmas * options_.depthSigma(double(z)));
   const double cellsPerMetre = std::abs(camera_.fx) / (double(z) * stride_);
-  return std::clamp(static_cast<int>(std::lround(base * cellsPerMetre)), 2, 8);
+  return std::clamp(static_cast<int>(base * cellsPerMetre + 0.5), 2, 8);
 }
 
 double DepthCloud::cellsPerNormal(double z) const

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
 
 #include "HiddenPart.h"
 #include "quadmap/geometry/Projection.h"
@@ -65,11 +64,8 @@ class EdgeJudge
       const ImageBox& box,
       const EdgeContext& context,
       const PerceptionOptions& options) :
-      cloud_(cloud), box_(box), context_(context), options_(options)
+      cloud_(cloud), box_(box), context_(context), options_(options), inside_(cloud.cellsOf(box))
   {
-    const auto inside = cloud.cellsOf(box);
-    for (const auto& cell : context.object.cells)
-      if (!inside.contains(cell.c, cell.r)) ownOutside_.insert(key(cell.c, cell.r));
     for (const auto& other : context.boxes)
       if (other.depth > 0) others_.push_back({cloud.cellsOf(other.box), other.depth});
     for (std::size_t i = 0; i < 4; ++i)
@@ -100,7 +96,11 @@ class EdgeJudge
                                       : ObjectSide::Lateral;
   }
 
-  int key(int c, int r) const { return r * cloud_.columns() + c; }
+  /** Does a cell belong to the object, outside its box? */
+  bool isOwnOutside(int c, int r) const
+  {
+    return context_.object.mask.contains(c, r) && !inside_.contains(c, r);
+  }
 
   /** Depth of the object near one of its edges [m]; of the whole object where too little of it is
    * there. */
@@ -143,7 +143,7 @@ class EdgeJudge
   bool isNearer(int c, int r, double limit) const
   {
     if (cloud_.valid(c, r))
-      return cloud_.depth(c, r) < limit && ownOutside_.count(key(c, r)) == 0 && !isOnSupport(c, r);
+      return cloud_.depth(c, r) < limit && !isOwnOutside(c, r) && !isOnSupport(c, r);
     return std::any_of(
         others_.begin(), others_.end(),
         [&](const auto& other) { return other.depth < limit && other.cells.contains(c, r); });
@@ -308,8 +308,8 @@ class EdgeJudge
   const ImageBox box_;
   const EdgeContext& context_;
   const PerceptionOptions& options_;
+  const DepthCloud::CellRange inside_;  // cells of the box
   std::vector<CellsAtDepth> others_;    // the boxes whose depth is known
-  std::unordered_set<int> ownOutside_;  // cells of the object outside its box
   std::array<bool, 4> nearBorder_;
   std::array<double, 4> nearer_;
 };

@@ -55,8 +55,6 @@ FaceEstimator::FaceEstimator(
     centroid_ += points_.back();
   }
   centroid_ /= static_cast<double>(points_.size());
-  mask_.assign(static_cast<std::size_t>(cloud.columns() * cloud.rows()), false);
-  for (const auto& cell : object.cells) mask_[maskIndex(cell.c, cell.r)] = true;
 }
 
 Eigen::Vector3d FaceEstimator::normalOf(std::size_t face) const
@@ -169,8 +167,8 @@ FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
   std::vector<Line> lines(static_cast<std::size_t>(2 * reach), Line{0, kNothing});
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    const double number = std::floor(across.x() * cells_[i].c + across.y() * cells_[i].r);
-    Line& line = lines[static_cast<std::size_t>(static_cast<int>(number) + reach)];
+    const double number = across.x() * cells_[i].c + across.y() * cells_[i].r + reach;  // > 0
+    Line& line = lines[static_cast<std::size_t>(number)];
     const double along = n.dot(points_[i]);
     if (along > line.along) line = {i, along};
   }
@@ -288,7 +286,7 @@ bool FaceEstimator::isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& 
     if (c < kBorder || r < kBorder || c >= cloud_.columns() - kBorder ||
         r >= cloud_.rows() - kBorder)
       return true;
-    if (mask_[maskIndex(c, r)] || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
+    if (object_.mask.contains(c, r) || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
     const Eigen::Vector3d q = cloud_.point(c, r).cast<double>();
     const double tolerance = 0.03 + 3.0 * options_.depthSigma(p.z());
     if (object_.support &&

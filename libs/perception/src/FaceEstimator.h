@@ -72,10 +72,6 @@ class FaceEstimator
     double metresPerCell = 0;  // along the outward normal
   };
 
-  std::size_t maskIndex(int c, int r) const
-  {
-    return static_cast<std::size_t>(r * cloud_.columns() + c);
-  }
   Eigen::Vector3d normalOf(std::size_t face) const;  // in the object's frame
   Outline outlineTowards(std::size_t face) const;
   double cutShare(const Outline& outline, std::size_t face, double from) const;
@@ -93,7 +89,6 @@ class FaceEstimator
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   std::vector<ObjectCloud::Cell> cells_;
   std::vector<Eigen::Vector3d> points_, normals_;
-  std::vector<bool> mask_;
 };
 
 }  // namespace quadmap

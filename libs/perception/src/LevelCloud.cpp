@@ -39,7 +39,7 @@ LevelCloud levelCloud(
   out.medianRange = median(std::move(ranges));
   constexpr std::size_t kMaxSamples = 5000;
   const std::size_t step = 1 + object.points.size() / kMaxSamples;
-  out.cellsPerSample = static_cast<double>(step);
+  out.cellsPerSample = static_cast<double>(step) * object.step * object.step;
   out.cellsPerNormal = cloud.cellsPerNormal(out.medianRange);
   const std::size_t samples = object.points.size() / step + 1;
   out.cells.reserve(samples);

@@ -17,7 +17,7 @@ struct LevelCloud
   std::vector<Eigen::Vector3d> points;
   std::vector<std::optional<Eigen::Vector3d>> normals;  //!< Unit, towards the camera
   double medianRange = 0;                               //!< Median depth of the points [m]
-  double cellsPerSample = 1;                            //!< Cells of the object for each one here
+  double cellsPerSample = 1;                            //!< Of the depth cloud, for each one here
   double cellsPerNormal = 1;  //!< Cells that share the noise of one normal
 };
 

@@ -39,6 +39,12 @@ struct Sums
   double slope() const { return (ta - t * a / n) / spread(); }
 };
 
+/** One past the last of so many points that belongs to a block. */
+std::size_t endOf(std::size_t block, std::size_t points)
+{
+  return ((block + 1) * points + kBlocks - 1) / kBlocks;
+}
+
 struct Blocks
 {
   std::array<Sums, kBlocks> parts;
@@ -50,13 +56,14 @@ struct Blocks
 Blocks select(const std::vector<Eigen::Vector2d>& points, double offset, double slope, double shell)
 {
   Blocks out;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const double residual = points[i].y() - offset - slope * points[i].x();
-    if (std::abs(residual) > shell) continue;
-    out.parts[i * kBlocks / points.size()].add(points[i]);
-    out.squares += residual * residual;
-  }
+  for (std::size_t block = 0, i = 0; block < kBlocks; ++block)
+    for (const std::size_t end = endOf(block, points.size()); i < end; ++i)
+    {
+      const double residual = points[i].y() - offset - slope * points[i].x();
+      if (std::abs(residual) > shell) continue;
+      out.parts[block].add(points[i]);
+      out.squares += residual * residual;
+    }
   for (const auto& part : out.parts) out.all.add(part, 1.0);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "BoxCandidates.h"
+#include "ObjectRim.h"
 #include "PointClusters.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
@@ -41,10 +42,49 @@ std::vector<double> gaussian(int first, int last, double middle, double sigma)
   return out;
 }
 
+/** Pairs of neighbouring candidates that are farther apart in depth than `gap` [m], with cells
+ * between them that are not: one surface, seen at a flat angle. */
+std::vector<std::pair<int, int>> steepNeighbours(
+    const DepthCloud& cloud, const BoxCandidates& candidates, double gap)
+{
+  const int step = candidates.step;
+  const auto& cells = candidates.cells;
+  std::vector<std::pair<int, int>> out;
+  const auto check = [&](int i, int j)
+  {
+    const auto &a = cells[static_cast<std::size_t>(i)], &b = cells[static_cast<std::size_t>(j)];
+    const float whole = cloud.depth(b.c, b.r) - cloud.depth(a.c, a.r);
+    if (std::abs(whole) <= gap || std::abs(whole) > step * gap) return;
+    const int dc = b.c > a.c ? 1 : 0, dr = 1 - dc;
+    for (int k = 1; k <= step; ++k)
+    {
+      const float from = cloud.depth(a.c + (k - 1) * dc, a.r + (k - 1) * dr);
+      const float to = cloud.depth(a.c + k * dc, a.r + k * dr);
+      if (!(to > 0) || std::abs(to - from) > gap) return;
+    }
+    out.emplace_back(i, j);
+  };
+  std::vector<int> above(static_cast<std::size_t>(cloud.columns()), -1);  // last of each column
+  for (int i = 0; i < static_cast<int>(cells.size()); ++i)
+  {
+    const auto& cell = cells[static_cast<std::size_t>(i)];
+    const auto isCell = [&](int j, int c, int r)
+    {
+      return j >= 0 && cells[static_cast<std::size_t>(j)].c == c &&
+             cells[static_cast<std::size_t>(j)].r == r;
+    };
+    int& last = above[static_cast<std::size_t>(cell.c)];
+    if (isCell(i - 1, cell.c - step, cell.r)) check(i - 1, i);
+    if (isCell(last, cell.c, cell.r - step)) check(last, i);
+    last = i;
+  }
+  return out;
+}
+
 /** One cluster of a box's candidates, and how well it plays the part of the object. */
 struct Cluster
 {
-  int count = 0;
+  int count = 0;                                    // cells
   double centrality = 0;                            // sum of Gaussian weights of its cells
   double x1 = 1e9, y1 = 1e9, x2 = -1e9, y2 = -1e9;  // bounds [cells]
   double nearest = 1e9, farthest = 0;               // depth [m]
@@ -147,8 +187,11 @@ class Segmenter
   }
   void claim(std::size_t i, const ObjectCloud& object)
   {
-    for (const auto& cell : object.cells)
-      if (owner(cell) == kNobody) owner(cell) = static_cast<int>(i);
+    object.mask.forEach(
+        [&](int c, int r)
+        {
+          if (owner({c, r}) == kNobody) owner({c, r}) = static_cast<int>(i);
+        });
   }
 
   /** Is what box i holds nearly all a part of what suits box j better? Not for a box within the
@@ -156,21 +199,20 @@ class Segmenter
   bool tookThingOf(std::size_t i, std::size_t j, const std::vector<Cut>& cuts) const
   {
     constexpr double kMinShare = 0.8, kMaxInside = 0.8;
-    const auto& mine = cuts[i].object.cells;
-    const auto& theirs = cuts[j].object.cells;
+    const ObjectCloud &mine = cuts[i].object, &theirs = cuts[j].object;
     if (isSameThing(i, j) || mine.empty() || cuts[j].quality() <= cuts[i].quality()) return false;
     const ImageBox &a = boxOf(i), &b = boxOf(j);
     const ImageBox both = {
         std::max(a.x1, b.x1), std::max(a.y1, b.y1), std::min(a.x2, b.x2), std::min(a.y2, b.y2)};
     if (both.area() == 0 || both.area() > kMaxInside * a.area()) return false;
-    // Both lists are in the order of rows and columns.
-    const auto before = [](const ObjectCloud::Cell& p, const ObjectCloud::Cell& q)
-    { return p.r < q.r || (p.r == q.r && p.c < q.c); };
-    const auto common = std::count_if(
-        mine.begin(), mine.end(),
-        [&](const auto& cell)
-        { return std::binary_search(theirs.begin(), theirs.end(), cell, before); });
-    return static_cast<double>(common) > kMinShare * static_cast<double>(mine.size());
+    int all = 0, common = 0;
+    mine.mask.forEach(
+        [&](int c, int r)
+        {
+          ++all;
+          common += theirs.mask.contains(c, r) ? 1 : 0;
+        });
+    return common > kMinShare * all;
   }
   bool containsOthers(std::size_t i, const ObjectCloud& object)
   {
@@ -186,20 +228,24 @@ class Segmenter
     out.object.support = task.support;
     if (!boxOf(index).isValid()) return out;
     out.object.coverage = coverageOf(cloud_, boxOf(index));
-    if (!candidates_[index]) candidates_[index] = candidatesIn(cloud_, planes_, task, options_);
+    if (!candidates_[index])
+      candidates_[index].emplace(candidatesIn(cloud_, planes_, task, options_));
     BoxCandidates& candidates = *candidates_[index];
     keepOnly(
         candidates, [&](std::size_t i) { return !belongsToOther(index, candidates.cells[i]); });
-    if (static_cast<int>(candidates.points.size()) < options_.minPoints) return out;
+    const int cellsPerPoint = candidates.step * candidates.step;
+    if (static_cast<int>(candidates.points.size()) * cellsPerPoint < options_.minPoints) return out;
 
-    const PointClusters parts(
-        candidates.points, gapFor(boxOf(index), medianDepth(candidates.points)), options_);
+    const double range = medianDepth(candidates.points), gap = gapFor(boxOf(index), range);
+    PointClusters parts(candidates.points, gap, options_);
+    if (candidates.step > 1) parts.join(steepNeighbours(cloud_, candidates, gap));
     const auto clusters = describe(task, candidates, parts);
     const int best = bestOf(clusters);
     if (best < 0) return out;
     const Cluster& main = clusters[static_cast<std::size_t>(best)];
     out.fill = main.fill;
     out.object.leak = main.leak;
+    out.object.step = candidates.step;
     for (std::size_t i = 0; i < candidates.points.size(); ++i)
       if (parts.labels()[i] == best ||
           isFragment(clusters[static_cast<std::size_t>(parts.labels()[i])], main))
@@ -207,6 +253,9 @@ class Segmenter
         out.object.cells.push_back(candidates.cells[i]);
         out.object.points.push_back(candidates.points[i]);
       }
+    addRim(
+        candidates, 2.0 * std::max(gap, 2.0 * options_.depthSigma(range)),
+        [&](const ObjectCloud::Cell& cell) { return !belongsToOther(index, cell); }, out.object);
     return out;
   }
 
@@ -240,12 +289,12 @@ class Segmenter
           cell, candidates.points[i].z(),
           columnWeights[static_cast<std::size_t>(cell.c - range.c0)] *
               rowWeights[static_cast<std::size_t>(cell.r - range.r0)]);
-      cluster.leaking += goesOn(task, candidates.range, cell);
+      cluster.leaking += goesOn(task, candidates, cell);
     }
-    const double outline = 2.0 * (candidates.range.c1 - candidates.range.c0) +
-                           2.0 * (candidates.range.r1 - candidates.range.r0);
+    const double outline = 2.0 * (range.c1 - range.c0 + range.r1 - range.r0) / candidates.step;
     for (auto& b : clusters)
     {
+      b.count *= candidates.step * candidates.step;
       b.fill = imageBoxIoU({b.x1 * s, b.y1 * s, b.x2 * s, b.y2 * s}, target);
       b.leak = std::min(1.0, b.leaking / outline);
     }
@@ -254,15 +303,17 @@ class Segmenter
 
   /** Is a cell at the rim of the range, with the same surface going on outside? */
   bool goesOn(
-      const ObjectTask& task,
-      const DepthCloud::CellRange& range,
-      const ObjectCloud::Cell& cell) const
+      const ObjectTask& task, const BoxCandidates& candidates, const ObjectCloud::Cell& cell) const
   {
     constexpr int kReach = 2;  // cells
-    const int dc = cell.c == range.c0 ? -kReach : cell.c == range.c1 - 1 ? kReach : 0;
-    const int dr = cell.r == range.r0 ? -kReach : cell.r == range.r1 - 1 ? kReach : 0;
-    const int c = cell.c + dc, r = cell.r + dr;
-    if ((dc == 0 && dr == 0) || !cloud_.inside(c, r) || !cloud_.valid(c, r)) return false;
+    const auto outside = [&](int at, int first, int end)
+    {
+      if (at < first + candidates.step) return first - kReach;
+      return at >= end - candidates.step ? end - 1 + kReach : at;
+    };
+    const auto& range = candidates.range;
+    const int c = outside(cell.c, range.c0, range.c1), r = outside(cell.r, range.r0, range.r1);
+    if (range.contains(c, r) || !cloud_.inside(c, r) || !cloud_.valid(c, r)) return false;
     const double z = cloud_.depth(cell.c, cell.r);
     if (std::abs(cloud_.depth(c, r) - z) > options_.clusterTolerance + 3.0 * options_.depthSigma(z))
       return false;
@@ -288,7 +339,7 @@ class Segmenter
    * ends within the box and lies at the main part's depth; background does not. */
   bool isFragment(const Cluster& cluster, const Cluster& main) const
   {
-    constexpr int kMinCount = 12;         // points; fewer are noise
+    constexpr int kMinCount = 12;         // cells; fewer are noise
     constexpr double kDepthSlack = 0.05;  // [m]
     return cluster.count >= kMinCount && cluster.leaking == 0 &&
            cluster.nearest > main.nearest - kDepthSlack &&
@@ -299,9 +350,9 @@ class Segmenter
   const ScenePlanes& planes_;
   const std::vector<ObjectTask>& tasks_;
   const PerceptionOptions& options_;
-  std::vector<int> owner_;         // of each cell of the cloud: index of a task
+  std::vector<int> owner_;  // of each cell of the cloud: index of a task
   std::vector<std::optional<BoxCandidates>> candidates_;  // of each task, but others' cells
-  std::vector<bool> isSameThing_;  // of each pair of tasks
+  std::vector<bool> isSameThing_;                         // of each pair of tasks
 };
 
 }  // namespace

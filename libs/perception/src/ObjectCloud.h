@@ -12,6 +12,37 @@
 
 namespace quadmap
 {
+/** Which cells of the depth cloud belong to something, in a part of it. */
+class CellMask
+{
+ public:
+  CellMask() = default;
+  explicit CellMask(const DepthCloud::CellRange& range);
+
+  bool contains(int c, int r) const { return range_.contains(c, r) && own_[index(c, r)] != 0; }
+  /** Cells outside the range are left out. */
+  void insert(int c, int r)
+  {
+    if (range_.contains(c, r)) own_[index(c, r)] = 1;
+  }
+  template <typename Visit>
+  void forEach(const Visit& visit) const  //!< Calls visit(c, r) for all cells.
+  {
+    for (int r = range_.r0; r < range_.r1; ++r)
+      for (int c = range_.c0; c < range_.c1; ++c)
+        if (own_[index(c, r)] != 0) visit(c, r);
+  }
+
+ private:
+  std::size_t index(int c, int r) const
+  {
+    return static_cast<std::size_t>((r - range_.r0) * (range_.c1 - range_.c0) + c - range_.c0);
+  }
+
+  DepthCloud::CellRange range_;
+  std::vector<char> own_;  // not bool: bytes are faster
+};
+
 /** The part of a depth image that one detected object is made of. */
 struct ObjectCloud
 {
@@ -19,8 +50,12 @@ struct ObjectCloud
   {
     int c, r;
   };
-  std::vector<Cell> cells;              //!< In the depth cloud
+  /** In the depth cloud: all those along its rim, and inside of it every step-th of every step-th
+   * row. */
+  std::vector<Cell> cells;
+  int step = 1;
   std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
+  CellMask mask;                        //!< All its cells
   std::optional<int> support;           //!< Plane it stands on, index in ScenePlanes
   double coverage = 0;                  //!< Share of the box's cells with valid depth
   double leak = 0;  //!< Share of the box's outline across which the surface goes on outside

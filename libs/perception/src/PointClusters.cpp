@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 namespace quadmap
 {
@@ -132,6 +133,31 @@ PointClusters::PointClusters(
   for (std::size_t seed = 0; seed < component.size(); ++seed)
     if (component[seed] < 0) grid.flood(static_cast<int>(seed), count_++, component);
   for (int& label : labels_) label = component[static_cast<std::size_t>(label)];
+}
+
+void PointClusters::join(const std::vector<std::pair<int, int>>& pairs)
+{
+  // The cluster that each one was joined to: always one with a smaller number.
+  std::vector<int> parent(static_cast<std::size_t>(count_));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto rootOf = [&](int point)
+  {
+    int label = labels_[static_cast<std::size_t>(point)];
+    while (parent[static_cast<std::size_t>(label)] != label)
+      label = parent[static_cast<std::size_t>(label)];
+    return label;
+  };
+  for (const auto& [a, b] : pairs)
+  {
+    const int i = rootOf(a), j = rootOf(b);
+    parent[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
+  }
+  std::vector<int> number(parent.size());
+  count_ = 0;
+  for (std::size_t i = 0; i < parent.size(); ++i)
+    number[i] =
+        parent[i] == static_cast<int>(i) ? count_++ : number[static_cast<std::size_t>(parent[i])];
+  for (int& label : labels_) label = number[static_cast<std::size_t>(label)];
 }
 
 }  // namespace quadmap

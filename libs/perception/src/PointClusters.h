@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <utility>
 #include <vector>
 
 #include "quadmap/perception/PerceptionOptions.h"
@@ -16,6 +17,9 @@ class PointClusters
   /** \param gap Points nearer to each other than this are always together [m], > 0. */
   PointClusters(
       const std::vector<Eigen::Vector3d>& points, double gap, const PerceptionOptions& options);
+
+  /** Makes one cluster of those that a pair of points (their indices) belongs to. */
+  void join(const std::vector<std::pair<int, int>>& pairs);
 
   int count() const { return count_; }
   const std::vector<int>& labels() const { return labels_; }  //!< Of each point, in [0, count)

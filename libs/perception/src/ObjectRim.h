@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+
+#include "BoxCandidates.h"
+
+namespace quadmap
+{
+/** Fills the mask of an object of which every step-th cell of every step-th row is known, and adds
+ * all cells along its rim, where one more or less decides how large it is.
+ * \param gap Candidates no farther in depth from a known cell beside them belong to it [m].
+ * \param isFree False for cells that belong to other objects. */
+void addRim(
+    const BoxCandidates& candidates,
+    double gap,
+    const std::function<bool(const ObjectCloud::Cell&)>& isFree,
+    ObjectCloud& object);
+
+}  // namespace quadmap
