@@ -79,7 +79,7 @@ inline double topEdgeSigma(double perCell, double range, const PerceptionOptions
 /** A plane of many points, below the object. */
 inline double supportSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0015, 0.15 * options.depthSigma(range));
+  return std::hypot(0.0007, 0.07 * options.depthSigma(range));
 }
 
 }  // namespace quadmap

@@ -57,6 +57,14 @@ PlaneExtent::PlaneExtent(const Eigen::Vector3d& normal, const std::vector<Eigen:
   corners_ = convexHull(std::move(flat));
 }
 
+double PlaneExtent::area() const
+{
+  double twice = 0;
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+    twice += cross(corners_[i], corners_[(i + 1) % corners_.size()]);
+  return 0.5 * twice;
+}
+
 PlaneExtent PlaneExtent::grown(const std::vector<Eigen::Vector3d>& points) const
 {
   PlaneExtent out = *this;

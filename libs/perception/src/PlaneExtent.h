@@ -24,6 +24,8 @@ class PlaneExtent
   /** The extent that reaches to more points, too; one that reaches everywhere stays as it is. */
   PlaneExtent grown(const std::vector<Eigen::Vector3d>& points) const;
 
+  double area() const;  //!< [m^2]; 0 for one that reaches everywhere
+
   bool isEverywhere() const { return corners_.empty(); }
 
  private:

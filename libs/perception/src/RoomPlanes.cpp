@@ -10,17 +10,21 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-constexpr double kCell = 0.10;        // size of the cells of an extent [m]
-constexpr double kReach = 6.5;        // farther surfaces support nothing a depth camera sees [m]
-constexpr unsigned kMinFrames = 3;    // that make a surface
-constexpr int kMinHits = 2;           // that make a cell
-constexpr int kMaxHits = 8;           // so that what was moved away is taken back soon
-constexpr unsigned kMinCells = 4;     // smaller things are no surface of the room
-constexpr unsigned kDoubtful = 30;    // frames that an unconfirmed surface is kept for
-constexpr unsigned kMemory = 1000;    // frames after which a cell is forgotten: poses drift
-constexpr double kMinGain = 0.1;      // of one frame's plane; keeps following slow drift
-constexpr double kPoseHeight = 0.03;  // height error of a pose, two standard deviations [m]
-constexpr double kPoseAngle = 0.03;   // tilt error of a pose, two standard deviations [rad]
+constexpr double kWallCell = 0.10;       // size of the cells of an extent [m]
+constexpr double kLevelCell = 0.05;      // of a horizontal one: things stand on it to its edge [m]
+constexpr double kReach = 6.5;           // farther surfaces support nothing a depth camera sees [m]
+constexpr unsigned kMinFrames = 3;       // that make a surface
+constexpr int kMinHits = 2;              // that make a cell
+constexpr int kMaxHits = 8;              // so that what was moved away is taken back soon
+constexpr unsigned kMinCells = 4;        // of a wall, or of what is in reach of one frame
+constexpr unsigned kMinLevelCells = 48;  // 0.12 m^2: a keyboard or a book is no surface of the room
+constexpr unsigned kDoubtful = 30;       // frames that an unconfirmed surface is kept for
+constexpr unsigned kMemory = 1000;       // frames after which a cell is forgotten: poses drift
+constexpr double kMinGain = 0.1;         // of one frame's plane; keeps following slow drift
+constexpr double kPoseHeight = 0.03;     // height error of a pose, two standard deviations [m]
+constexpr double kPoseAngle = 0.03;      // tilt error of a pose, two standard deviations [rad]
+constexpr double kFloorHeight = 0.01;    // error of heights above the floor of the frame [m]
+constexpr double kFloorAngle = 0.005;    // [rad]
 
 constexpr std::size_t kVoteWindow = 200;    // floor candidates that are remembered
 constexpr std::size_t kMinVotes = 3;        // that make a floor
@@ -29,7 +33,7 @@ constexpr double kSameFloor = 0.10;         // [m]; pose noise and slope over a 
 constexpr double kSensorHeightRange = 1.2;  // of a carried camera within one storey [m]
 constexpr double kMinUpright = 0.95;        // cosine: horizontal surfaces
 constexpr double kSameDirection = 0.985;    // cosine: one wall, 10 degrees
-constexpr double kMinOverlap = 0.2;         // share of a patch's cells on or next to the surface
+constexpr int kNear = 5;  // level cells; parts of a surface that things on it keep apart: 0.25 m
 constexpr double kQuarterTurn = 1.57079632679489661923;
 
 Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
@@ -41,6 +45,15 @@ Eigen::Vector3d centroidOf(const SurfacePatch& patch)
   return sum / static_cast<double>(patch.samples.size());
 }
 
+/** Moves a surface up. */
+void raise(SurfacePatch& patch_map, double by)
+{
+  patch_map.plane.d -= by * patch_map.plane.n.z();
+  for (auto& p : patch_map.samples) p.z() += static_cast<float>(by);
+}
+
+double cellSize(SurfaceKind kind) { return kind == SurfaceKind::Wall ? kWallCell : kLevelCell; }
+
 /** Horizontal unit vector along a wall. */
 Eigen::Vector3d alongWall(const Plane& wall)
 {
@@ -51,19 +64,40 @@ Eigen::Vector3d alongWall(const Plane& wall)
 
 RoomPlanes::Cell RoomPlanes::cellOf(const Track& track, const Eigen::Vector3d& p_map)
 {
-  const auto index = [](double v) { return static_cast<int>(std::floor(v / kCell)); };
-  if (track.kind == SurfaceKind::Wall)
-    return {index(alongWall(track.plane).dot(p_map)), index(p_map.z())};
-  return {index(p_map.x()), index(p_map.y())};
+  const auto cell = [size = cellSize(track.kind)](double a, double b)
+  { return Cell(static_cast<int>(std::floor(a / size)), static_cast<int>(std::floor(b / size))); };
+  if (track.kind == SurfaceKind::Wall) return cell(alongWall(track.plane).dot(p_map), p_map.z());
+  return cell(p_map.x(), p_map.y());
 }
 
 Eigen::Vector3f RoomPlanes::pointOf(const Track& track, const Cell& cell)
 {
-  const double a = (cell.first + 0.5) * kCell, b = (cell.second + 0.5) * kCell;
+  const double size = cellSize(track.kind);
+  const double a = (cell.first + 0.5) * size, b = (cell.second + 0.5) * size;
   Eigen::Vector3d p(a, b, -track.plane.d);
   if (track.kind == SurfaceKind::Wall)
     p = alongWall(track.plane) * a + Eigen::Vector3d::UnitZ() * b - track.plane.n * track.plane.d;
   return p.cast<float>();
+}
+
+bool RoomPlanes::isNear(const Track& track, const SurfacePatch& patch_map)
+{
+  const auto coarse = [](const Cell& c)
+  {
+    const auto index = [](int i) { return i >= 0 ? i / kNear : (i + 1) / kNear - 1; };
+    return Cell(index(c.first), index(c.second));
+  };
+  std::set<Cell> occupied;
+  for (const auto& [cell, state] : track.cells) occupied.insert(coarse(cell));
+  return std::any_of(
+      patch_map.samples.begin(), patch_map.samples.end(),
+      [&](const auto& p)
+      {
+        const Cell c = coarse(cellOf(track, p.template cast<double>()));
+        for (int k = 0; k < 9; ++k)
+          if (occupied.count({c.first + k % 3 - 1, c.second + k / 3 - 1})) return true;
+        return false;
+      });
 }
 
 bool RoomPlanes::isConfirmed(const Track& track) { return track.frames >= kMinFrames; }
@@ -73,23 +107,47 @@ void RoomPlanes::add(const FrameSurfaces& frame, const CPose3D& T_map_sensor)
   ++frame_;
   sensorHeight_ = T_map_sensor.z();
   takeBack(frame, T_map_sensor);
+  const auto rise = riseToFloor(frame, T_map_sensor);
   std::vector<bool> taken(tracks_.size(), false);
   for (const auto& seen : frame.seen)
   {
-    const SurfacePatch patch = transformed(seen, T_map_sensor);
-    if (patch.kind == SurfaceKind::Floor) voteForFloor(patch.plane, T_map_sensor);
+    SurfacePatch patch = transformed(seen, T_map_sensor);
+    if (patch.kind == SurfaceKind::Floor) voteForFloor(patch, T_map_sensor);
     if (patch.samples.empty()) continue;
-    fuse(patch, (centroidOf(patch) - positionOf(T_map_sensor)).norm(), taken);
+    const double range = (centroidOf(patch) - positionOf(T_map_sensor)).norm();
+    double tolerance = kPoseHeight + kPoseAngle * range;
+    if (rise && patch.kind != SurfaceKind::Wall)
+    {
+      raise(patch, *rise);
+      tolerance = kFloorHeight + kFloorAngle * range;
+    }
+    fuse(patch, tolerance, taken);
   }
   forget();
 }
 
-void RoomPlanes::voteForFloor(const Plane& plane_map, const CPose3D& T_map_sensor)
+std::optional<double> RoomPlanes::riseToFloor(
+    const FrameSurfaces& frame, const CPose3D& T_map_sensor) const
 {
-  if (plane_map.n.z() < kMinUpright) return;
-  // Where the plane meets the vertical through the sensor.
-  const double xy = plane_map.n.x() * T_map_sensor.x() + plane_map.n.y() * T_map_sensor.y();
-  floorVotes_.push_back({-(xy + plane_map.d) / plane_map.n.z(), T_map_sensor.z()});
+  const auto known = floorHeight();
+  if (!known) return {};
+  for (const auto& seen : frame.seen)
+  {
+    if (seen.kind != SurfaceKind::Floor || seen.samples.empty()) continue;
+    const double rise = *known - centroidOf(transformed(seen, T_map_sensor)).z();
+    if (std::abs(rise) < kSameFloor) return rise;
+  }
+  return {};
+}
+
+void RoomPlanes::voteForFloor(const SurfacePatch& patch_map, const CPose3D& T_map_sensor)
+{
+  const Plane& plane = patch_map.plane;
+  if (plane.n.z() < kMinUpright) return;
+  // Where it was seen; a plane without samples where it meets the vertical through the sensor.
+  const Eigen::Vector3d at =
+      patch_map.samples.empty() ? positionOf(T_map_sensor) : centroidOf(patch_map);
+  floorVotes_.push_back({at.z() - plane.signedDistance(at) / plane.n.z(), T_map_sensor.z()});
   if (floorVotes_.size() > kVoteWindow) floorVotes_.pop_front();
 }
 
@@ -111,7 +169,7 @@ std::optional<double> RoomPlanes::floorHeight() const
   return {};
 }
 
-void RoomPlanes::fuse(const SurfacePatch& patch_map, double range, std::vector<bool>& taken)
+void RoomPlanes::fuse(const SurfacePatch& patch_map, double tolerance, std::vector<bool>& taken)
 {
   const bool isWall = patch_map.kind == SurfaceKind::Wall;
   Track fresh;
@@ -127,7 +185,6 @@ void RoomPlanes::fuse(const SurfacePatch& patch_map, double range, std::vector<b
   if (normal.norm() < 0.5) return;
   fresh.plane = Plane::throughPoint(normal.normalized(), center);
 
-  const double tolerance = kPoseHeight + kPoseAngle * range;
   Track* best = nullptr;
   std::size_t bestIndex = 0;
   double bestGap = tolerance;
@@ -140,20 +197,7 @@ void RoomPlanes::fuse(const SurfacePatch& patch_map, double range, std::vector<b
     // the sensor has: a book's cover is not the table under it.
     constexpr double kLevel = 0.02;
     if (gap >= bestGap || (i < taken.size() && taken[i] && gap > kLevel)) continue;
-    if (!isWall)
-    {
-      std::size_t on = 0;
-      for (const auto& p : patch_map.samples)
-      {
-        const Cell c = cellOf(track, p.cast<double>());
-        bool found = false;
-        for (int k = 0; k < 9 && !found; ++k)
-          found = track.cells.count({c.first + k % 3 - 1, c.second + k / 3 - 1}) != 0;
-        on += found ? 1 : 0;
-      }
-      if (static_cast<double>(on) < kMinOverlap * static_cast<double>(patch_map.samples.size()))
-        continue;
-    }
+    if (!isWall && !isNear(track, patch_map)) continue;
     best = &track;
     bestIndex = i;
     bestGap = gap;
@@ -223,7 +267,9 @@ std::vector<SurfacePatch> RoomPlanes::surfaces() const
     SurfacePatch patch = {track.kind, track.plane, {}};
     for (const auto& [cell, state] : track.cells)
       if (state.hits >= kMinHits) patch.samples.push_back(pointOf(track, cell));
-    if (patch.samples.size() >= kMinCells) out.push_back(std::move(patch));
+    const bool isWall = track.kind == SurfaceKind::Wall;
+    if (patch.samples.size() >= (isWall ? kMinCells : kMinLevelCells))
+      out.push_back(std::move(patch));
   }
   return out;
 }

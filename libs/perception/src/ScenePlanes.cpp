@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "PlaneLevel.h"
+
 namespace quadmap
 {
 namespace
@@ -21,6 +23,46 @@ double shareBelow(const DepthCloud& cloud, const Plane& plane, double margin)
         if (plane.signedDistance(p) < -margin * std::max(1.0, 0.5 * p.z())) ++below;
       }
   return all > 0 ? static_cast<double>(below) / all : 0.0;
+}
+
+void setLevel(ScenePlane& plane, const PlaneLevel& level, const PerceptionOptions& options)
+{
+  plane.plane = level.plane;
+  plane.samples = level.samples;
+  plane.centroid.setZero();
+  for (const auto& p : plane.samples)
+    plane.centroid += p / static_cast<double>(plane.samples.size());
+  plane.rim.erase(
+      std::remove_if(
+          plane.rim.begin(), plane.rim.end(),
+          [&](const auto& p)
+          {
+            return std::abs(level.plane.signedDistance(p)) >
+                   0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+          }),
+      plane.rim.end());
+  if (plane.rim.empty()) plane.rim = plane.samples;
+}
+
+/** The floor shows in pieces between the furniture: each is too small to know the slope that all
+ * have together. */
+void levelFloor(ScenePlanes& planes, const PerceptionOptions& options)
+{
+  constexpr double kSameLevel = 0.02, kMaxSlope = 0.015;  // [m], [rad]
+  const ScenePlane& floor = planes.plane(*planes.floor);
+  std::vector<int> pieces;
+  std::vector<Eigen::Vector3d> points;
+  for (const int i : planes.horizontal)
+  {
+    const ScenePlane& piece = planes.plane(i);
+    const Eigen::Vector3d apart = piece.centroid - floor.centroid;
+    if (std::abs(planes.up.dot(apart)) > kSameLevel + kMaxSlope * apart.norm()) continue;
+    pieces.push_back(i);
+    points.insert(points.end(), piece.samples.begin(), piece.samples.end());
+  }
+  const auto level = mainLevel(points, floor.plane.n, planes.up, options);
+  if (!level) return;
+  for (const int i : pieces) planes.all.planes[static_cast<std::size_t>(i)].plane = level->plane;
 }
 
 /** The samples of a known surface that this frame does not look through. */
@@ -149,6 +191,9 @@ ScenePlanes classifyPlanes(
     const bool isHorizontal = cosine > std::cos(options.planeMaxTilt);
     if (!isHorizontal && std::abs(cosine) > std::sin(options.planeMaxTilt)) continue;
     (isHorizontal ? out.horizontal : out.vertical).push_back(i);
+    if (isHorizontal)
+      if (const auto level = mainLevel(plane.samples, plane.plane.n, out.up, options))
+        setLevel(plane, *level, options);
     if (!plane.rim.empty()) plane.extent = PlaneExtent(plane.plane.n, plane.rim);
   }
   const auto height = [&](int i) { return out.plane(i).centroid.dot(out.up); };
@@ -164,6 +209,7 @@ ScenePlanes classifyPlanes(
       shareBelow(cloud, out.plane(out.horizontal.front()).plane, kFloorMargin) <= kMaxBelowFloor)
     out.floor = out.horizontal.front();
   out.floorSeen = out.floor.has_value();
+  if (out.floorSeen) levelFloor(out, options);
   for (const auto& patch : known)
     if (patch.kind == SurfaceKind::Floor) useKnownFloor(out, patch.plane);
   if (out.floor) out.all.planes[static_cast<std::size_t>(*out.floor)].extent = PlaneExtent();

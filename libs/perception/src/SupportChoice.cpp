@@ -52,7 +52,7 @@ class SupportJudge
       label_(label),
       object_(object),
       options_(options),
-      ring_(ringAround(cloud, planes.up, detection.box, options))
+      ring_(ringAround(cloud, planes, detection.box, options))
   {
   }
 

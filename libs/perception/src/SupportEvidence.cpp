@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "quadmap/geometry/RobustStatistics.h"
 
@@ -97,6 +99,34 @@ double coverage(
   const Eigen::Vector3d foot = p - plane.signedDistance(p) * plane.n;
   const bool isRim = looksThroughRim(cloud, foot, extent.toExtent(p), options);
   return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
+}
+
+/** Distance to the horizontal plane that a point most likely lies on [m]; its tolerance when none
+ * reaches there. */
+double nearestLevel(const ScenePlanes& planes, const RingPoint& point)
+{
+  constexpr double kReach = 0.10;  // beyond what was seen of a surface [m]
+  double nearest = point.tolerance;
+  for (const int i : planes.horizontal)
+  {
+    const ScenePlane& plane = planes.plane(i);
+    const double distance = std::abs(plane.plane.signedDistance(point.point));
+    if (distance < nearest && plane.extent.outside(point.point) < kReach) nearest = distance;
+  }
+  return nearest;
+}
+
+/** The share of a surface's extent that its points fill, about. */
+double filled(const ScenePlane& surface)
+{
+  constexpr double kCell = 0.06;  // wider than the distance of points at a grazing angle [m]
+  const Eigen::Vector3d e1 = surface.plane.n.unitOrthogonal(), e2 = surface.plane.n.cross(e1);
+  std::set<std::pair<int, int>> cells;
+  for (const auto& p : surface.rim)
+    cells.emplace(
+        static_cast<int>(std::floor(e1.dot(p) / kCell)),
+        static_cast<int>(std::floor(e2.dot(p) / kCell)));
+  return static_cast<double>(cells.size()) * kCell * kCell / std::max(1e-6, surface.extent.area());
 }
 
 }  // namespace
@@ -202,7 +232,8 @@ std::optional<ScenePlane> topOf(
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
   constexpr std::size_t kFewest = 20;  // cells
   constexpr double kOwnShare = 0.5;
-  constexpr int kFinest = 4;  // times more cells than elsewhere: tops are small
+  constexpr double kMinFilled = 0.4;  // several things of one height are no surface
+  constexpr int kFinest = 4;          // times more cells than elsewhere: tops are small
   const auto range = cloud.cellsOf(box);
   std::vector<DepthCloud::CellRange> holes;
   for (const auto& other : others) holes.push_back(cloud.cellsOf(other));
@@ -240,6 +271,7 @@ std::optional<ScenePlane> topOf(
   out.centroid = out.rim[bestCount / 2];
   out.plane = Plane::throughPoint(planes.up, out.centroid);
   out.extent = PlaneExtent(planes.up, out.rim);
+  if (filled(out) < kMinFilled) return {};
   return out;
 }
 
@@ -254,7 +286,7 @@ Eigen::Vector2d downInImage(
 
 std::vector<RingPoint> ringAround(
     const DepthCloud& cloud,
-    const Eigen::Vector3d& up,
+    const ScenePlanes& planes,
     const ImageBox& box,
     const PerceptionOptions& options)
 {
@@ -262,7 +294,7 @@ std::vector<RingPoint> ringAround(
   const auto outer =
       cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
   const auto inner = cloud.cellsOf(box);
-  const Eigen::Vector2d down = downInImage(cloud.camera(), up, box);
+  const Eigen::Vector2d down = downInImage(cloud.camera(), planes.up, box);
   const double halfHeight =
       0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
   const int step = stepFor(std::max(0, outer.cells() - inner.cells()));
@@ -281,7 +313,9 @@ std::vector<RingPoint> ringAround(
       if (point.inBox && below < 0.8) continue;
       point.lower = below > 0;
       point.point = cloud.point(c, r).cast<double>();
-      point.tolerance = options.planeTolerance + 2.5 * options.depthSigma(point.point.z());
+      point.noise = options.depthSigma(point.point.z());
+      point.tolerance = options.planeTolerance + 2.5 * point.noise;
+      point.nearest = nearestLevel(planes, point);
       if (const auto normal = cloud.normal(c, r)) point.normal = normal->cast<double>();
       out.push_back(point);
     }
@@ -297,7 +331,9 @@ RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ri
   {
     if (ring == Ring::All ? p.inBox : !p.lower) continue;
     ++all;
-    if (std::abs(plane.signedDistance(p.point)) > p.tolerance) continue;
+    const double distance = std::abs(plane.signedDistance(p.point));
+    if (distance > p.tolerance) continue;
+    if (ring == Ring::LowerHalf && distance > p.nearest + p.noise) continue;
     ++on;
     if (!p.inBox && p.normal && p.normal->dot(plane.n) > kSameWay) out.surface.push_back(p.point);
   }

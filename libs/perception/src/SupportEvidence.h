@@ -85,6 +85,8 @@ struct RingPoint
   Eigen::Vector3d point;
   std::optional<Eigen::Vector3d> normal;
   double tolerance = 0;  //!< For lying on a plane [m]
+  double noise = 0;      //!< Standard deviation of its depth [m]
+  double nearest = 0;    //!< To the nearest horizontal plane that reaches there [m]
   bool inBox = false;    //!< In the lowest tenth of the box: the support shows there, too
   bool lower = false;    //!< Below the middle of the box
 };
@@ -92,10 +94,11 @@ struct RingPoint
 /** The surroundings of a box: a ring of an eighth of its size, some hundred points. */
 std::vector<RingPoint> ringAround(
     const DepthCloud& cloud,
-    const Eigen::Vector3d& up,
+    const ScenePlanes& planes,
     const ImageBox& box,
     const PerceptionOptions& options);
 
+/** Of two levels a hand's breadth or less apart a point shows the nearer one only. */
 RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring);
 
 }  // namespace quadmap

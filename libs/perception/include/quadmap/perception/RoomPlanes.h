@@ -57,10 +57,15 @@ class RoomPlanes
     double height = 0, sensorHeight = 0;  // in the map [m]
   };
 
-  void voteForFloor(const Plane& plane_map, const mrpt::poses::CPose3D& T_map_sensor);
-  void fuse(const SurfacePatch& patch_map, double range, std::vector<bool>& taken);
+  void voteForFloor(const SurfacePatch& patch_map, const mrpt::poses::CPose3D& T_map_sensor);
+  /** By how much a frame's heights are too low, by the floor it shows: heights above that are as
+   * good as the sensor, those in the map only as good as the pose. Nothing without a floor [m]. */
+  std::optional<double> riseToFloor(
+      const FrameSurfaces& frame, const mrpt::poses::CPose3D& T_map_sensor) const;
+  void fuse(const SurfacePatch& patch_map, double tolerance, std::vector<bool>& taken);
   void takeBack(const FrameSurfaces& frame, const mrpt::poses::CPose3D& T_map_sensor);
   void forget();
+  static bool isNear(const Track& track, const SurfacePatch& patch_map);
   static bool isConfirmed(const Track& track);
   static Cell cellOf(const Track& track, const Eigen::Vector3d& p_map);
   static Eigen::Vector3f pointOf(const Track& track, const Cell& cell);

@@ -1,0 +1,94 @@
+#include "PlaneLevel.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace quadmap;
+
+namespace
+{
+const Eigen::Vector3d kUp(0, -0.8, -0.6);  // of a camera that looks down by 37 degrees
+
+/** Points with depth noise on a rectangle of a level plane, in the optical frame. */
+std::vector<Eigen::Vector3d> patch(
+    const Eigen::Vector3d& middle,
+    const Eigen::Vector3d& normal,
+    double width,
+    double length,
+    int count,
+    std::mt19937& random)
+{
+  const Eigen::Vector3d ahead = Eigen::Vector3d::UnitX().cross(normal).normalized();
+  const Eigen::Vector3d across = normal.cross(ahead);
+  std::uniform_real_distribution<double> share(-0.5, 0.5);
+  const PerceptionOptions options;
+  std::vector<Eigen::Vector3d> out;
+  for (int i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d p =
+        middle + width * share(random) * across + length * share(random) * ahead;
+    std::normal_distribution<double> noise(0, options.depthSigma(p.z()));
+    out.push_back(p * (1 + noise(random) / p.z()));
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST(PlaneLevel, TellsATableFromWhatLiesOnIt)
+{
+  // A plane through a table and the keyboard on it is on neither: 28 mm apart, seen from 1.3 m.
+  std::mt19937 random(1);
+  const Eigen::Vector3d table(0, 0.1, 1.3);
+  auto points = patch(table, kUp, 0.8, 0.5, 250, random);
+  const auto keyboard =
+      patch(table + 0.028 * kUp + Eigen::Vector3d(0.2, 0, 0), kUp, 0.4, 0.15, 150, random);
+  points.insert(points.end(), keyboard.begin(), keyboard.end());
+  const Eigen::Vector3d tilted = (kUp + Eigen::Vector3d(0.08, 0, 0)).normalized();
+  const auto level = mainLevel(points, tilted, kUp, PerceptionOptions());
+  ASSERT_TRUE(level);
+  EXPECT_NEAR(level->plane.signedDistance(table), 0.0, 0.001);
+  EXPECT_NEAR(level->plane.signedDistance(table + Eigen::Vector3d(0.4, 0, 0)), 0.0, 0.003);
+  EXPECT_NEAR(static_cast<double>(level->samples.size()), 250.0, 15.0);
+}
+
+TEST(PlaneLevel, FollowsALargeSurfaceThatSaysUpIsElsewhere)
+{
+  // Poses are good to a degree; a floor of metres knows better.
+  std::mt19937 random(2);
+  const Eigen::Vector3d truth = (kUp + Eigen::Vector3d(0.017, 0, 0)).normalized();
+  const Eigen::Vector3d middle(0, 0.6, 1.6);
+  const auto points = patch(middle, truth, 2.0, 1.5, 600, random);
+  const auto level = mainLevel(points, truth, kUp, PerceptionOptions());
+  ASSERT_TRUE(level);
+  EXPECT_LT(std::acos(level->plane.n.dot(truth)), 0.003);
+  EXPECT_GT(level->samples.size(), 560U);
+}
+
+TEST(PlaneLevel, DoesNotBelieveTheSlopeOfASmallPatch)
+{
+  std::mt19937 random(3);
+  double worst = 0;
+  for (int i = 0; i < 20; ++i)
+  {
+    const Eigen::Vector3d middle(0.5, 0.8, 3.5);
+    const auto level =
+        mainLevel(patch(middle, kUp, 0.2, 0.2, 60, random), kUp, kUp, PerceptionOptions());
+    ASSERT_TRUE(level);
+    worst = std::max(worst, std::acos(std::min(1.0, level->plane.n.dot(kUp))));
+    EXPECT_NEAR(level->plane.signedDistance(middle), 0.0, 0.008);
+  }
+  EXPECT_LT(worst, 0.012);
+}
+
+TEST(PlaneLevel, NeedsPoints)
+{
+  EXPECT_FALSE(mainLevel({}, kUp, kUp, PerceptionOptions()));
+  EXPECT_FALSE(mainLevel(
+      {
+          {  0, 0, 1},
+          {0.1, 0, 1}
+  },
+      kUp, kUp, PerceptionOptions()));
+}
