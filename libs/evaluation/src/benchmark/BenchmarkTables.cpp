@@ -21,14 +21,18 @@ std::string joined(const std::set<std::string>& values)
 std::string machineTable(const BenchmarkResults& results)
 {
   std::map<std::string, std::set<std::string>> values;
-  std::set<std::string> seeds;
+  std::set<std::string> seeds, scenes, recordings;
   for (const auto& result : results.done)
   {
     for (const auto& [key, value] : result.machine) values[key].insert(value);
-    if (result.job.kind != BenchmarkKind::Recorded) seeds.insert(std::to_string(result.job.seed));
+    const bool isRecorded = result.job.kind == BenchmarkKind::Recorded;
+    (isRecorded ? recordings : scenes).insert(result.job.subject);
+    if (!isRecorded) seeds.insert(std::to_string(result.job.seed));
   }
   MarkdownTable table({"", ""});
   for (const auto& [key, set] : values) table.add({key, joined(set)});
+  table.add({"scenes", joined(scenes)});
+  table.add({"recordings", joined(recordings)});
   table.add({"seeds", joined(seeds)});
   table.add(
       {"jobs", mrpt::format("%zu done, %zu missing", results.done.size(), results.missing.size())});
