@@ -46,10 +46,11 @@ class PoseGraphWriter : public testing::Test
     return c;
   }
 
-  void write(const std::string& path) const
+  void write(const std::string& path) const { write(path, slam_.result()); }
+  void write(const std::string& path, const SlamResult& result) const
   {
-    const auto nodes = poseNodesOf(slam_.result().keyframes);
-    writePoseGraph(path, nodes, slam_.result(), spool_, configuration().poses);
+    const auto nodes = poseNodesOf(result.keyframes);
+    writePoseGraph(path, nodes, result, spool_, configuration().poses);
   }
 
   /** Of (yaw, pitch, roll) as the file has it: MRPT 2.5 forgets their correlations on reading. */
@@ -124,8 +125,41 @@ TEST_F(PoseGraphWriter, MeasurementEdgesPointFromTheRobotToTheObject)
   }
 }
 
-TEST_F(PoseGraphWriter, AnglesCarryTheInformationOfUprightAndYaw)
+TEST_F(PoseGraphWriter, OdometryEdgesHaveTheCovarianceOfTheirKeyframe)
 {
+  SlamResult result = slam_.result();
+  auto& stated = result.keyframes[3].odometryStep->cov;
+  stated(0, 0) *= 4;
+  stated(5, 5) *= 9;
+  write(folder_.path("x.graph"), result);
+  graph_.loadFromTextFile(folder_.path("x.graph"));
+  const Eigen::Matrix<double, 6, 6> product =
+      graph_.getEdge(2, 3).cov_inv.asEigen() * stated.asEigen();
+  EXPECT_LT((product - Eigen::Matrix<double, 6, 6>::Identity()).norm(), 1e-6);
+}
+
+TEST_F(PoseGraphWriter, MeasurementEdgesAreThoseOfTheEstimation)
+{
+  const auto id = kFrames + slam_.result().map.confirmedObjects().at(0)->id;
+  ASSERT_EQ(slam_.result().edges.size(), std::size_t(kFrames));
+  for (const auto& edge : slam_.result().edges)
+  {
+    const auto& written = graph_.getEdge(edge.pose, id);
+    EXPECT_LT((written.mean - edge.T_robot_obj).norm(), 1e-6);
+    for (int i = 0; i < 6; ++i)
+    {
+      const double expected = i < 3 ? edge.positionInformation : edge.angleInformation;
+      EXPECT_NEAR(written.cov_inv(i, i), expected, 1e-6 * expected);
+    }
+  }
+}
+
+TEST_F(PoseGraphWriter, AnglesOfGivenPosesCarryTheInformationOfUprightAndYaw)
+{
+  SlamResult given = slam_.result();
+  given.edges.clear();
+  write(folder_.path("x.graph"), given);
+  graph_.loadFromTextFile(folder_.path("x.graph"));
   const auto id = kFrames + slam_.result().map.confirmedObjects().at(0)->id;
   for (unsigned k = 0; k < kFrames; ++k)
   {

@@ -166,7 +166,9 @@ class GraphText
     for (const MapObject* object : result_.map.confirmedObjects())
       writeNode(out_, nodes_.size() + object->id, object->object.pose());
     for (std::size_t n = 1; n < nodes_.size(); ++n) writeOdometry(n);
-    for (const auto& decision : result_.decisions) addMeasurement(decision);
+    if (result_.edges.empty())
+      for (const auto& decision : result_.decisions) addMeasurement(decision);
+    for (const auto& edge : result_.edges) addEdge(edge);
     for (const auto& [nodes, edge] : measurements_)
       writeEdge(out_, nodes.first, nodes.second, edge.mean(), edge.information());
   }
@@ -174,9 +176,32 @@ class GraphText
  private:
   void writeOdometry(std::size_t n)
   {
-    const auto step =
-        odometryStep(uncertainty_, nodes_[n - 1].T_odom_robot, nodes_[n].T_odom_robot);
+    const auto step = stepTo(n);
     writeEdge(out_, n - 1, n, step.mean, step.cov.asEigen().inverse());
+  }
+
+  /** From the node before, as the estimation had it: steps lead from keyframe to keyframe. */
+  mrpt::poses::CPose3DPDFGaussian stepTo(std::size_t n) const
+  {
+    const std::size_t from = nodes_[n - 1].keyframes.front(), to = nodes_[n].keyframes.front();
+    const auto stated = [&](std::size_t k) { return result_.keyframes[k].odometryStep; };
+    if (to == from + 1 && stated(to)) return *stated(to);
+    // Several cameras, or not in the order of time: their steps may be at rest.
+    auto step = odometryStep(uncertainty_, nodes_[n - 1].T_odom_robot, nodes_[n].T_odom_robot);
+    for (std::size_t k = from + 1; k <= to; ++k)
+      if (stated(k) && nodeOf_[k] == n && nodeOf_[k - 1] == n - 1) step.cov = stated(k)->cov;
+    return step;
+  }
+
+  void addEdge(const FactorGraph::PoseEdge& edge)
+  {
+    const MapObject* object = result_.map.find(edge.object);
+    if (!object || !object->confirmed) return;
+    Matrix6 information = Matrix6::Zero();
+    information.diagonal() << Eigen::Vector3d::Constant(edge.positionInformation),
+        Eigen::Vector3d::Constant(edge.angleInformation);
+    measurements_[{nodeOf_[edge.pose], nodes_.size() + edge.object}].add(
+        edge.T_robot_obj, information);
   }
 
   void addMeasurement(const BoxDecision& box)

@@ -279,3 +279,51 @@ TEST(FactorGraph, AnHeirTakesViewsOver)
   EXPECT_LT(graph.viewCount(), views);
   EXPECT_EQ(graph.optimise().freeObjects, objects - 1);
 }
+
+TEST(FactorGraph, PoseEdgesPullAsTheViewsDo)
+{
+  GraphWorld world(11);
+  FactorGraphOptions options;
+  options.floorSigma = 0;
+  options.maxIterations = 1;
+  FactorGraph graph(options);
+  graph.addPose(world.truth[0]);
+  std::size_t seen = 0;
+  while (!world.visible(0, seen)) ++seen;
+  const RobotView view = world.view(0, seen);
+  const Ellipsoid placed = GraphWorld::placed(view, world.truth[0]);
+  const Ellipsoid object(
+      mrpt::poses::CPose3D(0.02, -0.015, 0.01, 0, 0, 0) + placed.pose(), placed.semiAxes());
+  graph.setObject(1, object, world.label());
+  graph.addView(0, 1, view);
+  const auto edges = graph.poseEdges();
+  ASSERT_EQ(edges.size(), 1u);
+
+  // Oracle: the cost with the object moved a little; the label's prior does not depend on it.
+  constexpr double kStep = 1e-5;
+  const auto costAt = [&](const Eigen::Vector3d& move, double yaw)
+  {
+    mrpt::poses::CPose3D pose =
+        mrpt::poses::CPose3D(move.x(), move.y(), move.z(), 0, 0, 0) + object.pose();
+    pose = pose + mrpt::poses::CPose3D(0, 0, 0, yaw, 0, 0);
+    FactorGraph moved = graph;
+    moved.setObject(1, Ellipsoid(pose, object.semiAxes()), world.label());
+    return moved.optimiseObjects().initialCost;
+  };
+  const mrpt::poses::CPose3D measured = world.truth[0] + edges[0].T_robot_obj;
+  const Eigen::Vector3d wanted(measured.x(), measured.y(), measured.z());
+  const Eigen::Vector3d force = edges[0].positionInformation * (object.center() - wanted);
+  for (Eigen::Index i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d d = kStep * Eigen::Vector3d::Unit(i);
+    const double expected = (costAt(d, 0) - costAt(-d, 0)) / (2 * kStep);
+    EXPECT_NEAR(force[i], expected, 1e-3 * (1 + std::abs(expected))) << i;
+  }
+  const Eigen::Matrix3d turn =
+      object.rotation() * measured.getRotationMatrix().asEigen().transpose();
+  const double torque = edges[0].angleInformation * rotationVectorOf(Eigen::Quaterniond(turn)).z();
+  const double expected =
+      (costAt(Eigen::Vector3d::Zero(), kStep) - costAt(Eigen::Vector3d::Zero(), -kStep)) /
+      (2 * kStep);
+  EXPECT_NEAR(torque, expected, 1e-3 * (1 + std::abs(expected)));
+}

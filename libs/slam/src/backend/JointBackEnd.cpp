@@ -222,6 +222,9 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
     summary.converged = summary.lastMove < options_.smallMove;
   }
   result.correction = summary;
+  FactorGraph graph = globalGraph(boxesOf, result);  // with the objects of the final map
+  graph.optimise();
+  result.edges = graph.poseEdges();
 }
 
 }  // namespace quadmap

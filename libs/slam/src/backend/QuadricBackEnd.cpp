@@ -223,6 +223,11 @@ void QuadricBackEnd::fillMap(SlamResult& result) const
     const auto known = decision.object ? idInMap.find(*decision.object) : idInMap.end();
     decision.object = known == idInMap.end() ? std::nullopt : std::optional(known->second);
   }
+  if (!correctPoses_) return;
+  FactorGraph graph = globalGraph(result);
+  graph.optimise();
+  result.edges = graph.poseEdges();
+  for (auto& edge : result.edges) edge.object = idInMap.at(edge.object);
 }
 
 }  // namespace quadmap

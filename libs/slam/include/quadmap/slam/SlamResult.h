@@ -12,6 +12,7 @@
 
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/slam/SlamOptions.h"
+#include "quadmap/slam/graph/FactorGraph.h"
 #include "quadmap/slam/visual/VisualOdometry.h"
 
 namespace quadmap
@@ -86,6 +87,9 @@ struct SlamResult
   std::map<std::string, SlamCounts> countsBySensor;
   OdometrySummary odometry;
   std::map<std::string, LabelCounts> labels;
+  /** What the final estimation made of the measurements; `pose` is a keyframe. Nothing when poses
+   * were taken as given. */
+  std::vector<FactorGraph::PoseEdge> edges;
   std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
   std::vector<std::string> warnings;
 
