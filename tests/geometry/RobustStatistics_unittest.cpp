@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -24,6 +25,29 @@ TEST(Quantile, InterpolatesBetweenOrderStatistics)
   EXPECT_DOUBLE_EQ(quantile(values, 0.25), 17.5);
   EXPECT_DOUBLE_EQ(quantile(values, 1.0 / 3), 20);
   EXPECT_DOUBLE_EQ(quantile({7}, 0.3), 7);
+}
+
+TEST(Quantile, FarOutAgreesWithSortedValues)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> gaussian;
+  for (const std::size_t count : {1, 2, 31, 64, 65, 1000, 5003})
+  {
+    std::vector<double> values(count);
+    for (double& v : values) v = gaussian(random);
+    auto sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    for (const double p :
+         {0.0, 0.001, 0.005, 0.02, 0.03, 0.05, 0.5, 0.95, 0.97, 0.995, 0.9999, 1.0})
+    {
+      const double position = p * static_cast<double>(count - 1);
+      const auto below = static_cast<std::size_t>(position);
+      const double above = sorted[std::min(below + 1, count - 1)];
+      const double share = position - static_cast<double>(below);
+      EXPECT_NEAR(quantile(values, p), (1 - share) * sorted[below] + share * above, 1e-12)
+          << p << " of " << count;
+    }
+  }
 }
 
 TEST(Quantile, OfAUniformSampleIsItsProbability)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 namespace quadmap
@@ -15,9 +16,27 @@ double quantile(std::vector<double> values, double p)
   if (values.empty()) throw std::invalid_argument("quantile: no finite value");
 
   const double position = p * static_cast<double>(values.size() - 1);
-  const auto below = values.begin() + static_cast<std::ptrdiff_t>(position);
-  std::nth_element(values.begin(), below, values.end());
   const double fraction = position - std::floor(position);
+  const auto rank = static_cast<std::size_t>(position);
+  // Far out few values need to be looked at twice.
+  constexpr std::size_t kTail = 32;
+  if (values.size() - rank <= values.size() / kTail)
+  {
+    std::vector<double> highest(values.size() - rank);
+    std::partial_sort_copy(
+        values.begin(), values.end(), highest.begin(), highest.end(), std::greater<double>());
+    const double value = highest.back();
+    return fraction == 0 ? value : value + fraction * (highest[highest.size() - 2] - value);
+  }
+  if (rank + 2 <= values.size() / kTail)
+  {
+    std::vector<double> lowest(rank + 2);
+    std::partial_sort_copy(values.begin(), values.end(), lowest.begin(), lowest.end());
+    return fraction == 0 ? lowest[rank]
+                         : lowest[rank] + fraction * (lowest[rank + 1] - lowest[rank]);
+  }
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), below, values.end());
   if (fraction == 0) return *below;
   const double above = *std::min_element(below + 1, values.end());
   return *below + fraction * (above - *below);

@@ -28,15 +28,9 @@ LevelCloud levelCloud(
 {
   LevelCloud out;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  std::vector<double> ranges;
-  ranges.reserve(object.points.size());
-  for (const auto& p : object.points)
-  {
-    centroid += p;
-    ranges.push_back(p.z());
-  }
+  for (const auto& p : object.points) centroid += p;
   out.R_level_optical = levelRotation(up_optical, centroid.normalized());
-  out.medianRange = median(std::move(ranges));
+  out.medianRange = median(sampleOf(object.points, 2));
   constexpr std::size_t kMaxSamples = 5000;
   const std::size_t step = 1 + object.points.size() / kMaxSamples;
   out.cellsPerSample = static_cast<double>(step) * object.step * object.step;

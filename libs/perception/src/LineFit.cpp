@@ -52,7 +52,25 @@ struct Blocks
   double squares = 0;  // of the residuals about the line of selection [m^2]
 };
 
-/** \param points Sorted along the line. */
+/** Orders points along the line as far as blocks first ... last - 1 need it. */
+void sortIntoBlocks(std::vector<Eigen::Vector2d>& points, std::size_t first, std::size_t last)
+{
+  if (last - first < 2) return;
+  const auto at = [&](std::size_t block)
+  {
+    const std::size_t begin = block == 0 ? 0 : endOf(block - 1, points.size());
+    return points.begin() + static_cast<std::ptrdiff_t>(begin);
+  };
+  const std::size_t middle = (first + last) / 2;
+  std::nth_element(
+      at(first), at(middle), at(last),
+      [](const auto& p, const auto& q)
+      { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); });
+  sortIntoBlocks(points, first, middle);
+  sortIntoBlocks(points, middle, last);
+}
+
+/** \param points In the order of blocks. */
 Blocks select(const std::vector<Eigen::Vector2d>& points, double offset, double slope, double shell)
 {
   Blocks out;
@@ -92,10 +110,7 @@ std::optional<double> slopeVariance(const Blocks& blocks)
 std::optional<LineFit> fitLine(std::vector<Eigen::Vector2d> points, double shell)
 {
   if (static_cast<double>(points.size()) < kMinPoints) return {};
-  std::sort(
-      points.begin(), points.end(),
-      [](const auto& p, const auto& q)
-      { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); });
+  sortIntoBlocks(points, 0, kBlocks);
   std::vector<double> across;
   for (const auto& p : points) across.push_back(p.y());
   double slope = 0, offset = median(std::move(across));

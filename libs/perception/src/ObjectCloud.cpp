@@ -26,13 +26,6 @@ double coverageOf(const DepthCloud& cloud, const ImageBox& box)
   return static_cast<double>(valid) / range.cells();
 }
 
-double medianDepth(const std::vector<Eigen::Vector3d>& points)
-{
-  std::vector<double> z;
-  for (const auto& p : points) z.push_back(p.z());
-  return median(std::move(z));
-}
-
 /** Weights exp(-((i - middle) / sigma)^2 / 2) of i = first ... last - 1. */
 std::vector<double> gaussian(int first, int last, double middle, double sigma)
 {
@@ -236,7 +229,7 @@ class Segmenter
     const int cellsPerPoint = candidates.step * candidates.step;
     if (static_cast<int>(candidates.points.size()) * cellsPerPoint < options_.minPoints) return out;
 
-    const double range = medianDepth(candidates.points), gap = gapFor(boxOf(index), range);
+    const double range = median(sampleOf(candidates.points, 2)), gap = gapFor(boxOf(index), range);
     PointClusters parts(candidates.points, gap, options_);
     if (candidates.step > 1) parts.join(steepNeighbours(cloud_, candidates, gap));
     const auto clusters = describe(task, candidates, parts);
@@ -356,6 +349,16 @@ class Segmenter
 };
 
 }  // namespace
+
+std::vector<double> sampleOf(const std::vector<Eigen::Vector3d>& points, int axis)
+{
+  constexpr std::size_t kMost = 2000;
+  const std::size_t step = 1 + points.size() / kMost;
+  std::vector<double> out;
+  out.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step) out.push_back(points[i][axis]);
+  return out;
+}
 
 std::vector<ObjectCloud> segmentObjects(
     const DepthCloud& cloud,

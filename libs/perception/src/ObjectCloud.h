@@ -63,6 +63,10 @@ struct ObjectCloud
   bool empty() const { return points.empty(); }
 };
 
+/** Coordinates of some points [m], enough of them for a quantile of the middle.
+ * \param axis 0 to 2. */
+std::vector<double> sampleOf(const std::vector<Eigen::Vector3d>& points, int axis);
+
 /** One detection of the frame, with what is known about it before its points are cut out. */
 struct ObjectTask
 {

@@ -34,6 +34,7 @@ void addRim(
   const int step = object.step;
   if (step == 1) return;
   const CellMask known = object.mask;
+  CellMask rejected(candidates.range);
   const std::size_t count = object.cells.size();
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -50,10 +51,16 @@ void addRim(
         cell, step - 1, step - 1, 1,
         [&](int c, int r)
         {
-          if (!candidates.range.contains(c, r) || object.mask.contains(c, r) || !isFree({c, r}))
+          if (!candidates.range.contains(c, r) || object.mask.contains(c, r) ||
+              rejected.contains(c, r))
             return;
           const auto p = candidates.rule.candidate(c, r);
-          if (!p || std::abs(p->z() - z) > gap) return;
+          if (!p || !isFree({c, r}))
+          {
+            rejected.insert(c, r);
+            return;
+          }
+          if (std::abs(p->z() - z) > gap) return;
           object.mask.insert(c, r);
           if ((c + r) % step != 0) return;
           object.cells.push_back({c, r});

@@ -39,20 +39,10 @@ std::optional<Eigen::Vector3d> seedWithoutCloud(const DepthCloud& cloud, const I
 Eigen::Vector3d seedOf(const ObjectCloud& object)
 {
   Eigen::Vector3d out;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::vector<double> values;
-    for (const auto& p : object.points) values.push_back(p[axis]);
-    out[axis] = median(std::move(values));
-  }
+  for (int axis = 0; axis < 3; ++axis) out[axis] = median(sampleOf(object.points, axis));
   return out;
 }
 
-double nearDepthOf(const ObjectCloud& object)
-{
-  std::vector<double> depths;
-  for (const auto& p : object.points) depths.push_back(p.z());
-  return quantile(std::move(depths), 0.05);
-}
+double nearDepthOf(const ObjectCloud& object) { return quantile(sampleOf(object.points, 2), 0.05); }
 
 }  // namespace quadmap
