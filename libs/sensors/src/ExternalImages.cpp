@@ -10,6 +10,7 @@
 
 #include "GzStream.h"
 #include "RecordReader.h"
+#include "quadmap/obs/ErrorText.h"
 
 namespace quadmap
 {

@@ -9,6 +9,7 @@
 #include "InputError.h"
 #include "RawlogSourceImpl.h"
 #include "ScanCheck.h"
+#include "quadmap/obs/ErrorText.h"
 #include "quadmap/obs/PixelLabels.h"
 #include "quadmap/sensors/RawlogNames.h"
 

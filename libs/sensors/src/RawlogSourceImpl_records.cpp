@@ -8,6 +8,7 @@
 
 #include "InputError.h"
 #include "RawlogSourceImpl.h"
+#include "quadmap/obs/ErrorText.h"
 
 namespace quadmap
 {

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "InputError.h"
+#include "quadmap/obs/ErrorText.h"
 
 namespace quadmap
 {
@@ -26,17 +27,6 @@ std::string classNameIn(const std::string& head)
   return std::all_of(name.begin(), name.end(), legal) ? name : std::string();
 }
 }  // namespace
-
-std::string rootMessage(const std::exception& e)
-{
-  // MRPT nests messages and call stacks; the innermost message is the cause.
-  const std::string text = e.what(), mark = "Message:  ";
-  const auto nested = text.rfind(mark);
-  const auto begin =
-      text.find_first_not_of("\n\r ", nested == std::string::npos ? 0 : nested + mark.size());
-  if (begin == std::string::npos) return "unknown error";
-  return text.substr(begin, text.find_first_of("\n\r", begin) - begin);
-}
 
 RecordReader::RecordReader(const std::string& file) :
     file_(file), stream_(file), archive_(mrpt::serialization::archiveUniquePtrFrom(stream_))

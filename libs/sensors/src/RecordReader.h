@@ -38,7 +38,4 @@ class RecordReader
   bool ended_ = false;
 };
 
-/** The cause an exception tells, on one line: without MRPT's nested messages and call stacks. */
-std::string rootMessage(const std::exception& e);
-
 }  // namespace quadmap

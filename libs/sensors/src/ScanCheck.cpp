@@ -9,6 +9,7 @@
 
 #include "GzStream.h"
 #include "RecordReader.h"
+#include "quadmap/obs/ErrorText.h"
 #include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
