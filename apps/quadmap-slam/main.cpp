@@ -36,8 +36,7 @@ struct Cli
       "and the exit status is 130.",
       QUADMAP_VERSION};
   std::vector<std::string> methodNames{"rgbd", "quadric", "odometry"};
-  std::vector<std::string> sourceNames{"auto", "rawlog", "visual", "ground-truth"};
-  TCLAP::ValuesConstraint<std::string> methods{methodNames}, sources{sourceNames};
+  TCLAP::ValuesConstraint<std::string> methods{methodNames};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
       "rawlog", "The recording, in either format of MRPT.", true, "", "IN.rawlog", line.args()};
   TCLAP::ValueArg<std::string> output{
@@ -58,11 +57,12 @@ struct Cli
       "",
       "odometry",
       "Where poses come from: the rawlog's odometry, visual odometry from the images, the rawlog's "
-      "ground truth; auto: the rawlog's odometry or, without any, visual odometry; images of one "
-      "moment need none.",
+      "ground truth, the nodes of a pose graph, each image that has one being a keyframe; auto: "
+      "the "
+      "rawlog's odometry or, without any, visual odometry; images of one moment need none.",
       false,
       "auto",
-      &sources,
+      "auto|rawlog|visual|ground-truth|graph:FILE",
       line.args()};
   TCLAP::ValueArg<std::string> objects{
       "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
@@ -83,12 +83,22 @@ struct Cli
       line.args()};
 };
 
+void setOdometry(const std::string& name, SlamOptions& options)
+try
+{
+  options.setOdometry(name);
+}
+catch (const std::invalid_argument& e)
+{
+  throw cli::UsageError("--" + std::string(e.what()));
+}
+
 SlamConfiguration configurationOf(Cli& cli)
 {
   SlamConfiguration configuration;
   if (cli.config.isSet()) configuration = SlamConfiguration::fromFile(cli.config.getValue());
   if (cli.method.isSet()) configuration.slam.method = slamMethodFrom(cli.method.getValue());
-  if (cli.odometry.isSet()) configuration.slam.odometry = poseSourceFrom(cli.odometry.getValue());
+  if (cli.odometry.isSet()) setOdometry(cli.odometry.getValue(), configuration.slam);
   if (cli.every.isSet())
   {
     if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be 1 or more");

@@ -124,9 +124,9 @@ TEST(SlamConfiguration, RejectsWhatItDoesNotKnow)
   } cases[] = {
       {                   "[slamm]\nmethod=rgbd\n",": unknown section [slamm]; known: slam, "                                                   },
       {                     "[slam]\nmetod=rgbd\n",                   ": [slam] unknown key \"metod\""},
-      {                   "[slam]\nmethod=magic\n",    ": method=magic: must be one of rgbd, "},
+      {                   "[slam]\nmethod=magic\n",            ": method=magic: must be one of rgbd, "},
       {                  "[slam]\nodometry=none\n",
-       ": odometry=none: must be one of auto, rawlog, visual, ground-truth"                           },
+       ": odometry=none: must be one of auto, rawlog, visual, ground-truth, graph:FILE"               },
       {                "[input]\nmaxBoxDelay=-1\n",                  "[input] maxBoxDelay=-1: must be"},
       {              "[input]\nmaxOdometryGap=0\n",                "[input] maxOdometryGap=0: must be"},
       {                 "[keyframes]\nevery=2.5\n",    "[keyframes] every=2.5: must be a whole number"},

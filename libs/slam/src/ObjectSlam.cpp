@@ -23,6 +23,19 @@ bool hasDepth(const mrpt::obs::CObservation3DRangeScan& scan)
          std::any_of(depth.data(), depth.data() + depth.size(), [](auto d) { return d != 0; });
 }
 
+std::optional<GraphOdometry> graphOf(const SlamOptions& options)
+{
+  if (options.odometry != PoseSource::Graph) return std::nullopt;
+  return GraphOdometry(options.odometryGraph);
+}
+
+/** What a user is told of poses that are not made here. */
+std::string nameOfGivenPoses(const SlamOptions& options)
+{
+  if (options.odometry == PoseSource::Graph) return "the pose graph " + options.odometryGraph;
+  return options.odometry == PoseSource::GroundTruth ? "ground truth" : "the rawlog's odometry";
+}
+
 }  // namespace
 
 ObjectSlam::ObjectSlam(
@@ -37,7 +50,12 @@ ObjectSlam::ObjectSlam(
     spool_(spool),
     keepGoing_(keepGoing),
     selector_(configuration.keyframes),
-    odometry_(configuration.slam.odometry, configuration.poses, configuration.visual, up_robot),
+    odometry_(
+        configuration.slam.odometry,
+        configuration.poses,
+        configuration.visual,
+        up_robot,
+        graphOf(configuration.slam)),
     perception_(configuration, labels),
     backEnd_(configuration, labels_),
     tasks_(kCapacity),
@@ -93,16 +111,15 @@ void ObjectSlam::tellOdometry(const RgbdFrame& frame)
         result_.odometry.upFromFloor ? "from the floor it sees"
                                      : "as the sensor is mounted: no floor seen at first");
   else
-    MRPT_LOG_INFO_STREAM(
-        "poses: "
-        << (odometry_.source() == PoseSource::GroundTruth ? "ground truth"
-                                                          : "the rawlog's odometry"));
+    MRPT_LOG_INFO_STREAM("poses: " << nameOfGivenPoses(configuration_.slam));
 }
 
 void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_robot)
 {
   const CPose3D T_odom_sensor = T_odom_robot + frame.scan->sensorPose;
-  if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor)) return;
+  const bool isNode = odometry_.source() == PoseSource::Graph;  // somebody else chose it
+  if (!isNode && !selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor))
+    return;
   KeyframeTask next{frame, T_odom_robot, odometry_.keyframeStep()};
   if (frame.objects && configuration_.slam.method != SlamMethod::Odometry)
   {
@@ -186,7 +203,7 @@ void ObjectSlam::finish()
   const std::size_t missing = result_.counts().framesWithoutPose;
   if (missing > 0 && missing == result_.counts().frames)
     placeFramesWithoutPose();
-  else if (missing > 0)
+  else if (missing > 0 && odometry_.source() != PoseSource::Graph)  // which has keyframes only
     warn(mrpt::format(
         "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
   settle();

@@ -24,8 +24,9 @@ OdometryInput::OdometryInput(
     PoseSource source,
     const PoseUncertaintyOptions& uncertainty,
     const VisualOdometryOptions& visual,
-    const std::optional<Eigen::Vector3d>& up_robot) :
-    source_(source), uncertainty_(uncertainty)
+    const std::optional<Eigen::Vector3d>& up_robot,
+    const std::optional<GraphOdometry>& graph) :
+    source_(source), uncertainty_(uncertainty), graph_(graph)
 {
   if (source == PoseSource::Visual)
     visual_ = std::make_unique<VisualOdometry>(visual, uprightStart(up_robot));
@@ -35,6 +36,7 @@ std::optional<CPose3D> OdometryInput::poseOf(const RgbdFrame& frame)
 {
   sawOdometry_ = sawOdometry_ || frame.T_odom_robot;
   sawGroundTruth_ = sawGroundTruth_ || frame.T_world_robot;
+  if (graph_) return graph_->poseAt(frame.time());
   latest_.reset();
   std::optional<CPose3D> pose;
   if (visual_)
@@ -61,6 +63,7 @@ std::optional<CPose3D> OdometryInput::visualPoseOf(const RgbdFrame& frame)
 std::optional<CPose3DPDFGaussian> OdometryInput::keyframeStep()
 {
   if (visual_) return visual_->takeStep();
+  if (graph_) return graph_->takeStep(uncertainty_);
   std::optional<CPose3DPDFGaussian> step;
   if (keyframe_ && latest_ && source_ == PoseSource::GroundTruth)
     step = groundTruthStep(uncertainty_, keyframe_->mean, latest_->mean);
@@ -84,8 +87,14 @@ std::vector<std::string> OdometryInput::takeWarnings()
   return warnings;
 }
 
+void OdometryInput::requireAllUsed() const
+{
+  if (graph_) graph_->requireAllUsed();
+}
+
 std::string OdometryInput::whyNoPoses() const
 {
+  if (graph_) return "no image has the time of a pose of " + graph_->path();
   if (source_ == PoseSource::Visual)
     return "no odometry for any image, and visual odometry finds too little texture or depth in "
            "them";

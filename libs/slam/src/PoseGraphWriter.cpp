@@ -160,6 +160,8 @@ class GraphText
   {
     for (std::size_t n = 0; n < nodes_.size(); ++n)
     {
+      for (const std::size_t k : nodes_[n].keyframes)
+        out_ << mrpt::format("# TIME %zu %.6f\n", n, result_.keyframes[k].time);
       writeNode(out_, n, nodes_[n].T_map_robot);
       if (n == 0) out_ << "FIX 0\n";
     }

@@ -162,6 +162,7 @@ class RawlogRun
       throw std::runtime_error(
           file + ": no usable RGB-D images" + sensor + "; it has " + source_.contentSummary());
     }
+    if (!interrupted) slam_.requireAllPosesUsed();
     const bool wantsBoxes = request_.configuration.slam.method != SlamMethod::Odometry;
     if (!wantsBoxes || source_.hasBoxes() || interrupted) return;
     const std::string text =

@@ -29,6 +29,8 @@ std::string odometryText(const RunRecord& run)
 {
   const OdometrySummary& odometry = run.result.odometry;
   if (odometry.source == PoseSource::Visual) return "visual odometry " + odometry.visualSensor;
+  if (odometry.source == PoseSource::Graph)
+    return "pose graph " + run.configuration.slam.odometryGraph;
   return odometry.source == PoseSource::GroundTruth ? "ground truth" : run.input.odometryKind;
 }
 

@@ -22,8 +22,11 @@ constexpr std::pair<PoseSource, const char*> kSources[] = {
     {       PoseSource::Auto,         "auto"},
     {     PoseSource::Rawlog,       "rawlog"},
     {     PoseSource::Visual,       "visual"},
-    {PoseSource::GroundTruth, "ground-truth"}
+    {PoseSource::GroundTruth, "ground-truth"},
+    {      PoseSource::Graph,   "graph:FILE"}
 };
+
+const std::string kGraph = "graph:";  // and the name of its file
 
 constexpr int kMostThreads = 64;
 constexpr unsigned kUsefulThreads = 4;  // the input, and three stages a keyframe goes through
@@ -56,6 +59,18 @@ std::string nameOf(SlamMethod method) { return textOf(kMethods, method); }
 PoseSource poseSourceFrom(const std::string& name) { return valueOf(kSources, "odometry", name); }
 std::string nameOf(PoseSource source) { return textOf(kSources, source); }
 
+void SlamOptions::setOdometry(const std::string& name)
+{
+  const bool isGraph = name.rfind(kGraph, 0) == 0 && name.size() > kGraph.size();
+  odometry = isGraph ? PoseSource::Graph : poseSourceFrom(name);
+  odometryGraph = isGraph ? name.substr(kGraph.size()) : "";
+}
+
+std::string SlamOptions::odometryName() const
+{
+  return odometry == PoseSource::Graph ? kGraph + odometryGraph : nameOf(odometry);
+}
+
 std::size_t SlamOptions::workingThreads() const
 {
   if (threads > 0) return static_cast<std::size_t>(threads);
@@ -67,7 +82,7 @@ void SlamOptions::loadFromConfigFile(
 {
   rejectUnknownKeys(config, section, {"method", "odometry", "threads"});
   method = slamMethodFrom(config.read_string(section, "method", nameOf(method)));
-  odometry = poseSourceFrom(config.read_string(section, "odometry", nameOf(odometry)));
+  setOdometry(config.read_string(section, "odometry", odometryName()));
   readNumber(config, section, "threads", threads, 0, kMostThreads);
 }
 
@@ -75,7 +90,7 @@ void SlamOptions::saveToConfigFile(
     mrpt::config::CConfigFileBase& config, const std::string& section) const
 {
   config.write(section, "method", nameOf(method));
-  config.write(section, "odometry", nameOf(odometry));
+  config.write(section, "odometry", odometryName());
   config.write(section, "threads", threads);
 }
 

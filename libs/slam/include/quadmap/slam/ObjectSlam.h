@@ -61,6 +61,10 @@ class ObjectSlam : public mrpt::system::COutputLogger
   /** Waits for the frames that are under way. \exception As in addFrame(). */
   void settle();
 
+  /** To be called when the input came to its end, before finish().
+   *  \exception std::runtime_error If its images do not fit the poses they were given. */
+  void requireAllPosesUsed() const { odometry_.requireAllUsed(); }
+
   /** After the last frame: settles the map.
    *  \exception As in addFrame().
    *  \exception std::runtime_error If there were frames, but none had a pose. */

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadmap/sensors/RgbdFrame.h"
+#include "quadmap/slam/GraphOdometry.h"
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamOptions.h"
 #include "quadmap/slam/visual/VisualOdometry.h"
@@ -24,20 +25,26 @@ class OdometryInput
  public:
   /** \param source Auto is taken as Rawlog; see surveyOdometry() for what else it may come to.
    *  \param up_robot For visual odometry: up at the first frame, in the robot's frame; when absent
-   * the robot is thought to stand upright then. */
+   * the robot is thought to stand upright then.
+   *  \param graph For PoseSource::Graph. */
   OdometryInput(
       PoseSource source,
       const PoseUncertaintyOptions& uncertainty,
       const VisualOdometryOptions& visual,
-      const std::optional<Eigen::Vector3d>& up_robot = {});
+      const std::optional<Eigen::Vector3d>& up_robot = {},
+      const std::optional<GraphOdometry>& graph = {});
 
-  /** T_map_robot of the frame, or nothing when the input has none at its time. */
+  /** T_map_robot of the frame, or nothing when the input has none at its time.
+   *  \exception std::runtime_error As GraphOdometry::poseAt(). */
   std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
 
   /** To be called once for every keyframe, after poseOf() gave its pose: the motion of the robot
    * since the keyframe before, with its covariance (x, y, z, yaw, pitch, roll), always positive
    * definite. Nothing for the first keyframe. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> keyframeStep();
+
+  /** After the last frame. \exception std::runtime_error As GraphOdometry::requireAllUsed(). */
+  void requireAllUsed() const;
 
   PoseSource source() const { return source_; }
   std::optional<VisualOdometryCounts> visualCounts() const;  //!< When it is used
@@ -54,6 +61,7 @@ class OdometryInput
   PoseSource source_;
   PoseUncertaintyOptions uncertainty_;
   std::unique_ptr<VisualOdometry> visual_;
+  std::optional<GraphOdometry> graph_;
   std::string visualSensor_;  //!< The one camera it uses; empty: none yet
   std::optional<mrpt::poses::CPose3DPDFGaussian> latest_, keyframe_;  //!< Poses, as given
   std::vector<std::string> warnings_;

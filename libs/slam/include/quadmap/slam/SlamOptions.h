@@ -18,10 +18,11 @@ enum class SlamMethod
 /** Where the poses of the frames come from. */
 enum class PoseSource
 {
-  Auto,        //!< The rawlog's odometry; a single moment needs none; see surveyOdometry()
-  Rawlog,      //!< The rawlog's odometry
-  Visual,      //!< Visual odometry from the images
-  GroundTruth  //!< The rawlog's "ground_truth" poses
+  Auto,         //!< The rawlog's odometry; a single moment needs none; see surveyOdometry()
+  Rawlog,       //!< The rawlog's odometry
+  Visual,       //!< Visual odometry from the images
+  GroundTruth,  //!< The rawlog's "ground_truth" poses
+  Graph         //!< A pose graph of another run or program
 };
 
 /** The names of the command line and the INI file: rgbd, quadric, odometry.
@@ -29,7 +30,7 @@ enum class PoseSource
 SlamMethod slamMethodFrom(const std::string& name);
 std::string nameOf(SlamMethod method);
 
-/** auto, rawlog, visual, ground-truth. \exception std::invalid_argument */
+/** auto, rawlog, visual, ground-truth, graph:FILE. \exception std::invalid_argument */
 PoseSource poseSourceFrom(const std::string& name);
 std::string nameOf(PoseSource source);
 
@@ -38,7 +39,13 @@ struct SlamOptions : public mrpt::config::CLoadableOptions
 {
   SlamMethod method = SlamMethod::Rgbd;
   PoseSource odometry = PoseSource::Auto;
+  std::string odometryGraph;  //!< File of PoseSource::Graph; see GraphOdometry
   int threads = 0;  //!< That work, >= 0; 0: as many as useful. Results do not depend on it
+
+  /** \param name As poseSourceFrom() takes it; of graph:FILE also the file is taken.
+   *  \exception std::invalid_argument */
+  void setOdometry(const std::string& name);
+  std::string odometryName() const;
 
   std::size_t workingThreads() const;  //!< >= 1
 
