@@ -52,6 +52,9 @@ struct Cli
       "boxes",
       "KIND",
       line.args()};
+  TCLAP::SwitchArg instanceIds{
+      "", "instance-ids", "The boxes say which object they show; false alarms do not.",
+      line.args()};
 };
 
 simulator::DetectorOutput detectorOutput(const std::string& name)
@@ -125,6 +128,7 @@ void run(Cli& cli)
   if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options);
   if (cli.detections.isSet())
     scene.options.detector.output = detectorOutput(cli.detections.getValue());
+  if (cli.instanceIds.isSet()) scene.options.detector.instanceIds = true;
   scene.options.scaleNoise(noise);
 
   const simulator::Simulator simulator(std::move(scene), LabelTable::installed(), seed);

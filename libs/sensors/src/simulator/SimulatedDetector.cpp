@@ -84,6 +84,8 @@ Detections SimulatedDetector::detect(
     if (!found.box.isValid()) continue;
     result.boxes.push_back(std::move(found));
     result.truth.emplace_back(seen.object);
+    if (options_.instanceIds)
+      result.boxes.back().instanceId = static_cast<std::uint32_t>(seen.object);
   }
   // The whole part of `falseAlarms` always happens, the rest of it with that probability.
   const double alarms = options_.falseAlarms;

@@ -158,9 +158,10 @@ void DetectorOptions::loadFromConfigFile(
   rejectUnknownKeys(
       c, section,
       {"jitter", "relativeJitter", "minVisible", "minSize", "missRate", "occludedMissRate",
-       "falseAlarms", "flipRate", "output", "maskJitter"});
+       "falseAlarms", "flipRate", "output", "maskJitter", "instanceIds"});
   if (const auto e = entryOf(c, section, "output")) output = outputOf(*e);
   readNumber(c, section, "maskJitter", maskJitter, 0, 50);
+  readFlag(c, section, "instanceIds", instanceIds);
   readNumber(c, section, "jitter", jitter, 0, 100);
   readNumber(c, section, "relativeJitter", relativeJitter, 0, 1);
   readNumber(c, section, "minVisible", minVisible, 0, 1);

@@ -131,7 +131,8 @@ struct DetectorOptions : public mrpt::config::CLoadableOptions
   double falseAlarms = 0.05;      //!< Boxes around nothing per frame, 0..10
   DetectorOutput output = DetectorOutput::Boxes;  //!< boxes, masks, classes or instances
   double maskJitter = 1.5;  //!< Sigma of the border of a mask [px at 640], 0..50: a stride 4 grid's
-  double flipRate = 0.03;   //!< Share of boxes with a label the object is mistaken for, 0..1
+  bool instanceIds = false;  //!< Boxes carry the number of their object; false alarms have none
+  double flipRate = 0.03;    //!< Share of boxes with a label the object is mistaken for, 0..1
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& c, const std::string& section) override;
