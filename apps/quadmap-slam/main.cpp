@@ -35,8 +35,9 @@ struct Cli
       "from NAME.objects.rawlog beside it. Ctrl-C stops early: the files then hold what was done, "
       "and the exit status is 130.",
       QUADMAP_VERSION};
-  std::vector<std::string> methodNames{"rgbd", "quadric", "odometry"};
-  TCLAP::ValuesConstraint<std::string> methods{methodNames};
+  std::vector<std::string> methodNames{"rgbd", "quadric", "point", "odometry"};
+  std::vector<std::string> associationNames{"estimated", "given"};
+  TCLAP::ValuesConstraint<std::string> methods{methodNames}, associations{associationNames};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
       "rawlog", "The recording, in either format of MRPT.", true, "", "IN.rawlog", line.args()};
   TCLAP::ValueArg<std::string> output{
@@ -48,7 +49,9 @@ struct Cli
       "",
       "method",
       "rgbd: objects from boxes and depth; quadric: from box edges alone, as QuadricSLAM, for "
-      "comparison; odometry: the trajectory alone.",
+      "comparison; point: from the centres of the measurements alone, for comparison; odometry: "
+      "the "
+      "trajectory alone.",
       false,
       "rgbd",
       &methods,
@@ -63,6 +66,15 @@ struct Cli
       false,
       "auto",
       "auto|rawlog|visual|ground-truth|graph:FILE",
+      line.args()};
+  TCLAP::ValueArg<std::string> association{
+      "",
+      "association",
+      "Which object a box shows. estimated: from labels, positions and sizes; given: by the "
+      "instance ids of the boxes.",
+      false,
+      "estimated",
+      &associations,
       line.args()};
   TCLAP::ValueArg<std::string> objects{
       "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
@@ -99,6 +111,8 @@ SlamConfiguration configurationOf(Cli& cli)
   if (cli.config.isSet()) configuration = SlamConfiguration::fromFile(cli.config.getValue());
   if (cli.method.isSet()) configuration.slam.method = slamMethodFrom(cli.method.getValue());
   if (cli.odometry.isSet()) setOdometry(cli.odometry.getValue(), configuration.slam);
+  if (cli.association.isSet())
+    configuration.slam.association = associationSourceFrom(cli.association.getValue());
   if (cli.every.isSet())
   {
     if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be 1 or more");

@@ -75,6 +75,8 @@ ObjectSlam::ObjectSlam(
   result_.map.renderOptions = configuration.mapRender;
   result_.map.perceptionOptions = configuration.perception;
   result_.map.setLabels(labels);
+  if (configuration.slam.association == AssociationSource::Given)
+    result_.map.insertionOptions.useInstanceIds = true;
 }
 
 void ObjectSlam::addFrame(const RgbdFrame& frame)
@@ -125,6 +127,7 @@ void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_rob
   {
     next.boxes = CObservationObjects::Create(*frame.objects);
     warnOfUnknownLabels(*next.boxes);
+    for (const auto& object : next.boxes->objects) anyInstanceId_ |= object.instanceId.has_value();
   }
   task(added_++) = std::move(next);
   pipeline_.add();
@@ -139,6 +142,8 @@ void ObjectSlam::measure(std::size_t item)
   try
   {
     perception_.measure(keyframe, backEnd_.correctionFor(item));
+    if (configuration_.slam.association == AssociationSource::Given)
+      leaveOutAnonymous(*keyframe.boxes);
   }
   catch (const std::runtime_error& e)
   {
@@ -207,6 +212,7 @@ void ObjectSlam::finish()
     warn(mrpt::format(
         "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
   settle();
+  requireInstanceIds();
   warnOfMissingDepth();
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
   const auto scope = times_.measure("consolidation");
@@ -227,6 +233,25 @@ void ObjectSlam::placeFramesWithoutPose()
     result_.countsBySensor[frame.scan->sensorLabel].framesWithoutPose = 0;
     addPosedFrame(frame, CPose3D());
   }
+}
+
+void ObjectSlam::leaveOutAnonymous(CObservationObjects& boxes)
+{
+  for (auto& object : boxes.objects)
+  {
+    if (object.instanceId) continue;
+    object.measurement = ObjectMeasurement();
+    object.measurement.kind = MeasurementKind::Rejected;
+    object.measurement.reason = "no instance id, and associations are given";
+  }
+}
+
+void ObjectSlam::requireInstanceIds() const
+{
+  const auto boxes = result_.counts().boxes;
+  if (configuration_.slam.association == AssociationSource::Given && boxes > 0 && !anyInstanceId_)
+    throw std::runtime_error(mrpt::format(
+        "associations should be given, but none of the %zu boxes has an instance id", boxes));
 }
 
 void ObjectSlam::warnOfMissingDepth()

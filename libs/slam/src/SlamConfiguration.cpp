@@ -18,6 +18,7 @@ std::vector<SlamConfiguration::Section> SlamConfiguration::sections()
       {                       "keyframes",     &keyframes},
       {                           "poses",         &poses},
       {                           "joint",         &joint},
+      {                           "point",         &point},
       {                          "visual",        &visual},
       {                      "perception",    &perception},
       {    "CQuadricObjectMap_insertOpts",  &mapInsertion},

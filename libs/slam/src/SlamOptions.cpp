@@ -15,6 +15,7 @@ namespace
 constexpr std::pair<SlamMethod, const char*> kMethods[] = {
     {    SlamMethod::Rgbd,     "rgbd"},
     { SlamMethod::Quadric,  "quadric"},
+    {   SlamMethod::Point,    "point"},
     {SlamMethod::Odometry, "odometry"}
 };
 
@@ -30,6 +31,11 @@ const std::string kGraph = "graph:";  // and the name of its file
 
 constexpr int kMostThreads = 64;
 constexpr unsigned kUsefulThreads = 4;  // the input, and three stages a keyframe goes through
+
+constexpr std::pair<AssociationSource, const char*> kAssociations[] = {
+    {AssociationSource::Estimated, "estimated"},
+    {    AssociationSource::Given,     "given"}
+};
 
 template <typename Table>
 auto valueOf(const Table& table, const std::string& what, const std::string& name)
@@ -77,13 +83,21 @@ std::size_t SlamOptions::workingThreads() const
   return std::clamp(std::thread::hardware_concurrency(), 1u, kUsefulThreads);
 }
 
+AssociationSource associationSourceFrom(const std::string& name)
+{
+  return valueOf(kAssociations, "association", name);
+}
+std::string nameOf(AssociationSource source) { return textOf(kAssociations, source); }
+
 void SlamOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& config, const std::string& section)
 {
-  rejectUnknownKeys(config, section, {"method", "odometry", "threads"});
+  rejectUnknownKeys(config, section, {"method", "odometry", "threads", "association"});
   method = slamMethodFrom(config.read_string(section, "method", nameOf(method)));
   setOdometry(config.read_string(section, "odometry", odometryName()));
   readNumber(config, section, "threads", threads, 0, kMostThreads);
+  association =
+      associationSourceFrom(config.read_string(section, "association", nameOf(association)));
 }
 
 void SlamOptions::saveToConfigFile(
@@ -92,6 +106,7 @@ void SlamOptions::saveToConfigFile(
   config.write(section, "method", nameOf(method));
   config.write(section, "odometry", odometryName());
   config.write(section, "threads", threads);
+  config.write(section, "association", nameOf(association));
 }
 
 void InputOptions::loadFromConfigFile(

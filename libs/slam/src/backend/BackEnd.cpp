@@ -1,7 +1,10 @@
 #include "quadmap/slam/backend/BackEnd.h"
 
+#include <stdexcept>
+
 #include "quadmap/slam/backend/GivenPoses.h"
 #include "quadmap/slam/backend/JointBackEnd.h"
+#include "quadmap/slam/backend/PointBackEnd.h"
 #include "quadmap/slam/backend/QuadricBackEnd.h"
 
 namespace quadmap
@@ -23,9 +26,13 @@ std::unique_ptr<BackEnd> createBackEnd(
   const auto& slam = configuration.slam;
   const bool correctPoses =
       slam.odometry != PoseSource::GroundTruth && configuration.joint.correctPoses;
+  if (slam.method == SlamMethod::Quadric && slam.association == AssociationSource::Given)
+    throw std::invalid_argument("association=given: not for method quadric");
   if (slam.method == SlamMethod::Quadric)
     return std::make_unique<QuadricBackEnd>(
         configuration.joint, configuration.mapInsertion, correctPoses, labels);
+  if (slam.method == SlamMethod::Point)
+    return std::make_unique<PointBackEnd>(configuration, correctPoses, labels);
   if (slam.method == SlamMethod::Odometry || !correctPoses) return std::make_unique<GivenPoses>();
   return std::make_unique<JointBackEnd>(configuration.joint, configuration.mapInsertion, labels);
 }

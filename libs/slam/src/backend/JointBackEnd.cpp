@@ -209,7 +209,8 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
   {
     FactorGraph graph = globalGraph(boxesOf, result);
     graph.optimise();
-    const CPose3D T_map_graph = alignmentWithOdometry(graph, result.keyframes);
+    const CPose3D T_map_graph =
+        alignmentWithOdometry([&](std::size_t k) { return graph.pose(k); }, result.keyframes);
     summary.lastMove = 0;
     for (std::size_t k = 0; k < result.keyframes.size(); ++k)
     {

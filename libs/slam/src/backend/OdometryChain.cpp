@@ -38,7 +38,8 @@ CPose3DPDFGaussian stiffAtRest(CPose3DPDFGaussian step)
   return step;
 }
 
-CPose3D alignmentWithOdometry(const FactorGraph& graph, const std::vector<Keyframe>& keyframes)
+CPose3D alignmentWithOdometry(
+    const std::function<CPose3D(std::size_t)>& poseOf, const std::vector<Keyframe>& keyframes)
 {
   const std::vector<double> variances = odometryVariances(keyframes);
   const auto first =
@@ -49,7 +50,7 @@ CPose3D alignmentWithOdometry(const FactorGraph& graph, const std::vector<Keyfra
   for (std::size_t k = 0; k < keyframes.size(); ++k)
   {
     const double weight = *first / (*first + variances[k]);
-    const CPose3D difference = keyframes[k].T_odom_robot + (-graph.pose(k));
+    const CPose3D difference = keyframes[k].T_odom_robot + (-poseOf(k));
     sum += weight * mrpt::poses::Lie::SE<3>::log(difference).asEigen();
     weights += weight;
   }

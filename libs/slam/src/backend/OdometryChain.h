@@ -2,10 +2,10 @@
 
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
+#include <functional>
 #include <vector>
 
 #include "quadmap/slam/SlamResult.h"
-#include "quadmap/slam/graph/FactorGraph.h"
 
 namespace quadmap
 {
@@ -17,6 +17,7 @@ mrpt::poses::CPose3DPDFGaussian stiffAtRest(mrpt::poses::CPose3DPDFGaussian step
  * keeps its first pose, and the error of that one pose would move the whole map: all poses together
  * know better where it is, each in proportion to what the odometry still knows of it. */
 mrpt::poses::CPose3D alignmentWithOdometry(
-    const FactorGraph& graph, const std::vector<Keyframe>& keyframes);
+    const std::function<mrpt::poses::CPose3D(std::size_t)>& poseOf,
+    const std::vector<Keyframe>& keyframes);
 
 }  // namespace quadmap

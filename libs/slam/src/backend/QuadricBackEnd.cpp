@@ -177,7 +177,8 @@ double QuadricBackEnd::round(const BoxesOf& boxesOf, SlamResult& result)
   if (correctPoses_)
   {
     graph.optimise();
-    T_map_graph = alignmentWithOdometry(graph, result.keyframes);
+    T_map_graph =
+        alignmentWithOdometry([&](std::size_t k) { return graph.pose(k); }, result.keyframes);
   }
   else
     graph.optimiseObjects();

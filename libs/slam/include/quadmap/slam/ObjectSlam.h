@@ -84,6 +84,8 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
   void placeFramesWithoutPose();
   void warnOfMissingDepth();
+  static void leaveOutAnonymous(CObservationObjects& boxes);
+  void requireInstanceIds() const;
   void warnOfUnknownLabels(const CObservationObjects& boxes);
 
   // The stages; each is called from one thread at a time
@@ -103,6 +105,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   OdometryInput odometry_;
   SingleMoment moment_;
   std::set<std::string> unknownLabels_;
+  bool anyInstanceId_ = false;  //!< Of the boxes so far
   PerceptionStage perception_;
   BackEndStage backEnd_;
   SlamResult result_;

@@ -12,6 +12,7 @@
 #include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamOptions.h"
+#include "quadmap/slam/points/PointOptions.h"
 #include "quadmap/slam/visual/VisualOdometryOptions.h"
 
 namespace quadmap
@@ -24,6 +25,7 @@ struct SlamConfiguration
   KeyframeOptions keyframes;                            //!< [keyframes]
   PoseUncertaintyOptions poses;                         //!< [poses]
   JointOptions joint;                                   //!< [joint]
+  PointOptions point;                                   //!< [point]
   VisualOdometryOptions visual;                         //!< [visual]
   PerceptionOptions perception;                         //!< [perception]
   CQuadricObjectMap::TInsertionOptions mapInsertion;    //!< [CQuadricObjectMap_insertOpts]

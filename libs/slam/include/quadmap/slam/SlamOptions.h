@@ -12,7 +12,15 @@ enum class SlamMethod
 {
   Rgbd,     //!< Complete and partial measurements from colour boxes and depth
   Quadric,  //!< QuadricSLAM: ellipsoids that touch the boxes' edges, no depth
+  Point,    //!< Centres of the measurements, for comparison (Mu et al.)
   Odometry  //!< No objects: the trajectory alone
+};
+
+/** How it is decided which object a box shows. */
+enum class AssociationSource
+{
+  Estimated,  //!< From labels, positions and sizes
+  Given       //!< By the instance ids of the boxes; boxes without one are left out
 };
 
 /** Where the poses of the frames come from. */
@@ -30,6 +38,10 @@ enum class PoseSource
 SlamMethod slamMethodFrom(const std::string& name);
 std::string nameOf(SlamMethod method);
 
+/** estimated, given. \exception std::invalid_argument */
+AssociationSource associationSourceFrom(const std::string& name);
+std::string nameOf(AssociationSource source);
+
 /** auto, rawlog, visual, ground-truth, graph:FILE. \exception std::invalid_argument */
 PoseSource poseSourceFrom(const std::string& name);
 std::string nameOf(PoseSource source);
@@ -40,6 +52,7 @@ struct SlamOptions : public mrpt::config::CLoadableOptions
   SlamMethod method = SlamMethod::Rgbd;
   PoseSource odometry = PoseSource::Auto;
   std::string odometryGraph;  //!< File of PoseSource::Graph; see GraphOdometry
+  AssociationSource association = AssociationSource::Estimated;
   int threads = 0;  //!< That work, >= 0; 0: as many as useful. Results do not depend on it
 
   /** \param name As poseSourceFrom() takes it; of graph:FILE also the file is taken.
