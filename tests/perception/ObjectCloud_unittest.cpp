@@ -95,6 +95,22 @@ TEST(ObjectCloud, LeavesTheThingInFrontToTheBoxItSuits)
   }
 }
 
+TEST(ObjectCloud, JoinsTheFrontOfAChairWhoseSeatIsSeenEdgeOn)
+{
+  SyntheticFrame frame(0.44, 0.0);
+  frame.noise = 0.0015;
+  frame.add(2.0, 0.0, 0.38, 0.0, {0.44, 0.44, 0.06});  // its top at the camera's height
+  frame.add(2.20, 0.0, 0.44, 0.0, {0.04, 0.44, 0.48});
+  frame.add(1.80, 0.20, 0.0, 0.0, {0.04, 0.04, 0.38});
+  frame.add(1.80, -0.20, 0.0, 0.0, {0.04, 0.04, 0.38});
+  frame.add(3.5, 0.0, 0.0, 0.0, {0.5, 3.0, 1.5});  // background
+  const auto m = measureAll(frame, {detectParts(frame, {0, 1, 2, 3}, "chair")}, frame.scan());
+  ASSERT_TRUE(m[0].complete) << m[0].reason;
+  const auto bounds = boundsInWorld(frame, m[0]);
+  EXPECT_NEAR(bounds.min().x(), 1.78, 0.02);
+  EXPECT_NEAR(bounds.max().z(), 0.92, 0.03);
+}
+
 TEST(ObjectCloud, LooksThroughAChairsBack)
 {
   SyntheticFrame frame(1.2, 0.35);

@@ -5,8 +5,10 @@
 #include <numeric>
 
 #include "BoxCandidates.h"
+#include "Cluster.h"
 #include "ObjectRim.h"
 #include "PointClusters.h"
+#include "SupportEvidence.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
@@ -73,31 +75,6 @@ std::vector<std::pair<int, int>> steepNeighbours(
   }
   return out;
 }
-
-/** One cluster of a box's candidates, and how well it plays the part of the object. */
-struct Cluster
-{
-  int count = 0;                                    // cells
-  double centrality = 0;                            // sum of Gaussian weights of its cells
-  double x1 = 1e9, y1 = 1e9, x2 = -1e9, y2 = -1e9;  // bounds [cells]
-  double nearest = 1e9, farthest = 0;               // depth [m]
-  int leaking = 0;                                  // cells where it goes on outside the box
-  double fill = 0;                                  // IoU of its bounds and the box
-  double leak = 0;  // share of the box's outline across which it goes on
-
-  void add(const ObjectCloud::Cell& cell, double z, double weight)
-  {
-    ++count;
-    centrality += weight;
-    x1 = std::min(x1, double(cell.c));
-    y1 = std::min(y1, double(cell.r));
-    x2 = std::max(x2, double(cell.c));
-    y2 = std::max(y2, double(cell.r));
-    nearest = std::min(nearest, z);
-    farthest = std::max(farthest, z);
-  }
-  double score() const { return centrality * fill * (1.0 - leak) * (1.0 - leak); }
-};
 
 /** What was cut out of one box. */
 struct Cut
@@ -239,9 +216,14 @@ class Segmenter
     out.fill = main.fill;
     out.object.leak = main.leak;
     out.object.step = candidates.step;
+    const Eigen::Vector2d down = downInImage(cloud_.camera(), planes_.up, boxOf(index));
+    std::vector<bool> isPart;
+    for (const auto& cluster : clusters)
+      isPart.push_back(
+          isFragment(cluster, main) ||
+          (cluster.count >= options_.minPoints && isFront(cluster, main, task.label, down)));
     for (std::size_t i = 0; i < candidates.points.size(); ++i)
-      if (parts.labels()[i] == best ||
-          isFragment(clusters[static_cast<std::size_t>(parts.labels()[i])], main))
+      if (parts.labels()[i] == best || isPart[static_cast<std::size_t>(parts.labels()[i])])
       {
         out.object.cells.push_back(candidates.cells[i]);
         out.object.points.push_back(candidates.points[i]);
@@ -326,17 +308,6 @@ class Segmenter
         best = static_cast<int>(i);
       }
     return best;
-  }
-
-  /** A part that something thin or unseen joins to the main one: a leg, the leaves above a stem. It
-   * ends within the box and lies at the main part's depth; background does not. */
-  bool isFragment(const Cluster& cluster, const Cluster& main) const
-  {
-    constexpr int kMinCount = 12;         // cells; fewer are noise
-    constexpr double kDepthSlack = 0.05;  // [m]
-    return cluster.count >= kMinCount && cluster.leaking == 0 &&
-           cluster.nearest > main.nearest - kDepthSlack &&
-           cluster.farthest < main.farthest + kDepthSlack;
   }
 
   const DepthCloud& cloud_;
