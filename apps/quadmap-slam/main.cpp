@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "../common/MapFile.h"
 #include "quadmap/review/KeyframeContent.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/slam/PoseNodes.h"
@@ -75,6 +76,16 @@ struct Cli
       false,
       "estimated",
       &associations,
+      line.args()};
+  TCLAP::ValueArg<std::string> map{
+      "",
+      "map",
+      "Start in this map of an earlier run: the place is found from the objects, results are in "
+      "the "
+      "map's frame, and OUTDIR/objects.quadmap is the map brought up to date.",
+      false,
+      "",
+      "objects.quadmap",
       line.args()};
   TCLAP::ValueArg<std::string> objects{
       "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
@@ -166,11 +177,20 @@ void printObjects(const std::vector<ObjectRecord>& objects)
   }
 }
 
+void printChanges(const MapContinuation& changes)
+{
+  for (const auto& move : changes.moved)
+    std::printf("moved: object %u is now %u, %.2f m away\n", move.from, move.to, move.distance);
+  for (const ObjectId id : changes.removed) std::printf("removed: object %u\n", id);
+  for (const ObjectId id : changes.added) std::printf("added: object %u\n", id);
+}
+
 void printSummary(const RawlogRunSummary& summary)
 {
   const auto& bySensor = summary.result.countsBySensor;
   const auto counts = summary.result.counts();
   printObjects(summary.result.map.toRecords());
+  if (summary.result.continuation) printChanges(*summary.result.continuation);
   if (bySensor.size() > 1)
     for (const auto& [sensor, c] : bySensor)
       std::printf(
@@ -191,6 +211,11 @@ int run(Cli& cli)
   request.sensorLabel = cli.sensor.getValue();
   request.keepGoing = cli.keepGoing.getValue();
   request.configuration = configurationOf(cli);
+  if (cli.map.isSet())
+  {
+    request.mapFile = cli.map.getValue();
+    request.map = readMapFile(request.mapFile);
+  }
   request.version = QUADMAP_VERSION;
   const auto verbosity = cli.line.verbosity();
   std::vector<std::string> notes;

@@ -219,6 +219,18 @@ void ObjectSlam::finish()
   backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
 }
 
+void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
+{
+  const auto scope = times_.measure("relocalisation");
+  continueMap(
+      map, [this](std::size_t k) { return spool_.objects(k); }, configuration_.relocalization,
+      result_);
+  const auto& match = result_.continuation->match;
+  MRPT_LOG_INFO_FMT(
+      "localised: %zu of the map's %zu objects found again (ln odds %.1f, next best place %.1f)",
+      match.pairs.size(), result_.continuation->knownObjects, match.logOdds, match.secondLogOdds);
+}
+
 void ObjectSlam::placeFramesWithoutPose()
 {
   const auto& frames = moment_.frames();

@@ -103,9 +103,16 @@ class RawlogRun
     return options;
   }
 
+  /** \exception std::invalid_argument If it cannot carry on the map it was given. */
   static SlamConfiguration configurationOf(
       const RawlogRunRequest& request, const OdometrySurvey& survey)
   {
+    const SlamOptions& slam = request.configuration.slam;
+    if (request.map && slam.method != SlamMethod::Rgbd)
+      throw std::invalid_argument("--map: for method rgbd only");
+    if (request.map && slam.association == AssociationSource::Given)
+      throw std::invalid_argument(
+          "--map: not with association given: the ids of another recording mean other objects");
     SlamConfiguration configuration = request.configuration;
     configuration.slam.odometry = survey.source;
     return configuration;
@@ -179,10 +186,15 @@ class RawlogRun
     try
     {
       slam_.finish();
+      if (request_.map) slam_.continueFrom(*request_.map);
     }
     catch (const BadFrame&)
     {
       throw;
+    }
+    catch (const NotLocalised& e)
+    {
+      throw std::runtime_error(request_.rawlog + ": " + e.what() + " (" + request_.mapFile + ")");
     }
     catch (const std::runtime_error& e)
     {

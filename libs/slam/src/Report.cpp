@@ -137,6 +137,33 @@ Json correctionJson(const std::optional<CorrectionSummary>& correction)
   };
 }
 
+/** Where the run was in the map it started in, and what had changed; null without one. */
+Json mapChangesJson(const std::optional<MapContinuation>& continuation)
+{
+  if (!continuation) return nullptr;
+  const MapContinuation& c = *continuation;
+  const auto& T = c.match.T_map_local;
+  Json moved = Json::array(), pairs = Json::array();
+  for (const auto& move : c.moved)
+    moved.push_back({
+        {      "from",             move.from},
+        { "to",               move.to           },
+        { "distance_m", rounded(move.distance,                               4)}
+    });
+  for (const auto& [local, known] : c.match.pairs) pairs.push_back(known);
+  return {
+      {    "map_objects",                     c.knownObjects                         },
+      {          "found",                                                       pairs},
+      {  "shift_and_yaw",
+       {rounded(T.x(), 6), rounded(T.y(), 6), rounded(T.z(), 6), rounded(T.yaw(), 6)}},
+      {       "log_odds",                                     rounded(c.match.logOdds,3)},
+      {"log_odds_second",                               rounded(c.match.secondLogOdds,                                                           3)},
+      {          "moved",                                                       moved               },
+      {        "removed",                                                   c.removed },
+      {          "added",                                                     c.added               }
+  };
+}
+
 Json problemsJson(const std::vector<InputProblem>& problems)
 {
   Json json = Json::array();
@@ -256,9 +283,10 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
       {          "boxes",                    boxesJson(run.result)                                        },
       {        "objects", run.result.map.confirmedObjects().size()},
       {     "correction",    correctionJson(run.result.correction)                                        },
-      {       "warnings",                      run.result.warnings},
-      {        "dropped",         problemsJson(run.input.problems)                                        },
-      {         "timing",                          timingJson(run)}
+      {    "map_changes",  mapChangesJson(run.result.continuation)},
+      {       "warnings",                      run.result.warnings                                        },
+      {        "dropped",         problemsJson(run.input.problems)},
+      {         "timing",                          timingJson(run)                                        }
   };
   std::string start = text(head, 2);
   start.erase(start.rfind('\n'));  // the closing brace comes after the associations

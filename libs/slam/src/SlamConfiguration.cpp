@@ -13,17 +13,18 @@ namespace quadmap
 std::vector<SlamConfiguration::Section> SlamConfiguration::sections()
 {
   return {
-      {                            "slam",          &slam},
-      {                           "input",         &input},
-      {                       "keyframes",     &keyframes},
-      {                           "poses",         &poses},
-      {                           "joint",         &joint},
-      {                           "point",         &point},
-      {                          "visual",        &visual},
-      {                      "perception",    &perception},
-      {    "CQuadricObjectMap_insertOpts",  &mapInsertion},
-      {"CQuadricObjectMap_likelihoodOpts", &mapLikelihood},
-      {    "CQuadricObjectMap_renderOpts",     &mapRender},
+      {                            "slam",           &slam},
+      {                           "input",          &input},
+      {                       "keyframes",      &keyframes},
+      {                           "poses",          &poses},
+      {                           "joint",          &joint},
+      {                           "point",          &point},
+      {                  "relocalization", &relocalization},
+      {                          "visual",         &visual},
+      {                      "perception",     &perception},
+      {    "CQuadricObjectMap_insertOpts",   &mapInsertion},
+      {"CQuadricObjectMap_likelihoodOpts",  &mapLikelihood},
+      {    "CQuadricObjectMap_renderOpts",      &mapRender},
   };
 }
 

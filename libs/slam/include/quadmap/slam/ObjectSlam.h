@@ -70,6 +70,10 @@ class ObjectSlam : public mrpt::system::COutputLogger
    *  \exception std::runtime_error If there were frames, but none had a pose. */
   void finish();
 
+  /** After finish(): goes on with the map of an earlier run.
+   * \exception NotLocalised If the run cannot be found in it. */
+  void continueFrom(const CQuadricObjectMap& map);
+
   /** Complete after finish(). Until then only what concerns frames and warnings may be read. */
   const SlamResult& result() const { return result_; }
   const std::vector<BadFrame>& badFrames() const { return badFrames_; }

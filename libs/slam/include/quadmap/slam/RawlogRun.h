@@ -15,10 +15,12 @@ namespace quadmap
 struct RawlogRunRequest
 {
   std::string rawlog;
-  std::string outputDirectory;  //!< Made when missing
-  std::string objectsFile;      //!< Boxes; empty: NAME.objects.rawlog or the rawlog itself
-  std::string sensorLabel;      //!< Empty: all RGB-D sensors
-  bool keepGoing = false;       //!< Leave out what is broken instead of failing
+  std::string outputDirectory;      //!< Made when missing
+  std::string objectsFile;          //!< Boxes; empty: NAME.objects.rawlog or the rawlog itself
+  std::string sensorLabel;          //!< Empty: all RGB-D sensors
+  bool keepGoing = false;           //!< Leave out what is broken instead of failing
+  CQuadricObjectMap::ConstPtr map;  //!< To start in and to carry on; null: a new one
+  std::string mapFile;              //!< Its name, for messages
   SlamConfiguration configuration;
   std::string version;  //!< Of the program, for the report
 
@@ -38,6 +40,7 @@ struct RawlogRunSummary
 };
 
 /** Streams a rawlog through ObjectSlam and writes all files of the output directory.
+ * \exception std::invalid_argument If a map is to be carried on by a method that cannot.
  * \exception std::runtime_error With one line that names file, record and sensor where known. No
  * file is then left behind. */
 RawlogRunSummary runOnRawlog(const RawlogRunRequest& request);

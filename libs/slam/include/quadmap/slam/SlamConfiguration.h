@@ -13,6 +13,7 @@
 #include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamOptions.h"
 #include "quadmap/slam/points/PointOptions.h"
+#include "quadmap/slam/relocalization/RelocalizationOptions.h"
 #include "quadmap/slam/visual/VisualOdometryOptions.h"
 
 namespace quadmap
@@ -26,6 +27,7 @@ struct SlamConfiguration
   PoseUncertaintyOptions poses;                         //!< [poses]
   JointOptions joint;                                   //!< [joint]
   PointOptions point;                                   //!< [point]
+  RelocalizationOptions relocalization;                 //!< [relocalization]
   VisualOdometryOptions visual;                         //!< [visual]
   PerceptionOptions perception;                         //!< [perception]
   CQuadricObjectMap::TInsertionOptions mapInsertion;    //!< [CQuadricObjectMap_insertOpts]

@@ -13,6 +13,7 @@
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/slam/SlamOptions.h"
 #include "quadmap/slam/graph/FactorGraph.h"
+#include "quadmap/slam/relocalization/MapContinuation.h"
 #include "quadmap/slam/visual/VisualOdometry.h"
 
 namespace quadmap
@@ -91,6 +92,7 @@ struct SlamResult
    * were taken as given. */
   std::vector<FactorGraph::PoseEdge> edges;
   std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
+  std::optional<MapContinuation> continuation;  //!< When it started in an existing map
   std::vector<std::string> warnings;
 
   SlamCounts counts() const;  //!< Of all sensors

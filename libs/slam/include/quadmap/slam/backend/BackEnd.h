@@ -42,7 +42,6 @@ class BackEnd
   /** After the last keyframe: `result`'s poses, map and decisions become the final ones. */
   virtual void finish(const BoxesOf& boxesOf, SlamResult& result) = 0;
 
- protected:
   /** Inserts the boxes of a keyframe into the map of `result` and notes the decisions. */
   static void insertIntoMap(
       const CObservationObjects& boxes,

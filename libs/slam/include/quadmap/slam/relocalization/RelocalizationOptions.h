@@ -1,0 +1,32 @@
+#pragma once
+
+#include <mrpt/config/CLoadableOptions.h>
+#include <mrpt/core/bits_math.h>
+
+namespace quadmap
+{
+/** How a run finds itself in an existing object map. Section [relocalization]. */
+struct RelocalizationOptions : public mrpt::config::CLoadableOptions
+{
+  /** How far an object of the run is from its place in the map, beyond the uncertainty of both: the
+   * run's drift, sides of it that only one of them saw [m], > 0 */
+  double positionSigma = 0.08;
+  double yawSigma = mrpt::DEG2RAD(5.0);  //!< The same of its heading [rad], > 0; INI in degrees
+  double maxSizeLogRatio = 0.5;    //!< |ln| of how much their sizes differ at most, per axis, > 0
+  double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
+  /** Of the run's objects in the area of the map, the share it has; the others were moved or
+   * brought, in (0, 1) */
+  double knownShare = 0.5;
+  /** Objects found again, at least; one fewer will do when one has a heading, >= 2 */
+  int minPairs = 3;
+  /** How much more likely the place must be than any other and than chance [ln], > 0; 4.6: 100
+   * times. So sure must it be, too, that an object is gone */
+  double minLogOdds = 4.6;
+
+  void loadFromConfigFile(
+      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
+  void saveToConfigFile(
+      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,143 @@
+#include "GoneObjects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "quadmap/maps/ObjectRules.h"
+#include "quadmap/maps/Visibility.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kSameBox = 0.2;  // IoU with the outline of a box that may show the object
+
+class GoneObjects
+{
+ public:
+  GoneObjects(
+      const CQuadricObjectMap& given,
+      const SlamResult& run,
+      const ConstellationMatch& match,
+      const RelocalizationOptions& options) :
+      given_(given), run_(run), options_(options), existence_(run.map.insertionOptions.existence)
+  {
+    for (const auto& [here, there] : match.pairs)
+    {
+      partnerOf_[here] = there;
+      found_.insert(there);
+    }
+    for (const MapObject* object : run.map.confirmedObjects())
+    {
+      MapObject& moved = local_.emplace(object->id, *object).first->second;
+      moved.object = object->object.transformed(match.T_map_local);
+    }
+  }
+
+  std::set<ObjectId> find(const BackEnd::BoxesOf& boxesOf) const
+  {
+    std::map<ObjectId, double> logOdds;  // that it is still there
+    std::size_t next = 0;                // decision
+    for (std::size_t k = 0; k < run_.keyframes.size(); ++k)
+    {
+      std::map<std::size_t, ObjectId> objectOfBox;
+      for (; next < run_.decisions.size() && run_.decisions[next].keyframe == k; ++next)
+        if (const auto& d = run_.decisions[next].decision; d.object) objectOfBox[d.box] = *d.object;
+      const auto boxes = boxesOf(k);
+      if (!boxes) continue;
+      const FrameGeometry frame{
+          pinholeFrom(boxes->cameraParams), run_.keyframes[k].T_map_robot + boxes->sensorPose,
+          &boxes->coarseDepth};
+      for (const MapObject* object : given_.confirmedObjects())
+        if (found_.count(object->id) == 0 && shouldBeVisible(object->object, frame, existence_))
+          logOdds[object->id] += evidence(isShown(*object, *boxes, frame, objectOfBox));
+    }
+    std::set<ObjectId> gone;
+    for (const MapObject* object : given_.confirmedObjects())
+    {
+      if (found_.count(object->id) != 0) continue;
+      const auto seen = logOdds.find(object->id);
+      if (hasShifted(*object) || (seen != logOdds.end() && seen->second < -options_.minLogOdds))
+        gone.insert(object->id);
+    }
+    return gone;
+  }
+
+ private:
+  double evidence(bool isShown) const
+  {
+    const double pD = existence_.detectionProbability, pF = existence_.falseAlarmProbability;
+    return isShown ? std::log(pD / pF) : std::log((1 - pD) / (1 - pF));
+  }
+
+  /** Is something like it so near that both cannot stand there, and yet not at its place? */
+  bool hasShifted(const MapObject& object) const
+  {
+    const auto& merging = run_.map.insertionOptions.merging;
+    return std::any_of(
+        local_.begin(), local_.end(),
+        [&](const auto& other)
+        {
+          return partnerOf_.count(other.first) == 0 &&
+                 areAlike(other.second, object, run_.map.labels(), options_) &&
+                 areOneObject(other.second, object, run_.map.labels(), merging);
+        });
+  }
+
+  /** Is there a box where it should be that may show it and nothing else that is known? */
+  bool isShown(
+      const MapObject& object,
+      const CObservationObjects& boxes,
+      const FrameGeometry& frame,
+      const std::map<std::size_t, ObjectId>& objectOfBox) const
+  {
+    const LabelTable& labels = run_.map.labels();
+    auto outline =
+        projectedBox(object.object, frame, labels.properties(object.label()).shapeExponent);
+    if (!outline) return false;
+    *outline = outline->clipped(frame.camera.width, frame.camera.height);
+    for (std::size_t b = 0; b < boxes.objects.size(); ++b)
+    {
+      const auto& box = boxes.objects[b];
+      if (imageBoxIoU(box.box, *outline) < kSameBox) continue;
+      if (labelAgreement(object, labels.canonical(box.label), labels) < options_.minLabelAgreement)
+        continue;
+      const auto owner = objectOfBox.find(b);
+      if (owner == objectOfBox.end() || mayBe(owner->second, object)) return true;
+    }
+    return false;
+  }
+
+  /** Is one of the run's objects at the place of this one, or not sure enough to be elsewhere? */
+  bool mayBe(ObjectId localId, const MapObject& object) const
+  {
+    const auto local = local_.find(localId);
+    if (local == local_.end()) return true;
+    return partnerOf_.count(localId) == 0 &&
+           areOneObject(
+               local->second, object, run_.map.labels(), run_.map.insertionOptions.merging);
+  }
+
+  const CQuadricObjectMap& given_;
+  const SlamResult& run_;
+  const RelocalizationOptions& options_;
+  const ExistenceOptions& existence_;
+  std::map<ObjectId, ObjectId> partnerOf_;  //!< Of the run's objects
+  std::set<ObjectId> found_;                //!< Of the map's
+  std::map<ObjectId, MapObject> local_;     //!< The run's confirmed objects, in the map's frame
+};
+
+}  // namespace
+
+std::set<ObjectId> goneObjects(
+    const CQuadricObjectMap& given,
+    const SlamResult& run,
+    const ConstellationMatch& match,
+    const BackEnd::BoxesOf& boxesOf,
+    const RelocalizationOptions& options)
+{
+  return GoneObjects(given, run, match, options).find(boxesOf);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,153 @@
+#include "quadmap/slam/relocalization/MapContinuation.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "GoneObjects.h"
+#include "quadmap/maps/Assignment.h"
+#include "quadmap/slam/SlamResult.h"
+
+namespace quadmap
+{
+namespace
+{
+/** The given map, to be carried on as the run was configured. */
+CQuadricObjectMap preparedMap(const CQuadricObjectMap& given, const CQuadricObjectMap& run)
+{
+  CQuadricObjectMap map = given;
+  map.setLabels(run.labels());
+  map.insertionOptions = run.insertionOptions;
+  map.likelihoodOptions = run.likelihoodOptions;
+  map.renderOptions = run.renderOptions;
+  map.perceptionOptions = run.perceptionOptions;
+  return map;
+}
+
+/** Edges name the objects of the run's own map: they get the ids of those that took over most of
+ * their boxes. */
+void renameObjectsOfEdges(const std::vector<BoxDecision>& before, SlamResult& result)
+{
+  using Box = std::pair<std::size_t, std::size_t>;  // keyframe, box
+  std::map<Box, ObjectId> now;
+  for (const auto& d : result.decisions)
+    if (d.decision.object) now[{d.keyframe, d.decision.box}] = *d.decision.object;
+  std::map<ObjectId, std::map<ObjectId, std::size_t>> votes;
+  for (const auto& d : before)
+  {
+    const auto heir = now.find({d.keyframe, d.decision.box});
+    if (d.decision.object && heir != now.end()) ++votes[*d.decision.object][heir->second];
+  }
+  std::vector<FactorGraph::PoseEdge> edges;
+  for (auto edge : result.edges)
+  {
+    const auto found = votes.find(edge.object);
+    if (found == votes.end()) continue;
+    edge.object = std::max_element(
+                      found->second.begin(), found->second.end(),
+                      [](const auto& a, const auto& b) { return a.second < b.second; })
+                      ->first;
+    edges.push_back(edge);
+  }
+  result.edges = std::move(edges);
+}
+
+std::set<ObjectId> idsOf(const std::vector<const MapObject*>& objects)
+{
+  std::set<ObjectId> ids;
+  for (const MapObject* object : objects) ids.insert(object->id);
+  return ids;
+}
+
+std::vector<ObjectId> without(const std::set<ObjectId>& ids, const std::set<ObjectId>& others)
+{
+  std::vector<ObjectId> rest;
+  std::set_difference(
+      ids.begin(), ids.end(), others.begin(), others.end(), std::back_inserter(rest));
+  return rest;
+}
+
+/** Takes out of `added` and `removed` what went from one place to the other: alike, and all in all
+ * over the shortest way. */
+void pairMoves(
+    const CQuadricObjectMap& given,
+    const CQuadricObjectMap& now,
+    const RelocalizationOptions& options,
+    MapContinuation& changes)
+{
+  const auto rows = static_cast<Eigen::Index>(changes.removed.size());
+  const auto columns = static_cast<Eigen::Index>(changes.added.size());
+  constexpr double kNoMove = 1e6;  // more than any way [m]
+  Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(rows, columns + rows, kNoMove);
+  for (Eigen::Index r = 0; r < rows; ++r)
+    for (Eigen::Index c = 0; c < columns; ++c)
+    {
+      const MapObject& from = *given.find(changes.removed[static_cast<std::size_t>(r)]);
+      const MapObject& to = *now.find(changes.added[static_cast<std::size_t>(c)]);
+      if (areAlike(from, to, now.labels(), options))
+        cost(r, c) = (from.object.center() - to.object.center()).norm();
+    }
+  const auto columnOf = optimalAssignment(cost);
+  std::set<ObjectId> gone, came;
+  for (std::size_t r = 0; r < columnOf.size(); ++r)
+  {
+    const double way = cost(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(columnOf[r]));
+    if (way >= kNoMove) continue;
+    changes.moved.push_back({changes.removed[r], changes.added[columnOf[r]], way});
+    gone.insert(changes.removed[r]);
+    came.insert(changes.added[columnOf[r]]);
+  }
+  changes.removed = without({changes.removed.begin(), changes.removed.end()}, gone);
+  changes.added = without({changes.added.begin(), changes.added.end()}, came);
+}
+
+MapContinuation changesBetween(
+    const CQuadricObjectMap& given,
+    const CQuadricObjectMap& now,
+    const RelocalizationOptions& options)
+{
+  MapContinuation changes;
+  const auto before = idsOf(given.confirmedObjects()), after = idsOf(now.confirmedObjects());
+  changes.knownObjects = before.size();
+  changes.added = without(after, before);
+  changes.removed = without(before, after);
+  pairMoves(given, now, options, changes);
+  return changes;
+}
+
+}  // namespace
+
+void continueMap(
+    const CQuadricObjectMap& given,
+    const std::function<CObservationObjects::Ptr(std::size_t)>& boxesOf,
+    const RelocalizationOptions& options,
+    SlamResult& result)
+{
+  const auto local = result.map.confirmedObjects(), known = given.confirmedObjects();
+  const auto match = matchConstellation(local, known, result.map.labels(), options);
+  if (!match)
+    throw NotLocalised(mrpt::format(
+        "it cannot be told where this is in the map: the %zu objects of the recording were "
+        "compared with the %zu of the map",
+        local.size(), known.size()));
+
+  for (auto& keyframe : result.keyframes)
+    keyframe.T_map_robot = match->T_map_local + keyframe.T_map_robot;
+  CQuadricObjectMap map = preparedMap(given, result.map);
+  for (const ObjectId id : goneObjects(given, result, *match, boxesOf, options)) map.remove(id);
+
+  const std::vector<BoxDecision> before = std::move(result.decisions);
+  result.map = std::move(map);
+  result.decisions.clear();
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    if (const auto boxes = boxesOf(k))
+      BackEnd::insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
+  result.map.consolidate();
+  renameObjectsOfEdges(before, result);
+  result.continuation = changesBetween(given, result.map, options);
+  result.continuation->match = *match;
+}
+
+}  // namespace quadmap

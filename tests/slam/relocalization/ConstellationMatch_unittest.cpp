@@ -1,0 +1,203 @@
+#include "quadmap/slam/relocalization/ConstellationMatch.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace quadmap;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+using Room = std::vector<MapObject>;
+
+const LabelTable& labels()
+{
+  static const LabelTable table = LabelTable::installed();
+  return table;
+}
+
+MapObject objectAt(ObjectId id, const std::string& label, const CPose3D& pose, bool oriented = true)
+{
+  const Eigen::Vector3d size = labels().properties(label).typicalSize;
+  MapObject object{id, Ellipsoid(pose, size / 2), {}, {}, 0, 0, 0, true, 0, false, {}, {}};
+  object.covariance = UprightCovariance::Identity() * 0.02 * 0.02;
+  object.labelCounts[label] = 10;
+  object.completeCount = 10;
+  object.orientationDefined = oriented;
+  return object;
+}
+
+/** A furnished room of 8 x 6 m with things of several labels, some more than once. */
+Room randomRoom(std::mt19937& rng)
+{
+  const std::vector<std::string> names = {"chair", "chair",        "chair", "dining table",
+                                          "couch", "potted plant", "tv",    "bed",
+                                          "cup",   "cup",          "vase",  "refrigerator"};
+  std::uniform_real_distribution<double> x(-4, 4), y(-3, 3), yaw(-M_PI, M_PI);
+  Room room;
+  ObjectId id = 1;
+  for (const auto& name : names)
+  {
+    const double px = x(rng), py = y(rng), angle = yaw(rng);
+    const double z = labels().properties(name).typicalSize.z() / 2;
+    room.push_back(objectAt(
+        id++, name, CPose3D(px, py, z, angle, 0, 0), labels().properties(name).dominantDirection));
+  }
+  return room;
+}
+
+/** The room as another run has it: in its own frame, with errors, and ids from 100 on. */
+Room seenFrom(const CPose3D& T_map_local, const Room& room, double sigma, std::mt19937& rng)
+{
+  std::normal_distribution<double> error(0, 1);
+  Room local;
+  for (const MapObject& object : room)
+  {
+    MapObject seen = object;
+    seen.id = 100 + object.id;
+    UprightState state = uprightStateOf(object.object.transformed(-T_map_local));
+    for (int i = 0; i < 3; ++i) state[i] += sigma * error(rng);
+    state[3] += 0.5 * sigma * error(rng);
+    for (int i = 4; i < 7; ++i) state[i] += sigma * error(rng);
+    seen.object = ellipsoidOf(state);
+    local.push_back(seen);
+  }
+  return local;
+}
+
+std::optional<ConstellationMatch> match(const Room& local, const Room& map)
+{
+  std::vector<const MapObject*> a, b;
+  for (const auto& object : local) a.push_back(&object);
+  for (const auto& object : map) b.push_back(&object);
+  return matchConstellation(a, b, labels(), {});
+}
+
+CPose3D randomPlace(std::mt19937& rng)
+{
+  std::uniform_real_distribution<double> shift(-5, 5), yaw(-M_PI, M_PI);
+  const double x = shift(rng), y = shift(rng), z = 0.1 * shift(rng), angle = yaw(rng);
+  return {x, y, z, angle, 0, 0};
+}
+
+double angleBetween(const CPose3D& a, const CPose3D& b)
+{
+  return std::abs(std::remainder(a.yaw() - b.yaw(), 2 * M_PI));
+}
+}  // namespace
+
+TEST(ConstellationMatch, FindsRandomRoomsFromNoisyObjects)
+{
+  constexpr double kSigma = 0.04;
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    std::mt19937 rng(seed);
+    const Room room = randomRoom(rng);
+    const CPose3D truth = randomPlace(rng);
+    const auto found = match(seenFrom(truth, room, kSigma, rng), room);
+    ASSERT_TRUE(found) << seed;
+    // 12 objects spread over metres: the mean errs by sigma / sqrt(12), 4 sigma of that at the
+    // room.
+    const CPose3D error = -truth + found->T_map_local;
+    EXPECT_LT(angleBetween(truth, found->T_map_local), mrpt::DEG2RAD(2.0)) << seed;
+    EXPECT_LT((-found->T_map_local + truth).norm(), 0.2) << seed << error.asString();
+    EXPECT_GE(found->pairs.size(), 10u) << seed;
+    for (const auto& [local, known] : found->pairs)
+    {
+      const bool twins = room[local - 101].label() == room[known - 1].label();
+      EXPECT_TRUE(local == 100 + known || twins) << seed << ": " << local << " is not " << known;
+    }
+  }
+}
+
+TEST(ConstellationMatch, NeedsOnlySomeOfTheObjectsAndNoneOfTheNewOnes)
+{
+  int found = 0;
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    std::mt19937 rng(1000 + seed);
+    const Room room = randomRoom(rng);
+    const CPose3D truth = randomPlace(rng);
+    Room local = seenFrom(truth, room, 0.03, rng);
+    std::shuffle(local.begin(), local.end(), rng);
+    local.resize(6);
+    Room others = seenFrom(randomPlace(rng), randomRoom(rng), 0.03, rng);  // moved or brought
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      others[i].id += 100;
+      local.push_back(others[i]);
+    }
+    const auto result = match(local, room);
+    if (!result) continue;  // too common things to be sure
+    ++found;
+    EXPECT_LT(angleBetween(truth, result->T_map_local), mrpt::DEG2RAD(6.0)) << seed;
+    EXPECT_LT((-result->T_map_local + truth).norm(), 0.6) << seed;
+  }
+  EXPECT_GE(found, 34);
+}
+
+TEST(ConstellationMatch, WrongLabelsOfSomeDoNotMatter)
+{
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    std::mt19937 rng(2000 + seed);
+    const Room room = randomRoom(rng);
+    const CPose3D truth = randomPlace(rng);
+    Room local = seenFrom(truth, room, 0.03, rng);
+    local[0].labelCounts = {
+        {"tv", 10}
+    };
+    local[5].labelCounts = {
+        {"oven", 10}
+    };
+    const auto found = match(local, room);
+    ASSERT_TRUE(found) << seed;
+    EXPECT_LT(angleBetween(truth, found->T_map_local), mrpt::DEG2RAD(3.0)) << seed;
+    for (const auto& pair : found->pairs) EXPECT_NE(pair.first, 106u) << "an oven is no plant";
+  }
+}
+
+TEST(ConstellationMatch, RefusesOtherRooms)
+{
+  for (unsigned seed = 0; seed < 150; ++seed)
+  {
+    std::mt19937 rng(3000 + seed);
+    const Room map = randomRoom(rng), other = randomRoom(rng);
+    EXPECT_FALSE(match(other, map)) << seed;
+  }
+}
+
+TEST(ConstellationMatch, RefusesSymmetricRooms)
+{
+  // Two rows of four chairs: the same after half a turn.
+  Room room;
+  for (int i = 0; i < 4; ++i)
+    for (int side : {-1, 1})
+      room.push_back(objectAt(
+          static_cast<ObjectId>(room.size() + 1), "chair",
+          CPose3D(i - 1.5, side * 1.2, 0.45, side * M_PI / 2, 0, 0)));
+  std::mt19937 rng(1);
+  const CPose3D truth = randomPlace(rng);
+  EXPECT_FALSE(match(seenFrom(truth, room, 0.02, rng), room));
+
+  // One thing that is not symmetric tells.
+  room.push_back(objectAt(20, "refrigerator", CPose3D(2.8, 0.4, 0.9, 0.2, 0, 0)));
+  const auto found = match(seenFrom(truth, room, 0.02, rng), room);
+  ASSERT_TRUE(found);
+  EXPECT_LT((-found->T_map_local + truth).norm(), 0.15);
+  EXPECT_EQ(found->pairs.size(), 9u);
+}
+
+TEST(ConstellationMatch, OneObjectIsNotEnough)
+{
+  const Room room = {
+      objectAt(1, "bed", CPose3D(1, 2, 0.3, 0.3, 0, 0)),
+      objectAt(2, "couch", CPose3D(-2, 1, 0.4, 0, 0, 0))};
+  EXPECT_FALSE(match({room[0]}, room));
+  EXPECT_FALSE(match({}, room));
+  EXPECT_FALSE(match(room, {}));
+}
