@@ -7,7 +7,8 @@
 namespace quadmap
 {
 /** A diagram as an SVG file: axes with ticks and units, lines, areas, bars, a legend. The ranges of
- * the axes come from what is drawn; that of y begins at zero, but not in maps. The same calls give the same bytes. */
+ * the axes come from what is drawn; that of y begins at zero, but not in maps. The same calls give
+ * the same bytes. */
 class SvgPlot
 {
  public:
