@@ -5,6 +5,7 @@
 
 #include "../PoseAngles.h"
 #include "OdometryChain.h"
+#include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
 {
@@ -44,13 +45,6 @@ PointOdometry<3> odometryOf(const CPose3DPDFGaussian& step)
   PoseStepMatrix<3> J = PoseStepMatrix<3>::Identity();
   J.bottomRightCorner<3, 3>() = localTurnsPerAngle(step.mean);
   return {pointPose(step.mean), J * step.cov.asEigen() * J.transpose()};
-}
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -168,7 +162,10 @@ void PointBackEnd::fillMap(
     if (found.objects[i].confirmed)
       idInMap[i] = result.map.addObject(mapObjectOf(found.objects[i], seen[i], T_map_graph));
   for (auto& [keyframe, decision] : result.decisions)
+  {
     if (decision.object) decision.object = idInMap[*decision.object];
+    decision.startedObject &= decision.object.has_value();
+  }
 }
 
 MapObject PointBackEnd::mapObjectOf(
