@@ -223,6 +223,7 @@ void QuadricBackEnd::fillMap(SlamResult& result) const
   {
     const auto known = decision.object ? idInMap.find(*decision.object) : idInMap.end();
     decision.object = known == idInMap.end() ? std::nullopt : std::optional(known->second);
+    decision.startedObject &= decision.object.has_value();
   }
   if (!correctPoses_) return;
   FactorGraph graph = globalGraph(result);
