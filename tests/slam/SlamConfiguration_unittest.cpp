@@ -109,11 +109,15 @@ TEST(SlamConfiguration, EverySectionIsRead)
 
 TEST(SlamConfiguration, EveryMethodAndPoseSourceHasAName)
 {
-  for (const auto method : {SlamMethod::Rgbd, SlamMethod::Quadric, SlamMethod::Odometry})
+  for (const auto method :
+       {SlamMethod::Rgbd, SlamMethod::Quadric, SlamMethod::Point, SlamMethod::Odometry})
     EXPECT_EQ(slamMethodFrom(nameOf(method)), method);
   for (const auto source :
-       {PoseSource::Auto, PoseSource::Rawlog, PoseSource::Visual, PoseSource::GroundTruth})
+       {PoseSource::Auto, PoseSource::Rawlog, PoseSource::Visual, PoseSource::GroundTruth,
+        PoseSource::Graph})
     EXPECT_EQ(poseSourceFrom(nameOf(source)), source);
+  for (const auto source : {AssociationSource::Estimated, AssociationSource::Given})
+    EXPECT_EQ(associationSourceFrom(nameOf(source)), source);
 }
 
 TEST(SlamConfiguration, RejectsWhatItDoesNotKnow)

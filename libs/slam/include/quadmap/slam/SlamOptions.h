@@ -33,7 +33,7 @@ enum class PoseSource
   Graph         //!< A pose graph of another run or program
 };
 
-/** The names of the command line and the INI file: rgbd, quadric, odometry.
+/** The names of the command line and the INI file: rgbd, quadric, point, odometry.
  * \exception std::invalid_argument For another name; lists the known ones. */
 SlamMethod slamMethodFrom(const std::string& name);
 std::string nameOf(SlamMethod method);
