@@ -20,8 +20,15 @@ constexpr double kGate = D == 2 ? 13.82 : 16.27;
 }  // namespace
 
 template <int D>
-PointSlam<D>::PointSlam(const PointOptions& options, bool posesGiven, PointVisibility<D> visible) :
-    options_(options), posesGiven_(posesGiven), visible_(std::move(visible))
+PointSlam<D>::PointSlam(
+    const PointOptions& options,
+    bool posesGiven,
+    PointVisibility<D> visible,
+    double detectionProbability) :
+    options_(options),
+    posesGiven_(posesGiven),
+    visible_(std::move(visible)),
+    detectionProbability_(detectionProbability)
 {
 }
 

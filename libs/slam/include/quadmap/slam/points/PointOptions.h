@@ -31,10 +31,7 @@ struct PointOptions : public mrpt::config::CLoadableOptions
   int matureObservations = 3;      //!< An object takes part in that from so many on, >= 1
   int forgetAfter = 40;            //!< Frames after which an object seen once is given up, >= 1
 
-  int minObservations = 3;  //!< Of a reported object, >= 1
-  /** Of a visible object, per frame, when the caller says what is visible, in (0, 1). Else the
-   *  measurements show where the sensor looks, and how often it sees what is there. */
-  double detectionProbability = 0.7;
+  int minObservations = 3;              //!< Of a reported object, >= 1
   double falseAlarmProbability = 0.05;  //!< Of a measurement where nothing is, in (0, 0.5)
   double confirmLogOdds = 3.0;          //!< Reported above this
 

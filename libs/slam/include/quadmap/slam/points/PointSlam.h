@@ -10,6 +10,7 @@
 #include "quadmap/slam/points/PointGraph.h"
 #include "quadmap/slam/points/PointOptions.h"
 #include "quadmap/slam/points/PointTypes.h"
+#include "quadmap/slam/points/PointView.h"
 
 namespace quadmap
 {
@@ -38,9 +39,14 @@ class PointSlam
 {
  public:
   /** \param posesGiven Poses are exactly where the odometry says.
-   *  \param visible When not given, only measurements tell whether an object exists. */
+   *  \param visible When not given, the measurements show where the sensor looks, and how often it
+   *  sees what is there.
+   *  \param detectionProbability Of a `visible` object, per frame, in (0, 1). */
   explicit PointSlam(
-      const PointOptions& options, bool posesGiven = false, PointVisibility<D> visible = {});
+      const PointOptions& options,
+      bool posesGiven = false,
+      PointVisibility<D> visible = {},
+      double detectionProbability = 0.7);
 
   /** \param step Motion since the frame before; of the first frame it is not looked at: its pose is
    *  `origin`. */
@@ -101,21 +107,14 @@ class PointSlam
     std::size_t seen = 0, missed = 0;  //!< Frames
   };
   Appearance appearanceOf(std::size_t id) const;
-  void surveyView();
   bool shouldBeSeen(const PointVector<D>& position, std::size_t pose) const;
   void judge();
   void estimateConfirmed();
 
-  /** Where the sensor looks, as all measurements show it. */
-  struct View
-  {
-    std::vector<PointVector<D>> measured;  //!< In the robot's frame [m]
-    std::size_t usual = 0;                 //!< Measurements near one: the median
-  };
-
   PointOptions options_;
   bool posesGiven_ = false;
   PointVisibility<D> visible_;
+  double detectionProbability_ = 0;
   std::vector<PointPose<D>> poses_;
   std::vector<PointOdometry<D>> steps_;
   std::vector<Frame> frames_;
@@ -124,7 +123,7 @@ class PointSlam
   Ids inFilter_;                                  //!< Tracks of the filter's objects
   std::map<std::uint32_t, std::size_t> trackOf_;  //!< By instance, when associations are given
   std::size_t lastMergeTest_ = 0;
-  View view_;
+  PointView<D> view_;
   PointResult<D> outcome_;
 };
 
