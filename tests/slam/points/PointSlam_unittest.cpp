@@ -26,17 +26,19 @@ double drift(const PointWorld<D>& world)
 }
 
 /** Fifteen objects of five labels, odometry that drifts by more than a metre, 5 % of the labels
- * flipped, 10 % missed, 25 % clutter. */
+ * flipped, 10 % missed, 25 % clutter: seeds 1, 2, ..., all that drift so far. */
 template <int D>
-void expectHardCaseIsSolved(const std::vector<unsigned>& seeds, bool viewKnown)
+void expectHardCaseIsSolved(unsigned seeds, bool viewKnown)
 {
+  constexpr double kMinDrift = 1.0;  // [m]
   PointScore score;
   double error = 0, errorKnown = 0;
-  for (const unsigned seed : seeds)
+  unsigned hard = 0;
+  for (unsigned seed = 1; seed <= seeds; ++seed)
   {
     const PointWorld<D> world(seed);
-    ASSERT_GT(world.detectionCount(), 700u);
-    ASSERT_GT(drift<D>(world), 1.0) << "seed " << seed;
+    if (drift<D>(world) < kMinDrift) continue;
+    ++hard;
     PointVisibility<D> visible;
     if (viewKnown)
       visible = [&](const PointVector<D>& p, std::size_t) { return world.isInView(p); };
@@ -45,6 +47,7 @@ void expectHardCaseIsSolved(const std::vector<unsigned>& seeds, bool viewKnown)
     error += trajectoryError<D>(found.poses, world.truth);
     errorKnown += trajectoryError<D>(world.solve(given()).poses, world.truth);
   }
+  EXPECT_GE(2 * hard, seeds) << "too few worlds are hard";
   EXPECT_GE(score.precision(), 0.97);
   EXPECT_GE(score.recall(), 0.97);
   EXPECT_LE(error, 1.05 * errorKnown);
@@ -52,17 +55,59 @@ void expectHardCaseIsSolved(const std::vector<unsigned>& seeds, bool viewKnown)
 
 }  // namespace
 
-TEST(PointSlam, SolvesTheHardCaseInThePlane)
+TEST(PointSlam, SolvesTheHardCaseInThePlane) { expectHardCaseIsSolved<2>(8, false); }
+
+TEST(PointSlam, SolvesTheHardCaseInThePlaneWithAKnownView) { expectHardCaseIsSolved<2>(8, true); }
+
+TEST(PointSlam, SolvesTheHardCaseInSpace) { expectHardCaseIsSolved<3>(6, false); }
+
+TEST(PointSlam, WhatWasSeenOnceMovesWithACorrection)
 {
-  expectHardCaseIsSolved<2>({2, 3, 4, 5, 6, 8}, false);
+  const PointWorld<2> world(2);
+  PointSlam<2> slam({});
+  std::vector<PointPose<2>> before;
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < world.truth.size(); ++k)
+  {
+    slam.addFrame(world.odometry[k], world.detections[k], world.truth.front());
+    const auto now = slam.result();
+    bool isCorrected = false;  // all poses are estimated anew when a loop is closed, and only then
+    for (std::size_t i = 0; i < before.size(); ++i)
+      isCorrected |= (now.poses[i].t - before[i].t).norm() > 0.01;
+    before = now.poses;
+    for (std::size_t i = 0; isCorrected && i <= k; ++i)
+      for (std::size_t m = 0; m < now.decisions[i].size(); ++m)
+      {
+        const auto& object = now.decisions[i][m].object;
+        if (!object || now.objects[*object].observations != 1) continue;
+        const Eigen::Vector2d shown = now.poses[i] * world.detections[i][m].position;
+        EXPECT_LT((shown - now.objects[*object].position).norm(), 1e-3) << "frame " << k;
+        ++compared;
+      }
+  }
+  EXPECT_GT(compared, 10u);
 }
 
-TEST(PointSlam, SolvesTheHardCaseInThePlaneWithAKnownView)
+TEST(PointSlam, AMeasurementIsNoEvidenceForItself)
 {
-  expectHardCaseIsSolved<2>({9, 10, 11, 13}, true);
+  PointMeasurement<2> z;
+  z.position = {2, 0};
+  z.covariance = 0.01 * Eigen::Matrix2d::Identity();
+  PointSlam<2> slam({}, true);
+  for (const auto* label : {"chair", "chair", "chair", "table"})
+  {
+    z.label = label;
+    slam.addFrame({}, {z});
+  }
+  slam.finish();
+  const auto found = slam.result();
+  ASSERT_EQ(found.objects.size(), 1u);
+  const auto odds = [&](std::size_t k)
+  { return found.decisions[k][0].logPosterior - found.decisions[k][0].logPosteriorSecond; };
+  // All else is alike: of three others two or none had the label, each with beta more.
+  const double beta = PointOptions().beta;
+  EXPECT_NEAR(odds(1) - odds(3), std::log((2 + beta) / (0 + beta)), 1e-9);
 }
-
-TEST(PointSlam, SolvesTheHardCaseInSpace) { expectHardCaseIsSolved<3>({1, 2, 3, 4, 5}, false); }
 
 TEST(PointSlam, ObjectsAndPosesKnowHowWrongTheyAre)
 {

@@ -66,6 +66,52 @@ unsigned PointSlam<D>::labelsSeen() const
 }
 
 template <int D>
+std::vector<AssociationTarget> PointSlam<D>::targetsFor(const Frame& frame, const Ids& ids) const
+{
+  std::vector<AssociationTarget> targets;
+  for (const std::size_t id : ids)
+  {
+    const PointObject<D>& object = tracks_[id].object;
+    unsigned observations = object.observations;
+    auto labelCounts = object.labelCounts;
+    for (std::size_t k = 0; k < frame.decisions.size(); ++k)
+    {
+      if (frame.decisions[k].object != id) continue;
+      --observations;
+      --labelCounts[frame.measurements[k].label];
+    }
+    targets.emplace_back();
+    targets.back().observations = observations;
+    for (const auto& [label, n] : labelCounts) targets.back().labelCounts.emplace_back(label, n);
+  }
+  return targets;
+}
+
+template <int D>
+Eigen::MatrixXd PointSlam<D>::logLikelihoods(
+    const Frame& frame, const Innovations& innovations, double density) const
+{
+  const auto rows = static_cast<Eigen::Index>(innovations.size());
+  const auto columns = static_cast<Eigen::Index>(rows ? innovations.front().size() : 0);
+  Eigen::MatrixXd log = Eigen::MatrixXd::Constant(rows, columns, kImpossible);
+  for (std::size_t k = 0; k < innovations.size(); ++k)
+    for (std::size_t i = 0; i < innovations[k].size(); ++i)
+    {
+      const PointInnovation<D>& seen = innovations[k][i];
+      const double distance = seen.difference.dot(seen.covariance.llt().solve(seen.difference));
+      if (distance > kGate<D>) continue;
+      // How many other objects there may be where this one may be, as seen from the robot.
+      const double confusion = density * std::sqrt((2 * M_PI * seen.state).determinant());
+      const bool isClear = confusion <= options_.maxConfusion ||
+                           seen.state.trace() <= 2 * frame.measurements[k].covariance.trace();
+      if (isClear)
+        log(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+            logGaussian(seen.difference, seen.covariance);
+    }
+  return log;
+}
+
+template <int D>
 std::vector<PointDecision> PointSlam<D>::decide(
     const Frame& frame, const Ids& ids, const Innovations& innovations) const
 {
@@ -77,43 +123,14 @@ std::vector<PointDecision> PointSlam<D>::decide(
   parameters.minJoinPosterior = options_.minJoinPosterior;
   parameters.newObjectVolume = world.volume;
 
-  std::vector<AssociationTarget> targets;
-  for (const std::size_t id : ids)
-  {
-    AssociationTarget target;
-    target.observations = tracks_[id].object.observations;
-    for (std::size_t k = 0; k < frame.decisions.size(); ++k)
-      if (frame.decisions[k].object == id) --target.observations;  // evidence from elsewhere only
-    for (const auto& [label, n] : tracks_[id].object.labelCounts)
-      target.labelCounts.emplace_back(label, n);
-    targets.push_back(std::move(target));
-  }
-
-  std::vector<AssociationCandidate> candidates;
-  Eigen::MatrixXd log = Eigen::MatrixXd::Constant(
-      static_cast<Eigen::Index>(frame.measurements.size()), static_cast<Eigen::Index>(ids.size()),
-      kImpossible);
-  for (std::size_t k = 0; k < frame.measurements.size(); ++k)
-  {
-    candidates.emplace_back();
-    candidates.back().label = frame.measurements[k].label;
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      const PointInnovation<D>& seen = innovations[k][i];
-      const double distance = seen.difference.dot(seen.covariance.llt().solve(seen.difference));
-      if (distance > kGate<D>) continue;
-      // How many other objects there may be where this one may be, as seen from the robot.
-      const double confusion = world.density * std::sqrt((2 * M_PI * seen.state).determinant());
-      const bool isClear = confusion <= options_.maxConfusion ||
-                           seen.state.trace() <= 2 * frame.measurements[k].covariance.trace();
-      if (isClear)
-        log(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
-            logGaussian(seen.difference, seen.covariance);
-    }
-  }
+  std::vector<AssociationCandidate> candidates(frame.measurements.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    candidates[k].label = frame.measurements[k].label;
 
   std::vector<PointDecision> result;
-  for (const auto& d : associateByLikelihood(candidates, targets, parameters, log))
+  for (const auto& d : associateByLikelihood(
+           candidates, targetsFor(frame, ids), parameters,
+           logLikelihoods(frame, innovations, world.density)))
   {
     PointDecision decision;
     if (d.target) decision.object = ids[*d.target];
@@ -234,47 +251,70 @@ void PointSlam<D>::forgetFleeting()
 }
 
 template <int D>
-void PointSlam<D>::mergeOnline()
+bool PointSlam<D>::isTimeToMerge() const
 {
   constexpr std::size_t kPause = 10;  // frames between two tests when nothing new is mature
-  const std::size_t now = frames_.size() - 1;
   const auto& decisions = frames_.back().decisions;
-  const bool anyMatured = std::any_of(
-      decisions.begin(), decisions.end(),
-      [&](const PointDecision& d)
-      {
-        return d.object &&
-               tracks_[*d.object].object.observations == unsigned(options_.matureObservations);
-      });
-  if (!anyMatured && now - lastMergeTest_ < kPause) return;
-  lastMergeTest_ = now;
+  return frames_.size() - 1 - lastMergeTest_ >= kPause ||
+         std::any_of(
+             decisions.begin(), decisions.end(),
+             [&](const PointDecision& d)
+             {
+               return d.object && tracks_[*d.object].object.observations ==
+                                      unsigned(options_.matureObservations);
+             });
+}
 
-  constexpr int kP = kPoseStep<D>;
+template <int D>
+Constellation PointSlam<D>::likelyDoublesInFilter() const
+{
   Ids ids;
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < inFilter_.size(); ++i)
   {
     if (tracks_[inFilter_[i]].object.observations < unsigned(options_.matureObservations)) continue;
     ids.push_back(inFilter_[i]);
-    for (int d = 0; d < D; ++d) rows.push_back(kP + D * static_cast<Eigen::Index>(i) + d);
+    for (int d = 0; d < D; ++d) rows.push_back(kPoseStep<D> + D * static_cast<Eigen::Index>(i) + d);
   }
-  if (!isWorthMerging(likelyDoubles(ids, filter_.covariance()(rows, rows)), options_.mergeLogOdds))
-    return;
+  return likelyDoubles(ids, filter_.covariance()(rows, rows));
+}
 
-  PointGraph<D> graph = graphOf(inFilter_);
-  double cost = graph.optimise(options_.huber, options_.maxIterations);
-  takeOver(graph, inFilter_);
+template <int D>
+double PointSlam<D>::estimate(const Ids& ids)
+{
+  PointGraph<D> graph = graphOf(ids);
+  const double cost = graph.optimise(options_.huber, options_.maxIterations);
+  takeOver(graph, ids);
+  return cost;
+}
+
+template <int D>
+void PointSlam<D>::mergeOnline()
+{
+  if (!isTimeToMerge()) return;
+  lastMergeTest_ = frames_.size() - 1;
+  if (!isWorthMerging(likelyDoublesInFilter(), options_.mergeLogOdds)) return;
+
+  double cost = estimate(mature());
   while (mergeDoubles(options_.mergeLogOdds, cost))
   {
   }
-  Ids alive;
-  for (const std::size_t id : inFilter_)
-    if (tracks_[id].alive) alive.push_back(id);
-  inFilter_ = alive;
-  graph = graphOf(inFilter_);
+  inFilter_.erase(
+      std::remove_if(
+          inFilter_.begin(), inFilter_.end(), [&](std::size_t id) { return !tracks_[id].alive; }),
+      inFilter_.end());
+  restartFilter();
+}
+
+template <int D>
+void PointSlam<D>::restartFilter()
+{
+  estimate(
+      inFilter_);  // those seen once or twice, too, are to be where the corrected poses saw them
+  const PointGraph<D> graph = graphOf(inFilter_);
   const auto marginals = graph.marginals(options_.huber);
-  const Eigen::Index n = marginals.objects.rows();
-  Eigen::MatrixXd P(kP + n, kP + n);
+  const Eigen::Index p = kPoseStep<D>, n = marginals.objects.rows();
+  Eigen::MatrixXd P(p + n, p + n);
   P << marginals.pose.back(), marginals.poseObjects.back(),
       marginals.poseObjects.back().transpose(), marginals.objects;
   filter_.reset(poses_.back(), graph.objects, P);

@@ -188,10 +188,8 @@ void PointSlam<D>::estimateConfirmed()
   Ids ids;
   for (const std::size_t id : mature())
     if (tracks_[id].object.confirmed) ids.push_back(id);
-  PointGraph<D> graph = graphOf(ids);
-  graph.optimise(options_.huber, options_.maxIterations);
-  takeOver(graph, ids);
-  const Eigen::MatrixXd covariance = graph.marginals(options_.huber).objects;
+  estimate(ids);
+  const Eigen::MatrixXd covariance = graphOf(ids).marginals(options_.huber).objects;
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     const auto o = D * static_cast<Eigen::Index>(i);
@@ -208,10 +206,7 @@ void PointSlam<D>::finish()
   for (; outcome_.rounds < std::max(options_.rounds, 1) && !outcome_.converged; ++outcome_.rounds)
   {
     const auto before = poses_;
-    const Ids ids = mature();
-    PointGraph<D> graph = graphOf(ids);
-    double cost = graph.optimise(options_.huber, options_.maxIterations);
-    takeOver(graph, ids);
+    double cost = estimate(mature());
     bool anyChanged = false;
     if (!options_.associationGiven)
     {

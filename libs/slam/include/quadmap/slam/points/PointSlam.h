@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "quadmap/maps/Association.h"
 #include "quadmap/slam/points/Constellation.h"
 #include "quadmap/slam/points/PointFilter.h"
 #include "quadmap/slam/points/PointGraph.h"
@@ -80,6 +81,12 @@ class PointSlam
 
   std::vector<PointDecision> decide(
       const Frame& frame, const Ids& ids, const Innovations& innovations) const;
+  /** Evidence from other frames only. */
+  std::vector<AssociationTarget> targetsFor(const Frame& frame, const Ids& ids) const;
+  /** Rows: measurements, columns: tracks; -infinity where it is not clear. \param density [1/m^D]
+   */
+  Eigen::MatrixXd logLikelihoods(
+      const Frame& frame, const Innovations& innovations, double density) const;
   std::vector<PointDecision> decideAsGiven(const Frame& frame);
   void joinOrStart(Frame& frame);
   void forgetFleeting();
@@ -98,7 +105,11 @@ class PointSlam
   void takeOver(const PointGraph<D>& graph, const Ids& ids);
   Constellation likelyDoubles(const Ids& ids, const Eigen::MatrixXd& covariance) const;
   bool isWorthMerging(const Constellation& doubles, double logOdds) const;
+  double estimate(const Ids& ids);  //!< All poses and these tracks; returns the cost
+  bool isTimeToMerge() const;
+  Constellation likelyDoublesInFilter() const;
   void mergeOnline();
+  void restartFilter();
   bool mergeDoubles(double logOdds, double& cost);
   void absorb(std::size_t kept, std::size_t absorbed);
   bool reassociate(const Ids& ids);
