@@ -75,30 +75,34 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& m)
   return m.llt().solve(Eigen::MatrixXd::Identity(m.rows(), m.cols()));
 }
 
-}  // namespace
-
 template <int D>
-typename PointGraph<D>::Marginals PointGraph<D>::marginals(double huber) const
+Chain<D> informationOf(const PointGraph<D>& graph, double huber)
 {
-  constexpr int kP = kPoseStep<D>;
-  constexpr double kFixed = 1e12;  // information of a pose that does not move [1/m^2], [1/rad^2]
+  constexpr double kFixed = 1e12;  // of a pose that does not move [1/m^2], [1/rad^2]
   constexpr double kVague = 1e-6;  // of an object nobody saw [1/m^2]
-  const auto n = D * static_cast<Eigen::Index>(objects.size());
+  const auto n = D * static_cast<Eigen::Index>(graph.objects.size());
+  const auto& poses = graph.poses;
   Chain<D> chain;
   chain.own.assign(poses.size(), PoseStepMatrix<D>::Zero());
   chain.next.assign(poses.size(), PoseStepMatrix<D>::Zero());
-  chain.objects.assign(poses.size(), Eigen::MatrixXd::Zero(kP, n));
+  chain.objects.assign(poses.size(), Eigen::MatrixXd::Zero(kPoseStep<D>, n));
   chain.border = kVague * Eigen::MatrixXd::Identity(n, n);
   for (std::size_t k = 0; k < poses.size(); ++k)
-    if (k == 0 || posesFixed) chain.own[k] += kFixed * PoseStepMatrix<D>::Identity();
-  for (std::size_t k = 0; k < steps.size() && !posesFixed; ++k)
-    addStep<D>(poses[k], poses[k + 1], steps[k], k, chain);
-  for (const Sight& sight : sights)
-    addSight<D>(poses[sight.pose], objects[sight.object], sight, huber, chain);
+    if (k == 0 || graph.posesFixed) chain.own[k] += kFixed * PoseStepMatrix<D>::Identity();
+  for (std::size_t k = 0; k < graph.steps.size() && !graph.posesFixed; ++k)
+    addStep<D>(poses[k], poses[k + 1], graph.steps[k], k, chain);
+  for (const auto& sight : graph.sights)
+    addSight<D>(poses[sight.pose], graph.objects[sight.object], sight, huber, chain);
+  return chain;
+}
 
-  // Forward: pose k is expressed by pose k + 1 and the objects.
-  const std::size_t last = poses.size() - 1;
-  std::vector<PoseStepMatrix<D>> covariance(poses.size());
+/** Expresses pose k by pose k + 1 and the objects, one after the other.
+ * \return The covariance of each pose when what it is expressed by is known. */
+template <int D>
+std::vector<PoseStepMatrix<D>> eliminatePoses(Chain<D>& chain)
+{
+  const std::size_t last = chain.own.size() - 1;
+  std::vector<PoseStepMatrix<D>> covariance(chain.own.size());
   for (std::size_t k = 0; k <= last; ++k)
   {
     covariance[k] = chain.own[k].inverse();
@@ -108,18 +112,28 @@ typename PointGraph<D>::Marginals PointGraph<D>::marginals(double huber) const
     chain.own[k + 1] -= chain.next[k].transpose() * covariance[k] * chain.next[k];
     chain.objects[k + 1].noalias() -= chain.next[k].transpose() * byObjects;
   }
+  return covariance;
+}
 
-  // Backward: the covariances of what it was expressed by are known.
+}  // namespace
+
+template <int D>
+typename PointGraph<D>::Marginals PointGraph<D>::marginals(double huber) const
+{
+  Chain<D> chain = informationOf(*this, huber);
+  const auto covariance = eliminatePoses(chain);
+
+  // Backward: the covariances of what a pose was expressed by are known.
   Marginals result;
   result.objects = inverseOf<D>(chain.border);
   result.pose.resize(poses.size());
   result.poseObjects.resize(poses.size());
-  for (std::size_t k = last + 1; k-- > 0;)
+  for (std::size_t k = poses.size(); k-- > 0;)
   {
     const Eigen::MatrixXd U_o = covariance[k] * chain.objects[k];
     result.poseObjects[k].noalias() = -U_o * result.objects;
     result.pose[k] = covariance[k] - result.poseObjects[k] * U_o.transpose();
-    if (k == last) continue;
+    if (k + 1 == poses.size()) continue;
     const PoseStepMatrix<D> U_n = covariance[k] * chain.next[k];
     const Eigen::MatrixXd& later = result.poseObjects[k + 1];
     result.poseObjects[k].noalias() -= U_n * later;
