@@ -50,6 +50,7 @@ class Drive
 
   std::vector<std::pair<std::string, Ellipsoid>> objects;
   std::vector<CPose3D> truth, odometry;
+  std::map<std::size_t, std::size_t> shownFrom;  //!< First keyframe of an object; else: always
 
   CObservationObjects::Ptr boxesAt(std::size_t k) const
   {
@@ -61,8 +62,11 @@ class Drive
     boxes->cameraParams.nrows = kVga.height;
     boxes->cameraParams.setIntrinsicParamsFromValues(kVga.fx, kVga.fy, kVga.cx, kVga.cy);
     const auto T_map_optical = truth[k] + robotCamera() + T_sensor_optical();
-    for (const auto& [label, object] : objects)
+    for (std::size_t i = 0; i < objects.size(); ++i)
     {
+      const auto& [label, object] = objects[i];
+      if (const auto first = shownFrom.find(i); first != shownFrom.end() && k < first->second)
+        continue;
       const auto box = projectEllipsoidBox(kVga, object.transformed(-T_map_optical));
       if (!box) continue;
       DetectedObject d;
@@ -141,6 +145,22 @@ TEST(QuadricBackEnd, MapsObjectsFromGivenPoses)
     EXPECT_LT((result.keyframes[k].T_map_robot - drive.truth[k]).norm(), 1e-9);
   for (const auto& box : result.decisions)
     EXPECT_TRUE(!box.decision.object || result.map.find(*box.decision.object));
+}
+
+TEST(QuadricBackEnd, WithoutRoundsTheMapIsThatOfTheDrive)
+{
+  Drive drive(1);
+  drive.shownFrom[2] = drive.truth.size() - 2;  // too late to be an object
+  const LabelTable labels = LabelTable::installed();
+  JointOptions options;
+  options.rounds = 0;
+  QuadricBackEnd backEnd(options, InsertionOptions(), true, labels);
+  SlamResult result;
+  drive.run(backEnd, drive.odometry, result);
+  EXPECT_GE(result.map.confirmedObjects().size(), drive.objects.size() - 1);
+  EXPECT_FALSE(result.map.nearest(drive.objects[2].second.center(), "potted plant"));
+  EXPECT_FALSE(result.edges.empty());
+  for (const auto& edge : result.edges) EXPECT_TRUE(result.map.find(edge.object));
 }
 
 TEST(QuadricBackEnd, CorrectsTheOdometry)

@@ -141,6 +141,7 @@ FactorGraph QuadricBackEnd::globalGraph(const SlamResult& result) const
   }
   for (const auto& [id, object] : objects_.all())
   {
+    if (object.waits) continue;  // there are tracks when no round went before
     graph.setObject(
         id, object.record.object, withEllipsoidOutline(labels_.properties(object.record.label())),
         ObjectFreedom::Free);
