@@ -106,10 +106,12 @@ struct Cli
       line.args()};
 };
 
-void setOdometry(const std::string& name, SlamOptions& options)
+/** Options that a setter checks; it names them as the command line does. */
+template <typename Value>
+void set(SlamOptions& options, void (SlamOptions::*setter)(Value), Value value)
 try
 {
-  options.setOdometry(name);
+  (options.*setter)(value);
 }
 catch (const std::invalid_argument& e)
 {
@@ -121,7 +123,8 @@ SlamConfiguration configurationOf(Cli& cli)
   SlamConfiguration configuration;
   if (cli.config.isSet()) configuration = SlamConfiguration::fromFile(cli.config.getValue());
   if (cli.method.isSet()) configuration.slam.method = slamMethodFrom(cli.method.getValue());
-  if (cli.odometry.isSet()) setOdometry(cli.odometry.getValue(), configuration.slam);
+  if (cli.odometry.isSet())
+    set<const std::string&>(configuration.slam, &SlamOptions::setOdometry, cli.odometry.getValue());
   if (cli.association.isSet())
     configuration.slam.association = associationSourceFrom(cli.association.getValue());
   if (cli.every.isSet())
@@ -130,10 +133,7 @@ SlamConfiguration configurationOf(Cli& cli)
     configuration.keyframes.every = cli.every.getValue();
   }
   if (cli.threads.isSet())
-  {
-    if (cli.threads.getValue() < 0) throw cli::UsageError("--threads: must be 0 or more");
-    configuration.slam.threads = cli.threads.getValue();
-  }
+    set<int>(configuration.slam, &SlamOptions::setThreads, cli.threads.getValue());
   return configuration;
 }
 

@@ -173,7 +173,8 @@ TEST_F(QuadmapSlam, WrongUsage)
 {
   for (const auto* arguments :
        {"", "IN", "-o DIR/out", "IN -o DIR/out --method magic", "IN -o DIR/out --odometry dead",
-        "IN -o DIR/out --every 0", "IN -o DIR/out --every two", "IN -o DIR/out --evry 2"})
+        "IN -o DIR/out --every 0", "IN -o DIR/out --every two", "IN -o DIR/out --evry 2",
+        "IN -o DIR/out --threads -1", "IN -o DIR/out --threads 65"})
   {
     const auto result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << ": " << result.err;

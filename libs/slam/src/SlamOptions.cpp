@@ -29,7 +29,6 @@ constexpr std::pair<PoseSource, const char*> kSources[] = {
 
 const std::string kGraph = "graph:";  // and the name of its file
 
-constexpr int kMostThreads = 64;
 constexpr unsigned kUsefulThreads = 4;  // the input, and three stages a keyframe goes through
 
 constexpr std::pair<AssociationSource, const char*> kAssociations[] = {
@@ -75,6 +74,15 @@ void SlamOptions::setOdometry(const std::string& name)
 std::string SlamOptions::odometryName() const
 {
   return odometry == PoseSource::Graph ? kGraph + odometryGraph : nameOf(odometry);
+}
+
+void SlamOptions::setThreads(int number)
+{
+  if (number < 0 || number > kMostThreads)
+    throw std::invalid_argument(
+        "threads=" + std::to_string(number) + ": must be between 0 and " +
+        std::to_string(kMostThreads));
+  threads = number;
 }
 
 std::size_t SlamOptions::workingThreads() const

@@ -1,11 +1,17 @@
 #include "quadmap/slam/pipeline/StagePipeline.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 using namespace quadmap;
 using Stages = std::vector<StagePipeline::Stage>;
@@ -214,4 +220,55 @@ TEST(StagePipelineThreads, EndInTheMiddleLeavesTheRestUndone)
     for (int i = 0; i < 50; ++i) pipeline.add();
   }
   EXPECT_LT(done, 50u);
+}
+
+TEST(StagePipelineThreads, NoMoreAreBegunThanCanWork)
+{
+  std::mutex mutex;
+  std::set<std::thread::id> workers;
+  const auto work = [&](std::size_t)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    workers.insert(std::this_thread::get_id());
+  };
+  StagePipeline pipeline({{work}, {work}}, 5000, 4);
+  for (int i = 0; i < 2000; ++i) pipeline.add();
+  pipeline.finish();
+  EXPECT_LE(workers.size(), 3u);
+}
+
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;  // these take terabytes of addresses
+#else
+constexpr bool kSanitized = false;
+#endif
+
+namespace
+{
+/** Status 0: the system ran out of threads in the middle, and that was an error like others. */
+[[noreturn]] void startWithFewThreadsLeft()
+{
+  long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  constexpr rlim_t kPage = 4096, kLeft = 200u << 20;  // room for some of the threads [bytes]
+  const rlim_t bytes = static_cast<rlim_t>(pages) * kPage + kLeft;
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+  const StagePipeline::Stage idle{[](std::size_t) {}};
+  try
+  {
+    StagePipeline pipeline(Stages(500, idle), 501, 4);
+  }
+  catch (const std::system_error&)
+  {
+    std::_Exit(0);
+  }
+  std::_Exit(1);
+}
+}  // namespace
+
+TEST(StagePipelineThreads, NoneLeftIsAnErrorAndNotTheEnd)
+{
+  if (kSanitized) GTEST_SKIP() << "memory cannot be limited";
+  EXPECT_EXIT(startWithFewThreadsLeft(), testing::ExitedWithCode(0), "");
 }

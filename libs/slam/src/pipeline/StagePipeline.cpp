@@ -15,10 +15,22 @@ StagePipeline::StagePipeline(std::vector<Stage> stages, std::size_t threads, std
     Lock lock(mutex_);
     workUntil(lock, [this] { return stopping_; });
   };
-  for (std::size_t i = 1; i < threads; ++i) workers_.emplace_back(work);
+  // One for each stage, and the caller's: more would have nothing to do.
+  const std::size_t useful = std::min(threads, stages_.size() + 1);
+  try
+  {
+    for (std::size_t i = 1; i < useful; ++i) workers_.emplace_back(work);
+  }
+  catch (...)
+  {
+    stopWorkers();
+    throw;
+  }
 }
 
-StagePipeline::~StagePipeline()
+StagePipeline::~StagePipeline() { stopWorkers(); }
+
+void StagePipeline::stopWorkers()
 {
   {
     const Lock lock(mutex_);

@@ -53,13 +53,17 @@ struct SlamOptions : public mrpt::config::CLoadableOptions
   PoseSource odometry = PoseSource::Auto;
   std::string odometryGraph;  //!< File of PoseSource::Graph; see GraphOdometry
   AssociationSource association = AssociationSource::Estimated;
-  int threads = 0;  //!< That work, >= 0; 0: as many as useful. Results do not depend on it
+  int threads = 0;  //!< That work, 0..kMostThreads; 0: as many as useful. Results are the same
+
+  static constexpr int kMostThreads = 64;
 
   /** \param name As poseSourceFrom() takes it; of graph:FILE also the file is taken.
    *  \exception std::invalid_argument */
   void setOdometry(const std::string& name);
   std::string odometryName() const;
 
+  /** \exception std::invalid_argument If it is not within 0..kMostThreads. */
+  void setThreads(int number);
   std::size_t workingThreads() const;  //!< >= 1
 
   void loadFromConfigFile(

@@ -32,8 +32,9 @@ class StagePipeline
     std::optional<Feedback> feedback = std::nullopt;
   };
 
-  /** \param threads That work, the caller's included, >= 1.
-   *  \param capacity Most items under way, >= 1. */
+  /** \param threads That work, the caller's included, >= 1; at most one more than stages are begun.
+   *  \param capacity Most items under way, >= 1.
+   *  \exception std::system_error If the system has no thread left. */
   StagePipeline(std::vector<Stage> stages, std::size_t threads, std::size_t capacity);
   ~StagePipeline();  //!< What has not begun is left undone
   StagePipeline(const StagePipeline&) = delete;
@@ -55,6 +56,7 @@ class StagePipeline
   using Step = std::pair<std::size_t, std::size_t>;  //!< Item and stage; one thread's order
   using Lock = std::unique_lock<std::mutex>;
 
+  void stopWorkers();
   void workUntil(Lock& lock, const std::function<bool()>& reached);
   std::optional<Step> nextStep() const;
   void run(Lock& lock, const Step& step);
