@@ -158,7 +158,9 @@ TEST(QuadricInitialisation, PlausibleObjectsHaveUsualSizesAndAreInFront)
 TEST(QuadricInitialisation, NamesAxesWithoutChangingTheEllipsoid)
 {
   const Ellipsoid lying(mrpt::poses::CPose3D(1, 2, 3, 0.4, 1.5, 0.2), {0.2, 0.3, 0.9});
-  const Ellipsoid named = withAxesNamedUpright(lying);
+  const auto [named, order] = withAxesNamedUpright(lying);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(named.semiAxes()[static_cast<Eigen::Index>(i)], lying.semiAxes()[order[i]], 1e-12);
   EXPECT_LT(difference(lying, named), 1e-12);
   EXPECT_GT(named.rotation()(2, 2), 0.7);
   EXPECT_NEAR(named.rotation().determinant(), 1, 1e-9);

@@ -120,6 +120,27 @@ TEST_F(QuadricObjectsTest, AnotherRoundFindsTheSameObjects)
   EXPECT_TRUE(objects.all().empty()) << "two views are not enough";
 }
 
+TEST_F(QuadricObjectsTest, CovariancesOfALyingObjectGoWithItsAxes)
+{
+  QuadricObjects objects(options_, labels());
+  for (int i = 0; i < 8; ++i) watch(objects, 0.1 * i);
+  const ObjectId id = seen_.back().at(0);
+  const Ellipsoid lying(CPose3D(1, 2, 3, 0.4, 1.5, 0.2), {0.2, 0.3, 0.9});  // x points down
+  QuadricCovariance covariance = QuadricCovariance::Identity();
+  covariance.diagonal().tail<3>() << 0.02, 0.03, 0.09;  // each a tenth of its axis
+  covariance(6, 7) = covariance(7, 6) = 0.001;
+  covariance(0, 8) = covariance(8, 0) = 0.002;
+  objects.settle(id, lying, covariance);
+  const MapObject finished = objects.finished(objects.all().at(id), poseOf());
+  const Eigen::Vector3d axes = finished.object.semiAxes();
+  EXPECT_NEAR(axes.z(), 0.2, 1e-12);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(finished.covariance(4 + i, 4 + i), 0.1 * axes[i], 1e-12);
+  const int shorter = axes.x() < axes.y() ? 4 : 5, longer = 9 - shorter;
+  EXPECT_NEAR(finished.covariance(6, shorter), 0.001, 1e-12);
+  EXPECT_NEAR(finished.covariance(0, longer), 0.002, 1e-12);
+  EXPECT_NEAR(finished.covariance(6, longer), 0, 1e-12);
+}
+
 TEST_F(QuadricObjectsTest, TakesGivenAssociations)
 {
   options_.useInstanceIds = true;

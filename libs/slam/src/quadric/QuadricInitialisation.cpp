@@ -135,10 +135,10 @@ std::optional<Ellipsoid> ellipsoidTouching(const std::vector<PlacedBox>& boxes)
   pose.x(t.x());
   pose.y(t.y());
   pose.z(t.z());
-  return withAxesNamedUpright(Ellipsoid(pose, unit * scaled->semiAxes()));
+  return withAxesNamedUpright(Ellipsoid(pose, unit * scaled->semiAxes())).object;
 }
 
-Ellipsoid withAxesNamedUpright(const Ellipsoid& object)
+RenamedAxes withAxesNamedUpright(const Ellipsoid& object)
 {
   const Matrix3d R = object.rotation();
   Eigen::Index up = 0;
@@ -150,8 +150,10 @@ Ellipsoid withAxesNamedUpright(const Ellipsoid& object)
   T.block<3, 1>(0, 1) = T.block<3, 1>(0, 2).cross(T.block<3, 1>(0, 0));  // y, or the other way
   T.block<3, 1>(0, 3) = object.center();
   const Vector3d s = object.semiAxes();
-  return Ellipsoid(
-      mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T)), Vector3d(s[x], s[y], s[up]));
+  return {
+      Ellipsoid(mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T)), Vector3d(s[x], s[y], s[up])),
+      {x, y, up}
+  };
 }
 
 bool isPlausible(

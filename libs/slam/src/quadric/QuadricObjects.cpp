@@ -62,10 +62,20 @@ void count(QuadricObject& object)
   object.record.partialCount = static_cast<unsigned>(object.views.size());
 }
 
-/** The same object, turned upright the shortest way. */
-Ellipsoid upright(const Ellipsoid& object)
+/** Of an object whose axes were renamed: its turns are about the axes of the map and stay. */
+QuadricCovariance renamed(
+    const QuadricCovariance& covariance, const std::array<Eigen::Index, 3>& order)
 {
-  const Ellipsoid named = withAxesNamedUpright(object);
+  Eigen::PermutationMatrix<9> P(9);
+  P.setIdentity();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    P.indices()[6 + order[static_cast<std::size_t>(i)]] = static_cast<int>(6 + i);
+  return P * covariance * P.transpose();
+}
+
+/** The same object with its axes named so, turned upright the shortest way. */
+Ellipsoid upright(const Ellipsoid& named)
+{
   const Eigen::Matrix3d R = named.rotation();
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), z = R.col(2);
   const Eigen::Vector3d x = Eigen::Quaterniond::FromTwoVectors(z, up) * R.col(0);
@@ -206,8 +216,9 @@ bool QuadricObjects::promote(QuadricObject& track, const PoseOf& poseOf)
       best = std::move(estimate);
   }
   if (!best) return false;
-  track.record.object = withAxesNamedUpright(best->object);
-  track.covariance = best->covariance;
+  const RenamedAxes named = withAxesNamedUpright(best->object);
+  track.record.object = named.object;
+  track.covariance = renamed(best->covariance, named.order);
   track.estimated = track.views.size();
   track.waits = false;
   return true;
@@ -283,11 +294,13 @@ void QuadricObjects::settle(
 MapObject QuadricObjects::finished(const QuadricObject& object, const PoseOf& poseOf) const
 {
   MapObject out = object.record;
-  out.object = upright(object.record.object);
+  const RenamedAxes named = withAxesNamedUpright(object.record.object);
+  out.object = upright(named.object);
+  const QuadricCovariance covariance = renamed(object.covariance, named.order);
   constexpr int kUprightSteps[] = {0, 1, 2, 5, 6, 7, 8};  // of (d, w, d ln s)
   for (Eigen::Index i = 0; i < 7; ++i)
     for (Eigen::Index j = 0; j < 7; ++j)
-      out.covariance(i, j) = object.covariance(kUprightSteps[i], kUprightSteps[j]);
+      out.covariance(i, j) = covariance(kUprightSteps[i], kUprightSteps[j]);
   out.orientationDefined = labels_.properties(out.label()).dominantDirection;
 
   const auto& existence = options_.existence;

@@ -33,8 +33,14 @@ double parallaxAt(const Eigen::Vector3d& center, const std::vector<PlacedBox>& b
  * one Q*, or when Q* is not an ellipsoid. */
 std::optional<Ellipsoid> ellipsoidTouching(const std::vector<PlacedBox>& boxes);
 
+struct RenamedAxes
+{
+  Ellipsoid object;
+  std::array<Eigen::Index, 3> order;  //!< Its axis i was number order[i]
+};
+
 /** The same axes, named such that z is the one that is nearest to up; right-handed. */
-Ellipsoid withAxesNamedUpright(const Ellipsoid& object);
+RenamedAxes withAxesNamedUpright(const Ellipsoid& object);
 
 /** Every size is within so many spreads of the label's typical one (in the order of length), and
  * the whole object is in front of every camera. */
