@@ -33,6 +33,15 @@ bool isSame(const std::vector<BoxDecision>& a, const std::vector<BoxDecision>& b
       });
 }
 
+/** Boxes of an object that was absorbed show the one that was kept. */
+void follow(
+    const std::vector<std::pair<ObjectId, ObjectId>>& merged, std::vector<BoxDecision>& decisions)
+{
+  for (const auto& [kept, absorbed] : merged)
+    for (auto& [keyframe, decision] : decisions)
+      if (decision.object == absorbed) decision.object = kept;
+}
+
 }  // namespace
 
 QuadricBackEnd::QuadricBackEnd(
@@ -90,16 +99,16 @@ CPose3D QuadricBackEnd::addKeyframe(
   const Decisions decisions = associate(*boxes, pose, poseCovariance, poseOf);
   for (const auto& decision : decisions)
     result.decisions.push_back({static_cast<std::uint32_t>(pose), decision});
+  if (correctPoses_)
+    for (const auto& decision : decisions)
+      if (decision.object) addToWindow(*decision.object, pose, decision.startedObject);
   const auto merged = objects_.mergeOverlapping(poseOf);
+  follow(merged, result.decisions);
   if (!correctPoses_) return graph_.pose(pose);
 
-  for (const auto& decision : decisions)
-    if (decision.object) addToWindow(*decision.object, pose, decision.startedObject);
   for (const auto& [kept, absorbed] : merged)
   {
     cameras_.erase(absorbed);
-    if (!graph_.hasObject(absorbed)) continue;
-    if (!graph_.hasObject(kept)) addToWindow(kept, pose, true);
     graph_.removeObject(absorbed, kept);
   }
   graph_.optimiseWindow(firstFree);
@@ -108,10 +117,8 @@ CPose3D QuadricBackEnd::addKeyframe(
 
 void QuadricBackEnd::addToWindow(ObjectId id, std::size_t keyframe, bool isNew)
 {
-  const auto it = objects_.all().find(id);
-  if (it == objects_.all().end()) return;  // absorbed meanwhile
-  const QuadricObject& object = it->second;
-  if (isNew || !graph_.hasObject(id))
+  const QuadricObject& object = objects_.all().at(id);
+  if (isNew)
     graph_.setObject(
         id, object.record.object, withEllipsoidOutline(labels_.properties(object.record.label())),
         ObjectFreedom::Free);
@@ -170,7 +177,7 @@ double QuadricBackEnd::round(const BoxesOf& boxesOf, SlamResult& result)
     if (const auto boxes = boxesOf(k))
       for (const auto& decision : associate(*boxes, k, Matrix6::Zero(), poseOf))
         result.decisions.push_back({static_cast<std::uint32_t>(k), decision});
-  objects_.mergeOverlapping(poseOf);
+  follow(objects_.mergeOverlapping(poseOf), result.decisions);
   objects_.endRound();
 
   FactorGraph graph = globalGraph(result);
