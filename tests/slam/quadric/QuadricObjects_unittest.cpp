@@ -141,6 +141,30 @@ TEST_F(QuadricObjectsTest, CovariancesOfALyingObjectGoWithItsAxes)
   EXPECT_NEAR(finished.covariance(6, longer), 0, 1e-12);
 }
 
+TEST_F(QuadricObjectsTest, MergedObjectsWereSeenFromTheFirstToTheLastTime)
+{
+  QuadricObjects objects(options_, labels());
+  const auto timeOf = [](std::size_t k) { return mrpt::Clock::fromDouble(1e9 + double(k)); };
+  ObjectId ids[2] = {};
+  for (std::size_t k = 0; k < 16; ++k)  // the chairs in turn, never side by side
+  {
+    robots_.push_back(robotOnCircle({0, 0, 0.4}, 0.05 * static_cast<double>(k)));
+    const auto views = std::vector<BoxView>{viewOf(world_[k % 2].second, robots_.back(), k)};
+    for (const auto& decision :
+         objects.add(views, timeOf(k), Eigen::Matrix<double, 6, 6>::Zero(), poseOf()))
+      if (decision.object) ids[k % 2] = *decision.object;
+  }
+  ASSERT_TRUE(ids[0] && ids[1] && ids[0] != ids[1]);
+  objects.settle(
+      ids[1], objects.all().at(ids[0]).record.object, objects.all().at(ids[0]).covariance);
+  const auto merged = objects.mergeOverlapping(poseOf());
+  ASSERT_EQ(merged.size(), 1u);
+  const MapObject& kept = objects.all().at(merged[0].first).record;
+  EXPECT_EQ(kept.firstSeen, timeOf(0));
+  EXPECT_EQ(kept.lastSeen, timeOf(15));
+  EXPECT_EQ(kept.partialCount, 16u);
+}
+
 TEST_F(QuadricObjectsTest, TakesGivenAssociations)
 {
   options_.useInstanceIds = true;

@@ -251,6 +251,9 @@ std::vector<std::pair<ObjectId, ObjectId>> QuadricObjects::mergeOverlapping(cons
       }
       if (absorbed.views.size() > kept.views.size())
         kept.record.object = absorbed.record.object;  // the better first guess
+      MapObject &record = kept.record, &other = absorbed.record;
+      record.firstSeen = std::min(record.firstSeen, other.firstSeen);
+      record.lastSeen = std::max(record.lastSeen, other.lastSeen);
       kept.views.insert(kept.views.end(), absorbed.views.begin(), absorbed.views.end());
       kept.settled = false;
       count(kept);
