@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
+#include <set>
 
 #include "../graph/GraphWorld.h"
 #include "BoxScene.h"
@@ -71,6 +73,7 @@ class Drive
       if (!box) continue;
       DetectedObject d;
       d.label = label;
+      d.instanceId = static_cast<std::uint32_t>(i);
       std::normal_distribution<double> noise(0, 3);  // [px]
       d.box =
           ImageBox{
@@ -83,7 +86,7 @@ class Drive
     return boxes;
   }
 
-  void run(QuadricBackEnd& backEnd, const std::vector<CPose3D>& poses, SlamResult& result) const
+  void run(BackEnd& backEnd, const std::vector<CPose3D>& poses, SlamResult& result) const
   {
     for (std::size_t k = 0; k < poses.size(); ++k)
     {
@@ -145,6 +148,27 @@ TEST(QuadricBackEnd, MapsObjectsFromGivenPoses)
     EXPECT_LT((result.keyframes[k].T_map_robot - drive.truth[k]).norm(), 1e-9);
   for (const auto& box : result.decisions)
     EXPECT_TRUE(!box.decision.object || result.map.find(*box.decision.object));
+}
+
+TEST(QuadricBackEnd, BelievesGivenAssociations)
+{
+  const Drive drive(1);
+  const LabelTable labels = LabelTable::installed();
+  SlamConfiguration configuration;
+  configuration.slam.method = SlamMethod::Quadric;
+  configuration.slam.association = AssociationSource::Given;
+  SlamResult result;
+  drive.run(*createBackEnd(configuration, labels), drive.odometry, result);
+  EXPECT_EQ(result.map.confirmedObjects().size(), drive.objects.size());
+  std::map<std::uint32_t, std::set<ObjectId>> objectsOf;
+  for (const auto& [keyframe, decision] : result.decisions)
+  {
+    const auto boxes = drive.boxesAt(keyframe);
+    if (decision.object)
+      objectsOf[*boxes->objects.at(decision.box).instanceId].insert(*decision.object);
+  }
+  EXPECT_EQ(objectsOf.size(), drive.objects.size());
+  for (const auto& [instance, ids] : objectsOf) EXPECT_EQ(ids.size(), 1u) << instance;
 }
 
 TEST(QuadricBackEnd, WithoutRoundsTheMapIsThatOfTheDrive)

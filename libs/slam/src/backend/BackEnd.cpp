@@ -1,7 +1,5 @@
 #include "quadmap/slam/backend/BackEnd.h"
 
-#include <stdexcept>
-
 #include "quadmap/slam/backend/GivenPoses.h"
 #include "quadmap/slam/backend/JointBackEnd.h"
 #include "quadmap/slam/backend/PointBackEnd.h"
@@ -26,11 +24,12 @@ std::unique_ptr<BackEnd> createBackEnd(
   const auto& slam = configuration.slam;
   const bool correctPoses =
       slam.odometry != PoseSource::GroundTruth && configuration.joint.correctPoses;
-  if (slam.method == SlamMethod::Quadric && slam.association == AssociationSource::Given)
-    throw std::invalid_argument("association=given: not for method quadric");
   if (slam.method == SlamMethod::Quadric)
-    return std::make_unique<QuadricBackEnd>(
-        configuration.joint, configuration.mapInsertion, correctPoses, labels);
+  {
+    InsertionOptions options = configuration.mapInsertion;
+    if (slam.association == AssociationSource::Given) options.useInstanceIds = true;
+    return std::make_unique<QuadricBackEnd>(configuration.joint, options, correctPoses, labels);
+  }
   if (slam.method == SlamMethod::Point)
     return std::make_unique<PointBackEnd>(configuration, correctPoses, labels);
   if (slam.method == SlamMethod::Odometry || !correctPoses) return std::make_unique<GivenPoses>();

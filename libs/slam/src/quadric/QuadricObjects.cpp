@@ -243,6 +243,7 @@ std::vector<std::pair<ObjectId, ObjectId>> QuadricObjects::mergeOverlapping(cons
     {
       QuadricObject &kept = a->second, &absorbed = b->second;
       if (kept.waits || absorbed.waits ||
+          (options_.useInstanceIds && kept.instance != absorbed.instance) ||
           !areOneObject(kept.record, absorbed.record, labels_, options_.merging) ||
           areSeenSideBySide(kept, absorbed))
       {
