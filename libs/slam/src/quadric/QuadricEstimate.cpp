@@ -18,13 +18,6 @@ using Eigen::Vector3d;
 /** A thing without a plausible distance is looked for in a room [m]. */
 constexpr double kNearest = 0.3, kFarthest = 8.0;
 
-Vector3d forward(const PlacedBox& box)
-{
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& edge : box.edges) sum += edge.n;
-  return sum.normalized();
-}
-
 /** Distance at which a size fills the angle between two planes that face each other [m]. */
 double rangeOf(double size, const Plane& a, const Plane& b)
 {
@@ -104,7 +97,7 @@ Ellipsoid usualObjectIn(
   const double range = acrossSeen == uprightSeen ? std::sqrt(across * upright)
                        : acrossSeen              ? across
                                                  : upright;
-  const Vector3d ahead = forward(box), center = box.camera + range * ahead;
+  const Vector3d ahead = box.forward(), center = box.camera + range * ahead;
   // The longer horizontal side across the view.
   const double yaw = std::atan2(ahead.y(), ahead.x()) + (size.x() > size.y() ? M_PI / 2 : 0);
   return {mrpt::poses::CPose3D(center.x(), center.y(), center.z(), yaw, 0, 0), 0.5 * size};
@@ -119,7 +112,7 @@ double boxLogLikelihoodRatio(
 {
   const PlacedBox box = seen.view->placedAt(seen.T_map_robot);
   const Vector3d robot(seen.T_map_robot.x(), seen.T_map_robot.y(), seen.T_map_robot.z());
-  const double range = forward(box).dot(object.center() - box.camera);
+  const double range = box.forward().dot(object.center() - box.camera);
   if (range < object.semiAxes().minCoeff()) return -std::numeric_limits<double>::infinity();
   const double shape = kOutlineSpread * object.semiAxes().mean();
 

@@ -30,14 +30,6 @@ std::vector<Plane> usableEdges(const std::vector<PlacedBox>& boxes)
   return planes;
 }
 
-/** Middle of what the camera sees through the box. */
-Vector3d forward(const PlacedBox& box)
-{
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& edge : box.edges) sum += edge.n;
-  return sum.normalized();
-}
-
 /** The smallest singular vector of the stacked rows pi^t Q* pi = 0, as a symmetric matrix. */
 std::optional<Matrix4d> dualQuadricTouching(const std::vector<Plane>& planes)
 {
@@ -80,6 +72,13 @@ std::optional<Ellipsoid> ellipsoidOfDual(const Matrix4d& Q)
 }
 
 }  // namespace
+
+Vector3d PlacedBox::forward() const
+{
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& edge : edges) sum += edge.n;
+  return sum.normalized();
+}
 
 std::optional<Vector3d> triangulatedCenter(const std::vector<PlacedBox>& boxes)
 {
@@ -170,7 +169,7 @@ bool isPlausible(
   return std::all_of(
       boxes.begin(), boxes.end(),
       [&](const PlacedBox& box)
-      { return tangencyResidual(Plane::throughPoint(forward(box), box.camera), object) > 0; });
+      { return tangencyResidual(Plane::throughPoint(box.forward(), box.camera), object) > 0; });
 }
 
 }  // namespace quadmap

@@ -17,6 +17,8 @@ struct PlacedBox
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();  //!< Its centre [m]
   std::array<Plane, 4> edges;    //!< Left, top, right, bottom; normals towards the object
   std::array<bool, 4> usable{};  //!< Not cut by the border of the image
+
+  Eigen::Vector3d forward() const;  //!< Middle of what the camera sees through the box, unit
 };
 
 /** Where the planes that halve the boxes meet, by least squares: near the object's centre.
