@@ -146,6 +146,9 @@ TEST(QuadricBackEnd, MapsObjectsFromGivenPoses)
   EXPECT_FALSE(result.correction);
   for (std::size_t k = 0; k < drive.truth.size(); ++k)
     EXPECT_LT((result.keyframes[k].T_map_robot - drive.truth[k]).norm(), 1e-9);
+  std::set<ObjectId> inEdges;
+  for (const auto& edge : result.edges) inEdges.insert(edge.object);
+  EXPECT_EQ(inEdges.size(), drive.objects.size()) << "the pose graph has edges to each";
   for (const auto& box : result.decisions)
     EXPECT_TRUE(!box.decision.object || result.map.find(*box.decision.object));
 }

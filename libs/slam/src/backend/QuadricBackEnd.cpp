@@ -233,9 +233,11 @@ void QuadricBackEnd::fillMap(SlamResult& result) const
     decision.object = known == idInMap.end() ? std::nullopt : std::optional(known->second);
     decision.startedObject &= decision.object.has_value();
   }
-  if (!correctPoses_) return;
   FactorGraph graph = globalGraph(result);
-  graph.optimise();
+  if (correctPoses_)
+    graph.optimise();
+  else
+    graph.optimiseObjects();
   result.edges = graph.poseEdges();
   for (auto& edge : result.edges) edge.object = idInMap.at(edge.object);
 }

@@ -88,8 +88,8 @@ struct SlamResult
   std::map<std::string, SlamCounts> countsBySensor;
   OdometrySummary odometry;
   std::map<std::string, LabelCounts> labels;
-  /** What the final estimation made of the measurements; `pose` is a keyframe. Nothing when poses
-   * were taken as given. */
+  /** What the final estimation made of the measurements; `pose` is a keyframe. Nothing when
+   * there was no graph of them: the pose graph then has the measurements. */
   std::vector<FactorGraph::PoseEdge> edges;
   std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
   std::optional<MapContinuation> continuation;  //!< When it started in an existing map
