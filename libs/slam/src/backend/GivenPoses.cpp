@@ -4,8 +4,6 @@ namespace quadmap
 {
 using mrpt::poses::CPose3D;
 
-CPose3D GivenPoses::predict(const CPose3D& T_odom_robot) const { return T_odom_robot; }
-
 CPose3D GivenPoses::addKeyframe(
     const CPose3D& T_odom_robot,
     const std::optional<mrpt::poses::CPose3DPDFGaussian>&,

@@ -23,10 +23,6 @@ class BackEnd
  public:
   virtual ~BackEnd() = default;
 
-  /** Where the robot is by odometry from the last keyframe's pose.
-   *  \param T_odom_robot Its pose as the odometry has it. */
-  virtual mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const = 0;
-
   /** \param step Motion since the keyframe before; nothing for the first one.
    *  \param boxes With their measurements; null when nobody looked.
    *  \return Its pose; those of earlier ones may have changed too. */

@@ -8,7 +8,6 @@ namespace quadmap
 class GivenPoses : public BackEnd
 {
  public:
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const override;
   mrpt::poses::CPose3D addKeyframe(
       const mrpt::poses::CPose3D& T_odom_robot,
       const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,

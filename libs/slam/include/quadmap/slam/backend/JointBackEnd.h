@@ -27,7 +27,6 @@ class JointBackEnd : public BackEnd
       const CQuadricObjectMap::TInsertionOptions& mapOptions,
       const LabelTable& labels);
 
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const override;
   mrpt::poses::CPose3D addKeyframe(
       const mrpt::poses::CPose3D& T_odom_robot,
       const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
@@ -39,6 +38,10 @@ class JointBackEnd : public BackEnd
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
+  /** Where the robot is by odometry from the last keyframe's pose.
+   *  \param T_odom_robot Its pose as the odometry has it. */
+  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
+
   using Decisions = std::vector<CQuadricObjectMap::Decision>;
 
   std::optional<RobotView> viewFor(

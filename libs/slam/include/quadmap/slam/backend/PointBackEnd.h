@@ -21,7 +21,6 @@ class PointBackEnd : public BackEnd
   /** \param correctPoses False: poses are taken as given. \param labels Must outlive it. */
   PointBackEnd(const SlamConfiguration& configuration, bool correctPoses, const LabelTable& labels);
 
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const override;
   mrpt::poses::CPose3D addKeyframe(
       const mrpt::poses::CPose3D& T_odom_robot,
       const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
@@ -30,6 +29,10 @@ class PointBackEnd : public BackEnd
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
+  /** Where the robot is by odometry from the last keyframe's pose.
+   *  \param T_odom_robot Its pose as the odometry has it. */
+  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
+
   /** A measurement that was handed on. */
   struct Seen
   {

@@ -29,7 +29,6 @@ class QuadricBackEnd : public BackEnd
       bool correctPoses,
       const LabelTable& labels);
 
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const override;
   mrpt::poses::CPose3D addKeyframe(
       const mrpt::poses::CPose3D& T_odom_robot,
       const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
@@ -38,6 +37,10 @@ class QuadricBackEnd : public BackEnd
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
+  /** Where the robot is by odometry from the last keyframe's pose.
+   *  \param T_odom_robot Its pose as the odometry has it. */
+  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
+
   using Decisions = std::vector<CQuadricObjectMap::Decision>;
 
   Decisions associate(
