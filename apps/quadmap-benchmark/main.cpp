@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "common/Subcommands.h"
@@ -167,8 +168,13 @@ void mergeCommand(int argc, char** argv)
   TCLAP::ValueArg<std::string> page{
       "", "page", "The page to bring up to date.", false, "", "FILE.md", line.args()};
   TCLAP::ValueArg<std::string> plots{
-      "",         "plots", "Where the plots go; made when missing. Without it there are none.",
-      false,      "",      "FOLDER",
+      "",
+      "plots",
+      "Where the plots go; made when missing. Without it none are made, and those of the page "
+      "stay.",
+      false,
+      "",
+      "FOLDER",
       line.args()};
   if (!line.parse(argc, argv)) return;
 
@@ -190,8 +196,12 @@ void mergeCommand(int argc, char** argv)
     if (!in) throw std::runtime_error(page.getValue() + ": cannot be read");
     std::ostringstream text;
     text << in.rdbuf();
-    sections["pictures"] = pictureSection(pictures, plots.getValue(), page.getValue());
-    writeTextFile(page.getValue(), withGeneratedSections(text.str(), sections));
+    std::set<std::string> kept;
+    if (plots.isSet())
+      sections["pictures"] = pictureSection(pictures, plots.getValue(), page.getValue());
+    else
+      kept.insert("pictures");
+    writeTextFile(page.getValue(), withGeneratedSections(text.str(), sections, kept));
   }
   for (const auto& job : found.missing)
     std::cerr << "quadmap-benchmark: no result of: " << job << "\n";

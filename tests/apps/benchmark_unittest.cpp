@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../sensors/SampleRecording.h"
 #include "RunProgram.h"
 
 using namespace quadmap;
@@ -56,9 +57,10 @@ class BenchmarkScripts : public testing::Test
   {
     std::filesystem::remove(folder_.path("calls"));
     return runCommand(
-        "QUADMAP_TEST_DATA= " QUADMAP_SOURCE_DIR "/share/quadmap/benchmark/run --bin '" +
-        folder_.path("bin") + "' --results '" + folder_.path("results") + "' --page '" +
-        folder_.path("page.md") + "' --jobs 2 " + more);
+        "QUADMAP_TEST_DATA='" + testData_ +
+        "' " QUADMAP_SOURCE_DIR "/share/quadmap/benchmark/run --bin '" + folder_.path("bin") +
+        "' --results '" + folder_.path("results") + "' --page '" + folder_.path("page.md") +
+        "' --jobs 2 " + more);
   }
 
   std::size_t calls(const std::string& program) const
@@ -83,6 +85,7 @@ class BenchmarkScripts : public testing::Test
   }
 
   TemporaryFolder folder_;
+  std::string testData_;  //!< Folder with recordings; none
 };
 }  // namespace
 
@@ -153,6 +156,119 @@ TEST_F(BenchmarkScripts, ListTheJobsForAnotherScheduler)
   ASSERT_EQ(element.status, 0) << element.err;
   EXPECT_EQ(folders(), 1u);
   EXPECT_TRUE(isDone("simulated.home.3.rgbd.ground-truth"));
+}
+
+TEST_F(BenchmarkScripts, MergeKeepsThePicturesOfThePageUnlessItMakesNew)
+{
+  const std::string pictures =
+      "<!-- generated: pictures -->\n![a](a.svg)\n<!-- end of pictures -->\n";
+  ASSERT_EQ(run("--scenes home --observed '' --seeds 1 --methods rgbd").status, 0);
+  folder_.write("page.md", pictures);
+  const std::string merge =
+      "merge '" + folder_.path("results") + "' --page '" + folder_.path("page.md") + "'";
+  ASSERT_EQ(runProgram("quadmap-benchmark", merge).status, 0);
+  EXPECT_EQ(readFile(folder_.path("page.md")), pictures);
+  ASSERT_EQ(
+      runProgram("quadmap-benchmark", merge + " --plots '" + folder_.path("plots") + "'").status,
+      0);
+  EXPECT_EQ(readFile(folder_.path("page.md")).find("![a]"), kNotFound);
+}
+
+TEST_F(BenchmarkScripts, MapRecordingsWithWhatTruthThereIs)
+{
+  const SampleRecording recording;
+  std::filesystem::create_directory(folder_.path("data"));
+  std::filesystem::create_symlink(recording.folder(), folder_.path("data/sample"));
+  recording.files.write("rgb.txt", "");
+  std::filesystem::create_symlink(
+      QUADMAP_BIN_DIR "/quadmap-import", folder_.path("bin/quadmap-import"));
+  const auto evaluation = [&](const std::string& job)
+  { return readFile(folder_.path("results/runs/recorded.sample." + job + "/evaluation.json")); };
+  const std::string plan = "--scenes '' --observed '' --seeds 1 --methods odometry,rgbd";
+
+  testData_ = folder_.path("data");
+  const auto known = run(plan);
+  ASSERT_EQ(known.status, 0) << known.err;
+  EXPECT_EQ(calls("quadmap-evaluate"), calls("quadmap-slam")) << "groundtruth.txt is there";
+  EXPECT_GT(calls("quadmap-slam"), 2u);
+  EXPECT_NE(evaluation("0.rgbd.rawlog").find("0.125"), kNotFound);
+
+  std::filesystem::remove_all(folder_.path("results"));
+  std::filesystem::remove(recording.files.path("groundtruth.txt"));
+  recording.files.write("objects_gt.json", "{\"objects\": []}");
+  run(plan);
+  EXPECT_NE(evaluation("0.odometry.visual").find("\"trajectory\": null"), kNotFound);
+  EXPECT_NE(evaluation("0.rgbd.visual").find("0.125"), kNotFound) << "compared with the objects";
+  EXPECT_EQ(calls("quadmap-evaluate") + 2, calls("quadmap-slam")) << "odometry has none";
+}
+
+/** A source tree under git: the scripts, a page with a marker, and a file that stands for the code.
+ */
+class BenchmarkOfATree : public BenchmarkScripts
+{
+ protected:
+  void SetUp() override
+  {
+    if (runCommand("git --version").status != 0) GTEST_SKIP() << "no git";
+    namespace fs = std::filesystem;
+    fs::create_directories(folder_.path("tree/share/quadmap"));
+    fs::create_directories(folder_.path("tree/doc"));
+    fs::copy(
+        QUADMAP_SOURCE_DIR "/share/quadmap/benchmark", folder_.path("tree/share/quadmap/benchmark"),
+        fs::copy_options::recursive);
+    folder_.write("tree/CMakePresets.json", "{}");
+    folder_.write("tree/.gitignore", "/build/\n");
+    folder_.write("tree/code", "first");
+    folder_.write(
+        "tree/doc/benchmarks.md", "<!-- generated: trajectory -->\n<!-- end of trajectory -->\n");
+    git("init -q");
+    git("add -A");
+    git("-c user.name=n -c user.email=n@n commit -qm first");
+  }
+  void git(const std::string& arguments)
+  {
+    const auto result = runCommand("git -C '" + folder_.path("tree") + "' " + arguments);
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+  ProgramResult runTree(const std::string& more = "")
+  {
+    std::filesystem::remove(folder_.path("calls"));
+    return runCommand(
+        "QUADMAP_TEST_DATA= '" + folder_.path("tree/share/quadmap/benchmark/run") + "' --bin '" +
+        folder_.path("bin") + "' --scenes home --observed '' --seeds 1 --methods rgbd " + more);
+  }
+  std::size_t resultFolders() const
+  {
+    const std::filesystem::directory_iterator kept(folder_.path("tree/build/benchmark"));
+    return static_cast<std::size_t>(std::distance(begin(kept), end(kept)));
+  }
+};
+
+TEST_F(BenchmarkOfATree, KeepsTheResultsOfEveryStateApart)
+{
+  const auto first = runTree();
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(calls("quadmap-slam"), 2u);
+  const std::string folder =
+      std::filesystem::directory_iterator(folder_.path("tree/build/benchmark"))->path().string();
+  EXPECT_EQ(folder.find("dirty"), kNotFound);
+
+  ASSERT_EQ(runTree().status, 0);
+  EXPECT_EQ(calls("quadmap-slam"), 0u) << "the page it wrote is no change";
+  EXPECT_EQ(resultFolders(), 1u);
+
+  for (const char* code : {"second", "third"})
+  {
+    folder_.write("tree/code", code);
+    ASSERT_EQ(runTree().status, 0);
+    EXPECT_EQ(calls("quadmap-slam"), 2u) << code;
+  }
+  EXPECT_EQ(resultFolders(), 3u);
+
+  const auto mixed = runTree("--results '" + folder + "'");
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_NE(mixed.err.find("has results of"), kNotFound) << mixed.err;
+  EXPECT_EQ(std::count(mixed.err.begin(), mixed.err.end(), '\n'), 1);
 }
 
 TEST_F(BenchmarkScripts, AnswerWrongUsageWithStatus2)

@@ -5,7 +5,9 @@
 namespace quadmap
 {
 std::string withGeneratedSections(
-    const std::string& page, const std::map<std::string, std::string>& sections)
+    const std::string& page,
+    const std::map<std::string, std::string>& sections,
+    const std::set<std::string>& kept)
 {
   const std::string kBegin = "<!-- generated: ", kClose = " -->\n";
   std::string out;
@@ -18,6 +20,12 @@ std::string withGeneratedSections(
     const auto end = page.find("<!-- end of " + name + " -->", nameEnd);
     if (end == std::string::npos)
       throw std::runtime_error("section " + name + ": no <!-- end of " + name + " -->");
+    if (kept.count(name))
+    {
+      out += page.substr(at, end - at);
+      at = end;
+      continue;
+    }
     const auto text = sections.find(name);
     if (text == sections.end())
       throw std::runtime_error("section " + name + ": nothing of this name is generated");

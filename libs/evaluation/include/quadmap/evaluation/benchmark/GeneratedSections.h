@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace quadmap
@@ -12,8 +13,11 @@ namespace quadmap
  *     <!-- end of NAME -->
  *
  * \exception std::runtime_error For a section without an end, and for a section of the page that
- * has no text; texts the page has no section for are left out. */
+ * has no text; texts the page has no section for are left out.
+ * \param kept Names of sections that stay as they are. */
 std::string withGeneratedSections(
-    const std::string& page, const std::map<std::string, std::string>& sections);
+    const std::string& page,
+    const std::map<std::string, std::string>& sections,
+    const std::set<std::string>& kept = {});
 
 }  // namespace quadmap
