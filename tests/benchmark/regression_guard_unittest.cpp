@@ -9,8 +9,7 @@ using nlohmann::json;
 
 // A change that costs accuracy is seen at once: two scenes with few frames, on drifting odometry,
 // through all programs. Every bound is the mean over the seeds 1 to 5 (office: 1 to 4) plus or
-// minus three standard deviations of them, rounded outwards; no bound comes from the seed that is
-// run here.
+// minus three standard deviations of them, rounded outwards.
 namespace
 {
 struct Guard
