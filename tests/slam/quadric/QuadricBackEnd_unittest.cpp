@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -52,7 +53,9 @@ class Drive
 
   std::vector<std::pair<std::string, Ellipsoid>> objects;
   std::vector<CPose3D> truth, odometry;
-  std::map<std::size_t, std::size_t> shownFrom;  //!< First keyframe of an object; else: always
+  /** Whether a keyframe shows the i-th object. */
+  std::function<bool(std::size_t i, std::size_t keyframe)> isShown = [](auto, auto)
+  { return true; };
 
   CObservationObjects::Ptr boxesAt(std::size_t k) const
   {
@@ -67,8 +70,7 @@ class Drive
     for (std::size_t i = 0; i < objects.size(); ++i)
     {
       const auto& [label, object] = objects[i];
-      if (const auto first = shownFrom.find(i); first != shownFrom.end() && k < first->second)
-        continue;
+      if (!isShown(i, k)) continue;
       const auto box = projectEllipsoidBox(kVga, object.transformed(-T_map_optical));
       if (!box) continue;
       DetectedObject d;
@@ -177,7 +179,8 @@ TEST(QuadricBackEnd, BelievesGivenAssociations)
 TEST(QuadricBackEnd, WithoutRoundsTheMapIsThatOfTheDrive)
 {
   Drive drive(1);
-  drive.shownFrom[2] = drive.truth.size() - 2;  // too late to be an object
+  const std::size_t late = drive.truth.size() - 2;  // too late to be an object
+  drive.isShown = [late](std::size_t i, std::size_t k) { return i != 2 || k >= late; };
   const LabelTable labels = LabelTable::installed();
   JointOptions options;
   options.rounds = 0;
@@ -188,6 +191,36 @@ TEST(QuadricBackEnd, WithoutRoundsTheMapIsThatOfTheDrive)
   EXPECT_FALSE(result.map.nearest(drive.objects[2].second.center(), "potted plant"));
   EXPECT_FALSE(result.edges.empty());
   for (const auto& edge : result.edges) EXPECT_TRUE(result.map.find(edge.object));
+}
+
+TEST(QuadricBackEnd, BoxesOfAbsorbedObjectsShowTheOneThatWasKept)
+{
+  for (const bool correctPoses : {false, true})
+  {
+    Drive drive(1);
+    const Eigen::Vector3d half(0.26, 0.25, 0.45);  // two chairs, shown in turn
+    drive.objects = {
+        {"chair",  {CPose3D(0, 0.35, 0.45, 0, 0, 0), half}},
+        {"chair", {CPose3D(0, -0.35, 0.45, 0, 0, 0), half}}
+    };
+    drive.isShown = [](std::size_t i, std::size_t k) { return k % 2 == i; };
+    const LabelTable labels = LabelTable::installed();
+    InsertionOptions insertion;
+    insertion.merging.penetration = 10;  // and taken for one
+    JointOptions options;
+    options.rounds = 0;
+    QuadricBackEnd backEnd(options, insertion, correctPoses, labels);
+    SlamResult result;
+    drive.run(backEnd, drive.truth, result);
+    EXPECT_EQ(result.map.confirmedObjects().size(), 1u);
+    std::size_t started = 0;
+    for (const auto& [keyframe, decision] : result.decisions)
+    {
+      started += decision.startedObject ? 1 : 0;
+      EXPECT_TRUE(!decision.startedObject || decision.object) << keyframe;
+    }
+    EXPECT_GE(started, 2u);
+  }
 }
 
 TEST(QuadricBackEnd, CorrectsTheOdometry)

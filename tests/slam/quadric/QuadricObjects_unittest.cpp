@@ -146,13 +146,13 @@ TEST_F(QuadricObjectsTest, MergedObjectsWereSeenFromTheFirstToTheLastTime)
   QuadricObjects objects(options_, labels());
   const auto timeOf = [](std::size_t k) { return mrpt::Clock::fromDouble(1e9 + double(k)); };
   ObjectId ids[2] = {};
-  for (std::size_t k = 0; k < 16; ++k)  // the chairs in turn, never side by side
+  for (std::size_t k = 0; k < 16; ++k)  // first one chair, then the other
   {
-    robots_.push_back(robotOnCircle({0, 0, 0.4}, 0.05 * static_cast<double>(k)));
-    const auto views = std::vector<BoxView>{viewOf(world_[k % 2].second, robots_.back(), k)};
+    robots_.push_back(robotOnCircle({0, 0, 0.4}, 0.1 * static_cast<double>(k)));
+    const auto views = std::vector<BoxView>{viewOf(world_[k / 8].second, robots_.back(), k)};
     for (const auto& decision :
          objects.add(views, timeOf(k), Eigen::Matrix<double, 6, 6>::Zero(), poseOf()))
-      if (decision.object) ids[k % 2] = *decision.object;
+      if (decision.object) ids[k / 8] = *decision.object;
   }
   ASSERT_TRUE(ids[0] && ids[1] && ids[0] != ids[1]);
   objects.settle(
