@@ -225,9 +225,10 @@ class Matcher
     std::stable_sort(
         scored.begin(), scored.end(), [](auto& a, auto& b) { return a.first > b.first; });
     std::vector<Place> best;
-    for (const auto& [score, place] : scored)
+    for (const auto& guess : scored)
     {
       if (best.size() >= kMaxPlaces) break;
+      const Place& place = guess.second;
       const auto near = std::count_if(
           best.begin(), best.end(), [&](const Place& b) { return !areDistinct(place, b); });
       if (near < kOfOnePlace) best.push_back(place);
