@@ -184,6 +184,28 @@ TEST_F(QuadmapSlam, WrongUsage)
   EXPECT_EQ(run("--version").out.find("quadmap-slam "), 0u);
 }
 
+TEST_F(QuadmapSlam, SaysWhyItCannotStartInAMap)
+{
+  write(records());
+  ASSERT_EQ(run("IN -o DIR/first --every 1").status, 0);
+  const std::string map = folder_.path("first/objects.quadmap");
+  const std::pair<std::string, std::string> cases[] = {
+      {                    "--map DIR/first/objects.quadmap",                                    map},
+      {                                   "--map DIR/no.map", folder_.path("no.map: cannot be read")},
+      {                        "--map DIR/first/report.json",                     "is no object map"},
+      {     "--map DIR/first/objects.quadmap --method point",                    "--map: for method"},
+      {"--map DIR/first/objects.quadmap --association given",    "--map: not with association given"}
+  };
+  for (const auto& [arguments, part] : cases)
+  {
+    const auto result = run("IN -o DIR/out --every 1 " + arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(part), kNotFound) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("out"))) << arguments;
+  }
+}
+
 TEST_F(QuadmapSlam, TruncatedFile)
 {
   write(records());
