@@ -1,71 +1,17 @@
 #include "PlaneSegmentation.h"
 
-#include <pcl/features/integral_image_normal.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-#include <pcl/segmentation/edge_aware_plane_comparator.h>
-#include <pcl/segmentation/organized_multi_plane_segmentation.h>
-
 #include <algorithm>
-#include <limits>
-#include <numeric>
+
+#include "SurfaceRegions.h"
 
 namespace quadmap
 {
 namespace
 {
-using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
-using PclNormals = pcl::PointCloud<pcl::Normal>;
-
-constexpr int kPlaneStride = 2;           // of the cloud's cells: 160x120 for the usual sensors
+constexpr int kPlaneStride = SurfaceCells::kStride;
 constexpr std::size_t kMaxSamples = 600;  // of a plane: 5 cm apart on a large table
 constexpr int kNone = -1, kSeveral = -2;  // instead of a label
 constexpr int kRimWidth = 2;              // cells; the segmentation leaves out the rim of planes
-
-PclCloud::Ptr reducedCloud(const DepthCloud& cloud)
-{
-  auto out = std::make_shared<PclCloud>();
-  out->width = static_cast<unsigned>(cloud.columns() / kPlaneStride);
-  out->height = static_cast<unsigned>(cloud.rows() / kPlaneStride);
-  out->is_dense = false;
-  out->points.reserve(out->width * out->height);
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  for (unsigned r = 0; r < out->height; ++r)
-    for (unsigned c = 0; c < out->width; ++c)
-    {
-      const int cc = static_cast<int>(c) * kPlaneStride, rr = static_cast<int>(r) * kPlaneStride;
-      if (cloud.valid(cc, rr))
-      {
-        const Eigen::Vector3f p = cloud.point(cc, rr);
-        out->points.emplace_back(p.x(), p.y(), p.z());
-      }
-      else
-        out->points.emplace_back(nan, nan, nan);
-    }
-  return out;
-}
-
-using NormalEstimation = pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal>;
-
-void configure(NormalEstimation& estimation, const PclCloud::Ptr& cloud)
-{
-  estimation.setNormalEstimationMethod(estimation.COVARIANCE_MATRIX);
-  estimation.setMaxDepthChangeFactor(0.03f);
-  estimation.setNormalSmoothingSize(8.0f);
-  estimation.setInputCloud(cloud);
-}
-
-/** Connects cells of one plane, but not around the edges of objects: smoothed normals turn there
- * step by step, and planes that leak into each other are lost. */
-pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>::Ptr edgeAwareComparator(
-    NormalEstimation& estimation)
-{
-  auto comparator = pcl::make_shared<pcl::EdgeAwarePlaneComparator<pcl::PointXYZ, pcl::Normal>>(
-      estimation.getDistanceMap());
-  comparator->setCurvatureThreshold(0.05f);   // a plane at 3 m shows 0.04 by its noise
-  comparator->setDistanceMapThreshold(2.0f);  // cells between a plane and a depth edge
-  return comparator;
-}
 
 }  // namespace
 
@@ -116,57 +62,26 @@ std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange&
 
 PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options)
 {
-  const auto points = reducedCloud(cloud);
-  NormalEstimation estimation;
-  configure(estimation, points);
-  const auto normals = pcl::make_shared<PclNormals>();
-  estimation.compute(*normals);
-  const double cells = static_cast<double>(points->size());
-
-  pcl::OrganizedMultiPlaneSegmentation<pcl::PointXYZ, pcl::Normal, pcl::Label> segmentation;
-  segmentation.setMinInliers(static_cast<unsigned>(std::max(30.0, options.planeMinArea * cells)));
-  segmentation.setComparator(edgeAwareComparator(estimation));
-  segmentation.setAngularThreshold(0.10);
-  segmentation.setDistanceThreshold(0.03);
-  segmentation.setMaximumCurvature(0.02);
-  segmentation.setInputCloud(points);
-  segmentation.setInputNormals(normals);
-  std::vector<pcl::ModelCoefficients> coefficients;
-  std::vector<pcl::PointIndices> inliers;
-  segmentation.segment(coefficients, inliers);
-
-  std::vector<std::size_t> order(inliers.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(
-      order.begin(), order.end(),
-      [&](auto a, auto b) { return inliers[a].indices.size() > inliers[b].indices.size(); });
+  constexpr double kMinCells = 30;
+  const SurfaceCells cells(cloud);
+  const double all = static_cast<double>(cells.size());
+  const auto regions = surfaceRegions(
+      cells, static_cast<std::size_t>(std::max(kMinCells, options.planeMinArea * all)));
 
   PlaneSegmentation out;
-  out.columns_ = static_cast<int>(points->width);
-  out.rows_ = static_cast<int>(points->height);
-  out.labels_.assign(points->size(), -1);
-  for (const std::size_t i : order)
+  out.columns_ = cells.columns();
+  out.rows_ = cells.rows();
+  out.labels_.assign(cells.size(), kNone);
+  for (const auto& region : regions)
   {
-    const auto& v = coefficients[i].values;
     ScenePlane plane;
-    plane.plane.n = Eigen::Vector3d(v[0], v[1], v[2]);
-    const double norm = plane.plane.n.norm();
-    if (!(norm > 1e-6)) continue;
-    plane.plane.n /= norm;
-    plane.plane.d = v[3] / norm;
-    if (plane.plane.d < 0) plane.plane = {-plane.plane.n, -plane.plane.d};  // towards the camera
-    const std::size_t step = 1 + inliers[i].indices.size() / kMaxSamples;
-    for (std::size_t k = 0; k < inliers[i].indices.size(); k += step)
-      plane.samples.push_back((*points)[static_cast<std::size_t>(inliers[i].indices[k])]
-                                  .getVector3fMap()
-                                  .cast<double>());
-    for (const int index : inliers[i].indices)
-    {
-      plane.centroid += (*points)[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
-      out.labels_[static_cast<std::size_t>(index)] = static_cast<int>(out.planes.size());
-    }
-    plane.centroid /= static_cast<double>(inliers[i].indices.size());
-    plane.share = static_cast<double>(inliers[i].indices.size()) / cells;
+    plane.plane = region.plane;
+    plane.centroid = region.centroid;
+    plane.share = static_cast<double>(region.cells.size()) / all;
+    const std::size_t step = 1 + region.cells.size() / kMaxSamples;
+    for (std::size_t k = 0; k < region.cells.size(); k += step)
+      plane.samples.push_back(cells[region.cells[k]].point.cast<double>());
+    for (const std::size_t i : region.cells) out.labels_[i] = static_cast<int>(out.planes.size());
     out.planes.push_back(std::move(plane));
   }
   out.findRims(cloud, options);

@@ -43,7 +43,7 @@ class PlaneSegmentation
   std::vector<int> around_;  // the only label at or near each cell; kNone, or kSeveral
 };
 
-/** All planes of the frame (PCL's organised segmentation at quarter resolution). */
+/** All planes of the frame, at a quarter of the cloud's resolution. */
 PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options);
 
 }  // namespace quadmap

@@ -1,0 +1,180 @@
+#include "SurfaceCells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadmap
+{
+namespace
+{
+constexpr int kBorder = 8;      // cells at the image's border, where sensors are poor, get no plane
+constexpr int kWindow = 8;      // cells, the width of what a plane is fitted to; and ...
+constexpr float kWider = 0.1f;  // ... this much more per metre of depth [1/m]
+constexpr int kWidest = 9;
+constexpr int kNarrowest = 2;  // fewer cells make no plane
+
+// Distances are counted in fifths of a cell: 5 to the next one, 7 diagonally.
+constexpr int kUnit = 5, kDiagonal = 7, kFar = kUnit * (kWidest + 1);
+
+/** Two neighbouring cells of one surface differ by less in depth [m]. */
+float jumpTolerance(float z) { return 0.06f * (1.0f + z); }
+
+/** Sums over all cells above and to the left, of the inverse depth q, its square, and q times
+ * column and row. */
+class Sums
+{
+ public:
+  Sums(int columns, int rows) :
+      width_(static_cast<std::size_t>(columns) + 1),
+      sums_(width_ * (static_cast<std::size_t>(rows) + 1), Eigen::Vector4d::Zero())
+  {
+  }
+
+  /** Cells come row by row. \param q 0 for cells without depth. */
+  void add(int c, int r, double q)
+  {
+    if (c == 0) row_.setZero();
+    row_ += q * Eigen::Vector4d(1, c, r, q);
+    sums_[index(c + 1, r + 1)] = sums_[index(c + 1, r)] + row_;
+  }
+
+  Eigen::Vector4d over(int c, int r, int width) const
+  {
+    return sums_[index(c + width, r + width)] - sums_[index(c, r + width)] -
+           sums_[index(c + width, r)] + sums_[index(c, r)];
+  }
+
+ private:
+  std::size_t index(int c, int r) const
+  {
+    return static_cast<std::size_t>(r) * width_ + static_cast<std::size_t>(c);
+  }
+
+  std::size_t width_;
+  Eigen::Vector4d row_ = Eigen::Vector4d::Zero();
+  std::vector<Eigen::Vector4d> sums_;
+};
+
+/** The rays of the cells: (x, y, 1) = first + (column, row) * step. */
+struct Rays
+{
+  Eigen::Vector2d first, step;
+
+  explicit Rays(const DepthCloud& cloud)
+  {
+    const auto& camera = cloud.camera();
+    const double pixels = SurfaceCells::kStride * cloud.stride();
+    first = {-camera.cx / camera.fx, -camera.cy / camera.fy};
+    step = {pixels / camera.fx, pixels / camera.fy};
+  }
+};
+
+/** Fits the plane of a full window of cells. The inverse depth of a plane is linear in the image,
+ * q = N.ray, and the noise of depth cameras is even in it: a linear regression.
+ * \param c, r First column and row. */
+void fitPlane(const Sums& sums, const Rays& rays, int c, int r, int width, SurfaceCell& cell)
+{
+  const Eigen::Vector4d sum = sums.over(c, r, width);
+  const double w2 = width * width, variance = (w2 - 1.0) / 12.0;  // of the columns, of the rows
+  const Eigen::Vector2d middle(c + 0.5 * (width - 1), r + 0.5 * (width - 1));
+  const double q = sum[0] / w2;
+  const Eigen::Vector2d slope = (sum.segment<2>(1) / w2 - q * middle) / variance;  // per cell
+  const double residual =
+      std::max(0.0, sum[3] / w2 - q * q - variance * slope.squaredNorm());  // mean square, of q
+
+  const Eigen::Vector2d ray = rays.first + middle.cwiseProduct(rays.step);
+  const Eigen::Vector2d n = slope.cwiseQuotient(rays.step);
+  const Eigen::Vector3d N(n.x(), n.y(), q - n.dot(ray));
+  const double offset = 1.0 / N.norm(), z = 1.0 / q;
+  cell.normal = (-offset * N).cast<float>();
+  cell.offset = static_cast<float>(offset);
+
+  // Across the plane a change dq of the inverse depth is z * offset * dq [m]; along it the points
+  // are spread by their columns and rows.
+  const double across = z * z * offset * offset * residual;
+  double along = 0;
+  for (const int axis : {0, 1})
+  {
+    const double tilt = z * n[axis], straight = 1.0 - tilt * ray[axis];
+    const double other = tilt * ray[1 - axis], metres = z * rays.step[axis];
+    along += metres * metres * (straight * straight + other * other + tilt * tilt);
+  }
+  cell.roughness = static_cast<float>(across / (across + variance * along));
+}
+
+}  // namespace
+
+SurfaceCells::SurfaceCells(const DepthCloud& cloud) :
+    columns_(cloud.columns() / kStride), rows_(cloud.rows() / kStride)
+{
+  cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  std::size_t i = 0;
+  for (int r = 0; r < rows_; ++r)
+    for (int c = 0; c < columns_; ++c, ++i)
+      if (cloud.valid(c * kStride, r * kStride))
+        cells_[i].point = cloud.point(c * kStride, r * kStride);
+  if (columns_ > 2 * kBorder && rows_ > 2 * kBorder) fitPlanes(cloud);
+}
+
+/** Of each cell the distance to the nearest that lies beside a jump in depth or has none; at most
+ * kFar. */
+std::vector<int> SurfaceCells::distancesToJumps() const
+{
+  const auto width = static_cast<std::size_t>(columns_), height = static_cast<std::size_t>(rows_);
+  std::vector<int> distance(cells_.size(), kFar);
+  const auto compare = [&](std::size_t i, std::size_t j)
+  {
+    const float a = cells_[i].point.z(), b = cells_[j].point.z();
+    if (a > 0 && b > 0 && std::abs(a - b) <= jumpTolerance(a)) return;
+    distance[i] = distance[j] = 0;
+  };
+  for (std::size_t r = 0; r < height; ++r)
+    for (std::size_t c = 0, i = r * width; c < width; ++c, ++i)
+    {
+      if (c + 1 < width) compare(i, i + 1);
+      if (r + 1 < height) compare(i, i + width);
+    }
+  const auto bound = [&](std::size_t i, std::size_t from, int step)
+  { distance[i] = std::min(distance[i], distance[from] + step); };
+  for (std::size_t r = 1; r < height; ++r)
+    for (std::size_t c = 1, i = r * width + 1; c + 1 < width; ++c, ++i)
+    {
+      bound(i, i - 1, kUnit);
+      bound(i, i - width, kUnit);
+      bound(i, i - width - 1, kDiagonal);
+      bound(i, i - width + 1, kDiagonal);
+    }
+  for (std::size_t r = height - 1; r-- > 0;)
+    for (std::size_t c = width - 1, i = r * width + c - 1; c-- > 1; --i)
+    {
+      bound(i, i + 1, kUnit);
+      bound(i, i + width, kUnit);
+      bound(i, i + width + 1, kDiagonal);
+      bound(i, i + width - 1, kDiagonal);
+    }
+  return distance;
+}
+
+void SurfaceCells::fitPlanes(const DepthCloud& cloud)
+{
+  const Rays rays(cloud);
+  const auto distance = distancesToJumps();
+  Sums sums(columns_, rows_);
+  std::size_t i = 0;
+  for (int r = 0; r < rows_; ++r)
+    for (int c = 0; c < columns_; ++c, ++i)
+      sums.add(c, r, cells_[i].hasDepth() ? 1.0 / double(cells_[i].point.z()) : 0.0);
+  for (int r = kBorder; r < rows_ - kBorder; ++r)
+    for (int c = kBorder; c < columns_ - kBorder; ++c)
+    {
+      i = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
+          static_cast<std::size_t>(c);
+      if (distance[i] <= kNarrowest * kUnit) continue;
+      const float z = cells_[i].point.z();
+      const int wanted = std::min(kWidest, static_cast<int>(kWindow + kWider * z));
+      const int width = std::min(distance[i] / kUnit, wanted);
+      fitPlane(sums, rays, c - width / 2, r - width / 2, width, cells_[i]);
+    }
+}
+
+}  // namespace quadmap
