@@ -1,14 +1,10 @@
 # Debian's packages only; what each is for: doc/dependencies.md.
 
-# PCL's own file would look for VTK (and with it Qt and MPI), which nothing here needs.
-set(CMAKE_DISABLE_FIND_PACKAGE_VTK TRUE)
-
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(Ceres 2.1 REQUIRED)
 foreach(module poses img obs maps opengl graphs tclap)
   find_package(mrpt-${module} REQUIRED)
 endforeach()
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video features2d calib3d)
-find_package(PCL QUIET REQUIRED COMPONENTS common kdtree search features filters sample_consensus segmentation)
 find_package(nlohmann_json 3.7 REQUIRED)
 find_package(Threads REQUIRED)
