@@ -203,7 +203,8 @@ TEST(RawlogSource, SumsUpTheActionsOfActionSensoryFrameLogs)
 {
   const CPose2D step2(0.5, 0.1, 0.3);
   const CPose3D step3(0.5, 0.1, -0.05, 0.3, 0.02, -0.1);
-  const auto check = [](const mrpt::obs::CActionCollection::Ptr& action, const CPose3D& step)
+  const auto check = [](const mrpt::obs::CActionCollection::Ptr& action, const CPose3D& step,
+                        const std::string& kind)
   {
     const TemporaryFolder folder;
     const auto file = writeObjects(
@@ -220,10 +221,10 @@ TEST(RawlogSource, SumsUpTheActionsOfActionSensoryFrameLogs)
     EXPECT_LT(distance(*frames[2].T_odom_robot, step), 1e-9) << "the other sensor, same moment";
     EXPECT_LT(distance(*frames[3].T_odom_robot, step + step), 1e-9);
     EXPECT_TRUE(frames[3].objects) << "boxes in the same sensory frame";
-    EXPECT_EQ(source.odometryKind(), "CActionRobotMovement");
+    EXPECT_EQ(source.odometryKind(), kind);
   };
-  check(movement2D(step2), CPose3D(step2));
-  check(movement3D(step3), step3);
+  check(movement2D(step2), CPose3D(step2), "CActionRobotMovement2D");
+  check(movement3D(step3), step3, "CActionRobotMovement3D");
 }
 
 TEST(RawlogSource, KeepsTheTruePoseApartFromOdometry)
@@ -428,14 +429,17 @@ TEST(RawlogSource, ReadsTheRawlogsOfMrpt)
   EXPECT_EQ(frames[0].scan->sensorLabel, "OPENNI2");
   EXPECT_GT(frames[0].scan->rangeImage.asEigen().cast<int>().maxCoeff(), 0);
 
-  const auto expectNoRgbd = [](const std::string& name, const std::string& content)
+  const auto expectNoRgbd =
+      [](const std::string& name, const std::string& content, const std::string& odometry)
   {
     RawlogSource source(testData("mrpt/" + name), {});
     EXPECT_FALSE(source.next());
     EXPECT_EQ(source.contentSummary(), content);
-    EXPECT_EQ(source.odometryKind(), "CActionRobotMovement");
+    EXPECT_EQ(source.odometryKind(), "CActionRobotMovement" + odometry);
   };
-  expectNoRgbd("localization_demo.rawlog", "37 CActionCollection, 37 CObservation2DRangeScan");
-  expectNoRgbd("kf-slam_demo.rawlog", "250 CActionCollection, 250 CObservationBearingRange");
-  expectNoRgbd("kf-slam_6D_demo.rawlog", "600 CActionCollection, 600 CObservationBearingRange");
+  expectNoRgbd(
+      "localization_demo.rawlog", "37 CActionCollection, 37 CObservation2DRangeScan", "2D");
+  expectNoRgbd("kf-slam_demo.rawlog", "250 CActionCollection, 250 CObservationBearingRange", "2D");
+  expectNoRgbd(
+      "kf-slam_6D_demo.rawlog", "600 CActionCollection, 600 CObservationBearingRange", "3D");
 }

@@ -1,11 +1,15 @@
 #include "OdometryReader.h"
 
+#include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "quadmap/sensors/RawlogNames.h"
@@ -23,18 +27,68 @@ CPose3DPDFGaussian withUsableCovariance(CPose3DPDFGaussian pose)
   return pose;
 }
 
-std::optional<CPose3DPDFGaussian> movementIn(const mrpt::obs::CActionCollection& actions)
+struct Movement
 {
+  std::string kind;
   CPose3DPDFGaussian increment;
-  if (actions.getFirstMovementEstimation(increment)) return increment;
-  if (const auto move = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
-    return move->poseChange;
-  if (const auto move = actions.getBestMovementEstimation())
+};
+
+/** What Thrun's motion model says of an increment, linearised. MRPT draws particles from it anew
+ * each time the action is read, with random numbers that differ from run to run. */
+mrpt::math::CMatrixDouble33 thrunCovariance(
+    const mrpt::poses::CPose2D& increment,
+    const mrpt::obs::CActionRobotMovement2D::TMotionModelOptions::TOptions_ThrunModel& model)
+{
+  const double moved = increment.norm();
+  const double turn1 = moved > 0 ? std::atan2(increment.y(), increment.x()) : 0;
+  const double turn2 = mrpt::math::wrapToPi(increment.phi() - turn1);
+  const double sigma1 = model.alfa1_rot_rot * std::abs(turn1) + model.alfa2_rot_trans * moved;
+  const double sigma2 = model.alfa1_rot_rot * std::abs(turn2) + model.alfa2_rot_trans * moved;
+  const double sigmaMove =
+      model.alfa3_trans_trans * moved + model.alfa4_trans_rot * (std::abs(turn1) + std::abs(turn2));
+  Eigen::Matrix3d J;  // of (x, y, phi) by (turn1, move, turn2), each in its sigma
+  J.col(0) = sigma1 * Eigen::Vector3d(-increment.y(), increment.x(), 1);
+  J.col(1) = sigmaMove * Eigen::Vector3d(std::cos(turn1), std::sin(turn1), 0);
+  J.col(2) = sigma2 * Eigen::Vector3d(0, 0, 1);
+  const double atLeast = model.additional_std_XY, turnAtLeast = model.additional_std_phi;
+  const Eigen::Vector3d more(atLeast * atLeast, atLeast * atLeast, turnAtLeast * turnAtLeast);
+  const Eigen::Matrix3d added = more.asDiagonal();
+  return mrpt::math::CMatrixDouble33(Eigen::Matrix3d(J * J.transpose() + added));
+}
+
+CPose3DPDFGaussian incrementOf(const mrpt::obs::CActionRobotMovement2D& move)
+{
+  using Move = mrpt::obs::CActionRobotMovement2D;
+  CPose3DPDFGaussian increment;
+  const auto& model = move.motionModelConfiguration;
+  if (move.estimationMethod == Move::emOdometry && model.modelSelection == Move::mmThrun)
   {
-    increment.copyFrom(*move->poseChange);
-    return increment;
+    const mrpt::poses::CPose2D& read = move.rawOdometryIncrementReading;
+    increment.copyFrom(
+        mrpt::poses::CPosePDFGaussian(read, thrunCovariance(read, model.thrunModel)));
   }
-  return std::nullopt;
+  else
+    increment.copyFrom(*move.poseChange);
+  return increment;
+}
+
+/** The best one: three dimensions before two, and matched scans before wheels. */
+std::optional<Movement> movementIn(const mrpt::obs::CActionCollection& actions)
+{
+  using mrpt::obs::CActionRobotMovement2D;
+  const CActionRobotMovement2D* planar = nullptr;
+  for (const auto& action : actions)
+  {
+    if (const auto* move =
+            dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(action.get_ptr().get()))
+      return Movement{"CActionRobotMovement3D", move->poseChange};
+    const auto* move = dynamic_cast<const CActionRobotMovement2D*>(action.get_ptr().get());
+    const bool isBetter =
+        move && move->estimationMethod == CActionRobotMovement2D::emScan2DMatching;
+    if (move && (!planar || isBetter)) planar = move;
+  }
+  if (!planar) return std::nullopt;
+  return Movement{"CActionRobotMovement2D", incrementOf(*planar)};
 }
 
 double secondsOf(const mrpt::obs::CObservation& observation)
@@ -46,6 +100,7 @@ double secondsOf(const mrpt::obs::CObservation& observation)
 
 bool OdometryReader::accept(const std::string& kind)
 {
+  if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end()) kinds_.push_back(kind);
   if (kind_.empty()) kind_ = kind;
   if (kind_ == kind) return true;
   ignoredKind_ = kind;
@@ -76,12 +131,13 @@ bool OdometryReader::read(const mrpt::obs::CObservation& observation)
 
 void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
 {
-  const auto increment = movementIn(actions);
-  if (!increment || !accept("CActionRobotMovement")) return;
+  const auto movement = movementIn(actions);
+  // Increments of either class go on from where those before came to
+  if (!movement || !(countsActions_ || accept(movement->kind))) return;
   countsActions_ = true;
-  if (!isFinite(increment->mean))
+  if (!isFinite(movement->increment.mean))
     throw std::runtime_error("the movement has numbers that are not finite");
-  sumOfActions_ += withUsableCovariance(*increment);
+  sumOfActions_ += withUsableCovariance(movement->increment);
 }
 
 void OdometryReader::forgetBefore(double time)

@@ -6,16 +6,21 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "PoseTrack.h"
 
 namespace quadmap
 {
-/** Turns whatever a rawlog has for odometry into poses of the robot. The first kind that appears is
- * used throughout: poses of two sources live in different frames. */
+/** Turns whatever a rawlog has for odometry into poses of the robot. One kind is used throughout:
+ * poses of two sources live in different frames. */
 class OdometryReader
 {
  public:
+  /** \param kind The one to use; empty: the first that appears. */
+  explicit OdometryReader(std::string kind) : kind_(std::move(kind)) {}
+
   /** \return False when the observation has nothing to do with poses.
    *  \exception std::runtime_error If the pose is not finite or time goes backwards. */
   bool read(const mrpt::obs::CObservation& observation);
@@ -24,6 +29,7 @@ class OdometryReader
   void read(const mrpt::obs::CActionCollection& actions);
 
   const std::string& kind() const { return kind_; }  //!< Class and label; empty while unknown
+  const std::vector<std::string>& kinds() const { return kinds_; }  //!< Seen, in their order
   bool countsActions() const { return countsActions_; }
   const std::string& ignoredKind() const { return ignoredKind_; }  //!< A second source, if any
 
@@ -36,6 +42,7 @@ class OdometryReader
   bool accept(const std::string& kind);
 
   std::string kind_, ignoredKind_;
+  std::vector<std::string> kinds_;
   bool countsActions_ = false;
   mrpt::poses::CPose3DPDFGaussian sumOfActions_;
   PoseTrack track_, truth_;

@@ -48,6 +48,7 @@ RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOpti
     imagesFolder(findImagesFolder(file)),
     options(std::move(o)),
     boxes(options.maxBoxDelay),
+    odometry(options.odometryKind),
     log_(owner)
 {
   check(options);
@@ -136,6 +137,7 @@ void RawlogSource::Impl::addPoses(PendingFrame& pending)
   {
     pending.frame.T_odom_robot = pose->mean;
     pending.frame.odometryCovariance = pose->cov;
+    pending.frame.odometryKind = odometry.kind();
   }
   if (const auto truth = odometry.truth().at(time, options.maxOdometryGap))
     pending.frame.T_world_robot = truth->mean;
@@ -239,6 +241,8 @@ std::size_t RawlogSource::framesRead() const { return impl_->framesRead; }
 bool RawlogSource::hasBoxes() const { return impl_->boxes.seenAny() || impl_->sawPixelLabels; }
 
 std::string RawlogSource::odometryKind() const { return impl_->odometry.kind(); }
+
+std::vector<std::string> RawlogSource::odometryKinds() const { return impl_->odometry.kinds(); }
 
 std::string RawlogSource::contentSummary() const { return impl_->summary(); }
 

@@ -29,11 +29,12 @@ std::optional<GraphOdometry> graphOf(const SlamOptions& options)
   return GraphOdometry(options.odometryGraph);
 }
 
-/** What a user is told of poses that are not made here. */
-std::string nameOfGivenPoses(const SlamOptions& options)
+/** What a user is told of poses that are not made here. \param kind Of the rawlog's odometry. */
+std::string nameOfGivenPoses(const SlamOptions& options, const std::string& kind)
 {
   if (options.odometry == PoseSource::Graph) return "the pose graph " + options.odometryGraph;
-  return options.odometry == PoseSource::GroundTruth ? "ground truth" : "the rawlog's odometry";
+  if (options.odometry == PoseSource::GroundTruth) return "ground truth";
+  return "the rawlog's odometry" + (kind.empty() ? "" : ", " + kind);
 }
 
 }  // namespace
@@ -113,7 +114,7 @@ void ObjectSlam::tellOdometry(const RgbdFrame& frame)
         result_.odometry.upFromFloor ? "from the floor it sees"
                                      : "as the sensor is mounted: no floor seen at first");
   else
-    MRPT_LOG_INFO_STREAM("poses: " << nameOfGivenPoses(configuration_.slam));
+    MRPT_LOG_INFO_STREAM("poses: " << nameOfGivenPoses(configuration_.slam, frame.odometryKind));
 }
 
 void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_robot)

@@ -47,10 +47,10 @@ class RawlogRun
  public:
   explicit RawlogRun(const RawlogRunRequest& request) :
       request_(request),
-      source_(request.rawlog, sourceOptions(request)),
+      survey_(surveyOdometry(request.rawlog, sourceOptions(request), request.configuration)),
+      source_(request.rawlog, sourceOptions(request, survey_.odometryKind)),
       directory_(request.outputDirectory),
       spool_(request.outputDirectory),
-      survey_(surveyOdometry(request.rawlog, sourceOptions(request), request.configuration)),
       slam_(
           configurationOf(request, survey_),
           LabelTable::installed(),
@@ -89,9 +89,11 @@ class RawlogRun
   }
 
  private:
-  static RawlogSourceOptions sourceOptions(const RawlogRunRequest& request)
+  static RawlogSourceOptions sourceOptions(
+      const RawlogRunRequest& request, const std::string& odometryKind = {})
   {
     RawlogSourceOptions options;
+    options.odometryKind = odometryKind;
     options.objectsFile = request.objectsFile;
     options.sensorLabel = request.sensorLabel;
     options.keepGoing = request.keepGoing;
@@ -219,10 +221,10 @@ class RawlogRun
   }
 
   const RawlogRunRequest& request_;
+  OdometrySurvey survey_;
   RawlogSource source_;
   OutputDirectory directory_;
   KeyframeSpool spool_;
-  OdometrySurvey survey_;
   ObjectSlam slam_;
 };
 

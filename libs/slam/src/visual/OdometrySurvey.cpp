@@ -59,6 +59,51 @@ class UpVotes
   std::vector<Eigen::Vector3d> ups_;
 };
 
+/** How much a kind of odometry says of a pose; the higher, the more. */
+int rankOf(const std::string& kind)
+{
+  const std::vector<std::string> ascending = {
+      "CObservationOdometry", "CActionRobotMovement2D", "CActionRobotMovement3D",
+      "CObservationRobotPose"};
+  const auto found = std::find(ascending.begin(), ascending.end(), kind.substr(0, kind.find(' ')));
+  return static_cast<int>(found - ascending.begin());
+}
+
+/** Of the first images, those that have a pose. */
+std::size_t posedImages(const std::string& rawlog, const RawlogSourceOptions& options)
+{
+  RawlogSource source(rawlog, options);
+  source.logging_enable_console_output = false;
+  std::size_t posed = 0;
+  for (std::size_t i = 0; i < kFrames; ++i)
+  {
+    const auto frame = source.next();
+    if (!frame) break;
+    posed += frame->T_odom_robot ? 1 : 0;
+  }
+  return posed;
+}
+
+/** Of several kinds the best; those that tie: the first. Empty when there are not several, or none
+ * that is of use. */
+std::string bestKind(
+    const std::vector<std::string>& kinds, const std::string& rawlog, RawlogSourceOptions options)
+{
+  if (kinds.size() < 2) return {};
+  std::vector<std::size_t> posed;
+  for (const auto& kind : kinds)
+  {
+    options.odometryKind = kind;
+    posed.push_back(posedImages(rawlog, options));
+  }
+  const std::size_t most = *std::max_element(posed.begin(), posed.end());
+  std::string best;
+  if (most == 0) return best;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (2 * posed[i] >= most && (best.empty() || rankOf(kinds[i]) > rankOf(best))) best = kinds[i];
+  return best;
+}
+
 }  // namespace
 
 std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions)
@@ -88,25 +133,30 @@ OdometrySurvey surveyOdometry(
     const std::string& rawlog, RawlogSourceOptions options, const SlamConfiguration& configuration)
 {
   const PoseSource wanted = configuration.slam.odometry;
-  OdometrySurvey survey{wanted, {}};
-  if (wanted != PoseSource::Auto && wanted != PoseSource::Visual) return survey;
+  OdometrySurvey survey{wanted, {}, {}};
+  const bool usesOdometry = wanted == PoseSource::Auto || wanted == PoseSource::Rawlog;
+  if (!usesOdometry && wanted != PoseSource::Visual) return survey;
   options.keepGoing = true;
   UpVotes votes(configuration);
   try
   {
     RawlogSource source(rawlog, options);
     source.logging_enable_console_output = false;
-    bool isOneMoment = true;
+    bool isOneMoment = true, hasOdometry = false;
     std::optional<RgbdFrame> first;
     for (std::size_t i = 0; i < kFrames; ++i)
     {
       const auto frame = source.next();
       if (!frame) break;
-      if (wanted == PoseSource::Auto && frame->T_odom_robot) return survey;
+      hasOdometry = hasOdometry || (usesOdometry && frame->T_odom_robot);
+      if (hasOdometry) continue;  // the rest only tells of further kinds
       if (!first) first = frame;
       isOneMoment = isOneMoment && std::abs(frame->time() - first->time()) <= kMoment;
-      votes.add(*frame);
+      if (wanted != PoseSource::Rawlog) votes.add(*frame);
     }
+    if (usesOdometry) survey.odometryKind = bestKind(source.odometryKinds(), rawlog, options);
+    hasOdometry = hasOdometry || !survey.odometryKind.empty();
+    if (wanted == PoseSource::Rawlog || hasOdometry) return survey;
     if (wanted == PoseSource::Auto && isOneMoment) return survey;
     survey.source = PoseSource::Visual;
   }

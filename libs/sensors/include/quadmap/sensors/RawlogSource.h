@@ -24,6 +24,9 @@ struct RawlogSourceOptions
   bool keepGoing = false;       //!< Drop broken records (and count them) instead of throwing
   double maxBoxDelay = 0.005;   //!< Boxes belong to a scan within this time [s], >= 0
   double maxOdometryGap = 1.0;  //!< Poses are interpolated over at most this time [s], > 0
+  /** The odometry to use when there is more than one, as RawlogSource::odometryKind() names it;
+   *  empty: the first that appears. */
+  std::string odometryKind;
 };
 
 /** Something in the input that could not be used. */
@@ -43,7 +46,8 @@ struct InputProblem
  * Boxes come from the sidecar; without one (or with one that has no boxes) from the rawlog itself.
  * A scan that has none there gets those of its pixelLabels, when it has some. Odometry of any kind
  * (CActionRobotMovement2D/3D, CObservationOdometry, CObservationRobotPose) is interpolated at the
- * frame's time; CObservationRobotPose labelled "ground_truth" is the true pose, not odometry. */
+ * frame's time; CObservationRobotPose labelled "ground_truth" is the true pose, not odometry. What
+ * a CObservationRobotPose states is the robot's pose, as MRPT defines it, wherever its sensor is. */
 class RawlogSource : public mrpt::system::COutputLogger
 {
  public:
@@ -63,6 +67,7 @@ class RawlogSource : public mrpt::system::COutputLogger
   std::size_t framesRead() const;
   bool hasBoxes() const;             //!< Boxes (or pixelLabels, if wanted) were seen somewhere
   std::string odometryKind() const;  //!< "CObservationRobotPose odometry", ...; "" while unseen
+  std::vector<std::string> odometryKinds() const;  //!< All that were seen, used or not
 
   /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
    */

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "quadmap/obs/CObservationObjects.h"
 
@@ -19,6 +20,7 @@ struct RgbdFrame
   CObservationObjects::Ptr objects;     //!< Boxes of the same label and time; null: nobody looked
   bool objectsFromPixelLabels = false;  //!< They were made of the scan's pixelLabels
   std::optional<mrpt::poses::CPose3D> T_odom_robot;  //!< From the rawlog's odometry, any kind
+  std::string odometryKind;  //!< Of T_odom_robot: "CObservationOdometry wheels"
   /** Of T_odom_robot, (x, y, z, yaw, pitch, roll), as far as the odometry says so: zero where it
    *  does not. What actions say is added up from their first on. */
   std::optional<mrpt::math::CMatrixDouble66> odometryCovariance;
