@@ -12,10 +12,8 @@ namespace quadmap
 namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
-constexpr std::size_t kTop = 4;
+constexpr std::size_t kTop = 4, kBottom = 5;
 constexpr double kAway = 0.25;  // cosine from which a side is turned away
-
-Eigen::Index axisOf(std::size_t face) { return static_cast<Eigen::Index>(face / 2); }
 
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
@@ -44,22 +42,34 @@ FaceEstimator::FaceEstimator(
   R_obj_optical_ =
       Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * level.R_level_optical;
   const Eigen::Matrix3d R_obj_level = R_obj_optical_ * level.R_level_optical.transpose();
-  points_.reserve(level.points.size());
-  normals_.reserve(level.points.size());
-  for (std::size_t i = 0; i < level.points.size(); ++i)
+  for (const std::size_t axis : {0, 1, 2})
   {
-    points_.push_back(R_obj_level * level.points[i]);
-    normals_.push_back(
-        level.normals[i] ? Eigen::Vector3d(R_obj_level * *level.normals[i])
-                         : Eigen::Vector3d::Zero());
-    centroid_ += points_.back();
+    points_[axis].resize(size());
+    normals_[axis].resize(size());
   }
-  centroid_ /= static_cast<double>(points_.size());
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const Eigen::Vector3d p = R_obj_level * level.points[i];
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    if (level.normals[i]) n = R_obj_level * *level.normals[i];
+    for (const std::size_t axis : {0, 1, 2})
+    {
+      points_[axis][i] = p[static_cast<Eigen::Index>(axis)];
+      normals_[axis][i] = n[static_cast<Eigen::Index>(axis)];
+    }
+    centroid_ += p;
+  }
+  centroid_ /= static_cast<double>(size());
+  for (const std::size_t axis : {0, 1, 2})
+  {
+    extremes_[2 * axis] = quantile(points_[axis], 1.0 - kTailShare);
+    extremes_[2 * axis + 1] = -quantile(points_[axis], kTailShare);
+  }
 }
 
 Eigen::Vector3d FaceEstimator::normalOf(std::size_t face) const
 {
-  return (face % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(axisOf(face));
+  return (face % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(face / 2));
 }
 
 double FaceEstimator::facingAway(std::size_t face) const
@@ -67,12 +77,7 @@ double FaceEstimator::facingAway(std::size_t face) const
   return normalOf(face).dot(centroid_.normalized());
 }
 
-double FaceEstimator::lowestSeen() const
-{
-  std::vector<double> z;
-  for (const auto& p : points_) z.push_back(p.z());
-  return quantile(std::move(z), kTailShare);
-}
+double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
 FaceEstimate FaceEstimator::face(std::size_t face) const
 {
@@ -91,21 +96,17 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   constexpr double kMinCosine = 0.85;
   // What lies deeper is another part (the apron below a table's edge).
   const double shellDepth = std::max(0.03, 4.0 * options_.depthSigma(range_));  // [m]
-  const Eigen::Vector3d n = normalOf(face);
-  std::vector<double> all, shell;
-  all.reserve(points_.size());
-  for (const auto& p : points_) all.push_back(n.dot(p));
-  const double extreme = quantile(all, 1.0 - kTailShare);
-  const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
+  const auto& across = acrossOf(face);
+  std::vector<double> shell;
   double shift = 0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (n.dot(normals_[i]) > kMinCosine && all[i] > extreme - shellDepth)
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cosine(face, i) > kMinCosine && along(face, i) > extreme(face) - shellDepth)
     {
-      shell.push_back(all[i]);
-      shift += points_[i][across];
+      shell.push_back(along(face, i));
+      shift += across[i];
     }
   const double count = static_cast<double>(shell.size());
-  if (count < std::max(20.0, 0.03 * static_cast<double>(all.size()))) return {};
+  if (count < std::max(20.0, 0.03 * static_cast<double>(size()))) return {};
   FaceEstimate out;
   out.source = FaceSource::Surface;
   out.shift = shift / count;
@@ -119,7 +120,7 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   constexpr double kMinOut = 0.01, kMinShare = 0.01;  // [m], of the surface
   const double noise = std::max(madSigma(shell), options_.depthSigma(range_));
   std::vector<double> beyond;
-  for (const double x : all)
+  for (const double x : points_[face / 2])
     if (x > out.position + std::max(kMinOut, 3.5 * noise)) beyond.push_back(x);
   if (static_cast<double>(beyond.size()) > std::max(6.0, kMinShare * count))
   {
@@ -132,11 +133,10 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
 std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, double radius) const
 {
   constexpr double kMinCosine = 0.85, kMinPoints = 20;
-  const Eigen::Vector3d n = normalOf(face);
   std::vector<double> outermost;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (const double cosine = n.dot(normals_[i]); cosine > kMinCosine)
-      outermost.push_back(n.dot(points_[i]) + radius * (1.0 - cosine));
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cosine(face, i) > kMinCosine)
+      outermost.push_back(along(face, i) + radius * (1.0 - cosine(face, i)));
   if (static_cast<double>(outermost.size()) < kMinPoints) return {};
   FaceEstimate out;
   out.source = FaceSource::Surface;
@@ -165,12 +165,11 @@ FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
   const int reach = cloud_.columns() + cloud_.rows();
   constexpr double kNothing = -std::numeric_limits<double>::infinity();
   std::vector<Line> lines(static_cast<std::size_t>(2 * reach), Line{0, kNothing});
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  for (std::size_t i = 0; i < size(); ++i)
   {
     const double number = across.x() * cells_[i].c + across.y() * cells_[i].r + reach;  // > 0
     Line& line = lines[static_cast<std::size_t>(number)];
-    const double along = n.dot(points_[i]);
-    if (along > line.along) line = {i, along};
+    if (along(face, i) > line.along) line = {i, along(face, i)};
   }
   for (const auto& line : lines)
     if (line.along > kNothing) out.lines.push_back(line);
@@ -203,7 +202,7 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   FaceEstimate out;
   if (outline.lines.empty())  // right behind the camera's plane
   {
-    for (const auto& p : points_) out.position = std::max(out.position, normalOf(face).dot(p));
+    for (std::size_t i = 0; i < size(); ++i) out.position = std::max(out.position, along(face, i));
     out.worth = {FaceKind::AtLeast, outlineSigma(kMaxMetresPerCell, range_, options_)};
     return out;
   }
@@ -216,24 +215,20 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   const double perCell = std::min(outline.metresPerCell, kMaxMetresPerCell);
   out.position =
       outermost + outlineShift(away, perCell) - outlineNoise(away, options_.depthSigma(range_));
-  const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
+  const auto& across = acrossOf(face);
   double count = 0;
   for (const auto& line : outline.lines)
   {
     if (line.along < outermost - kRim) break;
-    out.shift += points_[line.last][across];
+    out.shift += across[line.last];
     ++count;
   }
   out.shift /= count;
   const bool isOpen = cutShare(outline, face, outermost - kRim) > kMaxCut ||
                       (away > kAway && !leadsUp(face, outermost));
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
-  if (isOpen)  // a slanted cut leaves few lines their ends; nothing is known beyond them
-  {
-    std::vector<double> all;
-    for (const auto& p : points_) all.push_back(normalOf(face).dot(p));
-    out.position = std::max(outermost, quantile(std::move(all), 1.0 - kTailShare));
-  }
+  // A slanted cut leaves few lines their ends; nothing is known beyond them.
+  if (isOpen) out.position = std::max(outermost, extreme(face));
   out.worth.sigma = face == kTop                        ? topEdgeSigma(perCell, range_, options_)
                     : out.source == FaceSource::FarEdge ? farEdgeSigma(perCell, range_, options_)
                                                         : outlineSigma(perCell, range_, options_);
@@ -246,24 +241,20 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
 {
   constexpr double kRim = 0.03, kMinProfile = 0.3, kMinDepth = 0.05;  // [m], share, [m]
   constexpr double kMinBreadth = 0.35;                                // of the width across
-  const Eigen::Vector3d n = normalOf(face);
-  const Eigen::Index across = axisOf(face) == 0 ? 1 : 0;
   int profile = 0, rim = 0;
-  std::vector<double> depth, width;
-  depth.reserve(points_.size());
-  width.reserve(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  std::vector<double> depth;
+  depth.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i)
   {
-    width.push_back(points_[i][across]);
-    if (normals_[i].isZero()) continue;
-    const bool inProfile = std::abs(n.dot(normals_[i])) < 0.5;
-    if (inProfile) depth.push_back(n.dot(points_[i]));
-    if (n.dot(points_[i]) < position - kRim) continue;
+    if (normals_[0][i] == 0 && normals_[1][i] == 0 && normals_[2][i] == 0) continue;
+    const bool inProfile = std::abs(cosine(face, i)) < 0.5;
+    if (inProfile) depth.push_back(along(face, i));
+    if (along(face, i) < position - kRim) continue;
     ++rim;
     profile += inProfile ? 1 : 0;
   }
   return profile > kMinProfile * rim &&
-         spread(std::move(depth)) > std::max(kMinDepth, kMinBreadth * spread(std::move(width)));
+         spread(std::move(depth)) > std::max(kMinDepth, kMinBreadth * spread(acrossOf(face)));
 }
 
 /** Does the object go on beyond a cell at its rim: at the image border, behind something nearer, or

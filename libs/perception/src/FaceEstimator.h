@@ -73,6 +73,20 @@ class FaceEstimator
   };
 
   Eigen::Vector3d normalOf(std::size_t face) const;  // in the object's frame
+  /** Coordinate of a point, cosine of its normal, along a face's outward normal. */
+  double along(std::size_t face, std::size_t point) const
+  {
+    return face % 2 == 0 ? points_[face / 2][point] : -points_[face / 2][point];
+  }
+  double cosine(std::size_t face, std::size_t point) const
+  {
+    return face % 2 == 0 ? normals_[face / 2][point] : -normals_[face / 2][point];
+  }
+  /** What all but the stray points lie within, along a face's outward normal [m]. */
+  double extreme(std::size_t face) const { return extremes_[face]; }
+  /** The coordinates along a face, horizontally (along the top: to the front). */
+  const std::vector<double>& acrossOf(std::size_t face) const { return points_[face < 2 ? 1 : 0]; }
+  std::size_t size() const { return cells_.size(); }
   Outline outlineTowards(std::size_t face) const;
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
@@ -88,7 +102,9 @@ class FaceEstimator
   Eigen::Matrix3d R_obj_optical_;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   std::vector<ObjectCloud::Cell> cells_;
-  std::vector<Eigen::Vector3d> points_, normals_;
+  /** Of each axis of the cuboid the coordinates along it; normals are 0 where there are none. */
+  std::array<std::vector<double>, 3> points_, normals_;
+  std::array<double, kFaces> extremes_;
 };
 
 }  // namespace quadmap

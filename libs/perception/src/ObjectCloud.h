@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,29 @@ class CellMask
   explicit CellMask(const DepthCloud::CellRange& range);
 
   bool contains(int c, int r) const { return range_.contains(c, r) && own_[index(c, r)] != 0; }
+  /** Does it contain the eight cells around one, at a distance of `step`? */
+  bool surrounds(int c, int r, int step) const
+  {
+    if (c - step < range_.c0 || r - step < range_.r0 || c + step >= range_.c1 ||
+        r + step >= range_.r1)
+      return false;
+    const std::size_t across = static_cast<std::size_t>(step);
+    const std::size_t down = across * static_cast<std::size_t>(range_.c1 - range_.c0);
+    const char* own = &own_[index(c, r)];
+    const char *above = own - down, *below = own + down;
+    return above[0] && below[0] && *(own - across) && own[across] && *(above - across) &&
+           above[across] && *(below - across) && below[across];
+  }
   /** Cells outside the range are left out. */
   void insert(int c, int r)
   {
     if (range_.contains(c, r)) own_[index(c, r)] = 1;
+  }
+  /** A square within the range. \param c, r Its first cell. */
+  void insertSquare(int c, int r, int size)
+  {
+    for (int i = 0; i < size; ++i)
+      std::fill_n(own_.begin() + static_cast<std::ptrdiff_t>(index(c, r + i)), size, char(1));
   }
   template <typename Visit>
   void forEach(const Visit& visit) const  //!< Calls visit(c, r) for all cells.

@@ -5,19 +5,6 @@
 
 namespace quadmap
 {
-namespace
-{
-/** Calls `visit(c, r)` for the cells of a square around one, or only from there to the right and
- * down. */
-template <typename Visit>
-void forSquare(const ObjectCloud::Cell& from, int before, int after, int step, const Visit& visit)
-{
-  for (int r = from.r - before; r <= from.r + after; r += step)
-    for (int c = from.c - before; c <= from.c + after; c += step) visit(c, r);
-}
-
-}  // namespace
-
 CellMask::CellMask(const DepthCloud::CellRange& range) : range_(range)
 {
   own_.assign(static_cast<std::size_t>(range.cells()), 0);
@@ -39,33 +26,30 @@ void addRim(
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto cell = object.cells[i];
-    bool isInside = true;
-    forSquare(cell, step, step, step, [&](int c, int r) { isInside &= known.contains(c, r); });
-    if (isInside)
+    if (known.surrounds(cell.c, cell.r, step))
     {
-      forSquare(cell, 0, step - 1, 1, [&](int c, int r) { object.mask.insert(c, r); });
+      object.mask.insertSquare(cell.c, cell.r, step);
       continue;
     }
     const double z = object.points[i].z();
-    forSquare(
-        cell, step - 1, step - 1, 1,
-        [&](int c, int r)
+    for (int r = cell.r - step + 1; r < cell.r + step; ++r)
+      for (int c = cell.c - step + 1; c < cell.c + step; ++c)
+      {
+        if (!candidates.range.contains(c, r) || object.mask.contains(c, r) ||
+            rejected.contains(c, r))
+          continue;
+        const auto p = candidates.rule.candidate(c, r);
+        if (!p || !isFree({c, r}))
         {
-          if (!candidates.range.contains(c, r) || object.mask.contains(c, r) ||
-              rejected.contains(c, r))
-            return;
-          const auto p = candidates.rule.candidate(c, r);
-          if (!p || !isFree({c, r}))
-          {
-            rejected.insert(c, r);
-            return;
-          }
-          if (std::abs(p->z() - z) > gap) return;
-          object.mask.insert(c, r);
-          if ((c + r) % step != 0) return;
-          object.cells.push_back({c, r});
-          object.points.push_back(*p);
-        });
+          rejected.insert(c, r);
+          continue;
+        }
+        if (std::abs(p->z() - z) > gap) continue;
+        object.mask.insert(c, r);
+        if ((c + r) % step != 0) continue;
+        object.cells.push_back({c, r});
+        object.points.push_back(*p);
+      }
   }
 }
 

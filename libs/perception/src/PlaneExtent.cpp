@@ -78,14 +78,14 @@ PlaneExtent::Rim PlaneExtent::nearestRim(const Eigen::Vector2d& q) const
 {
   Rim out;
   out.isInside = corners_.size() > 2;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();  // squared [m^2]
   for (std::size_t i = 0; i < corners_.size(); ++i)
   {
     const Eigen::Vector2d &a = corners_[i], &b = corners_[(i + 1) % corners_.size()];
     const Eigen::Vector2d step = nearestOnSegment(q, a, b) - q;
-    if (step.norm() < nearest)
+    if (const double squared = step.squaredNorm(); squared < nearest)
     {
-      nearest = step.norm();
+      nearest = squared;
       out.step = step;
     }
     out.isInside = out.isInside && cross(b - a, q - a) >= 0;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+
+#include "DisjointSets.h"
 
 namespace quadmap
 {
@@ -23,26 +24,30 @@ class DepthScale
     from_ = kNearest + std::sqrt((gap_ - floor) / growth);
     width_ = 1.0 / std::sqrt(floor * growth);
     slope_ = std::sqrt(growth / floor);
+    offset_ = from_ / gap_ - width_ * std::atan(slope_ * (from_ - kNearest));
   }
 
   double operator()(double z) const
   {
-    if (z < from_) return z / gap_;
-    return from_ / gap_ +
-           width_ * (std::atan(slope_ * (z - kNearest)) - std::atan(slope_ * (from_ - kNearest)));
+    return z < from_ ? z / gap_ : offset_ + width_ * std::atan(slope_ * (z - kNearest));
   }
 
  private:
   static constexpr double kNearest = 0.4;  // where PerceptionOptions::depthSigma begins to grow [m]
   double gap_;
   double from_ = 1e9;  // depth from which the noise decides [m]
-  double width_ = 0, slope_ = 0;
+  double width_ = 0, slope_ = 0, offset_ = 0;
 };
 
-std::int64_t keyOf(const Eigen::Vector3i& cell)
+/** A cell of the grid: its three indices, 21 bits each. */
+using Key = std::int64_t;
+constexpr Key kAcross = Key(1) << 42, kDown = Key(1) << 21, kAway = 1;  // to the next cell
+
+Key keyAt(double x, double y, double z)
 {
-  constexpr std::int64_t kOffset = 1 << 20;
-  return ((cell.x() + kOffset) << 42) | ((cell.y() + kOffset) << 21) | (cell.z() + kOffset);
+  constexpr double kOffset = 1 << 20;  // nothing is negative: to cut off is to round down
+  return static_cast<Key>(x + kOffset) * kAcross + static_cast<Key>(y + kOffset) * kDown +
+         static_cast<Key>(z + kOffset);
 }
 
 /** The occupied cells of the grid, each with a number, in an open hash table: most of the time goes
@@ -56,49 +61,40 @@ class Grid
     slots_.resize(std::size_t(1) << bits_);
   }
 
-  std::size_t size() const { return cells_.size(); }
-
-  int numberOf(const Eigen::Vector3i& cell)
+  int numberOf(Key key)
   {
-    const std::int64_t key = keyOf(cell);
     Slot& slot = slots_[slotOf(key)];
     if (slot.number < 0)
     {
-      slot = {key, static_cast<int>(cells_.size())};
-      cells_.push_back(cell);
+      slot = {key, static_cast<int>(keys_.size())};
+      keys_.push_back(key);
     }
     return slot.number;
   }
 
-  /** Gives `label` to every cell without one that hangs together with cell `seed`. */
-  void flood(int seed, int label, std::vector<int>& component) const
+  /** Of each cell the number of the component that it hangs together with. */
+  DisjointSets::Numbers components() const
   {
-    std::vector<int> stack = {seed};
-    component[static_cast<std::size_t>(seed)] = label;
-    while (!stack.empty())
-    {
-      const Eigen::Vector3i cell = cells_[static_cast<std::size_t>(stack.back())];
-      stack.pop_back();
-      for (int i = 0; i < 27; ++i)
+    DisjointSets out(keys_.size());
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+      for (int n = 0; n < 13; ++n)  // of the 26 around it; the others look from their side
       {
-        const std::int64_t key = keyOf(cell + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-        const int number = slots_[slotOf(key)].number;
-        if (number < 0 || component[static_cast<std::size_t>(number)] >= 0) continue;
-        component[static_cast<std::size_t>(number)] = label;
-        stack.push_back(number);
+        const Key step = (n % 3 - 1) * kAway + (n / 3 % 3 - 1) * kDown + (n / 9 - 1) * kAcross;
+        const int other = slots_[slotOf(keys_[i] + step)].number;
+        if (other >= 0) out.join(static_cast<int>(i), other);
       }
-    }
+    return out.numbers();
   }
 
  private:
   struct Slot
   {
-    std::int64_t key = 0;
+    Key key = 0;
     int number = -1;  // free
   };
 
   /** Where a key is, or the free slot where it belongs. */
-  std::size_t slotOf(std::int64_t key) const
+  std::size_t slotOf(Key key) const
   {
     constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15u;  // 2^64 over the golden ratio
     std::size_t slot = (static_cast<std::uint64_t>(key) * kGolden) >> (64 - bits_);
@@ -109,7 +105,7 @@ class Grid
 
   unsigned bits_ = 4;  // of the number of slots
   std::vector<Slot> slots_;
-  std::vector<Eigen::Vector3i> cells_;
+  std::vector<Key> keys_;
 };
 
 }  // namespace
@@ -120,44 +116,27 @@ PointClusters::PointClusters(
   const DepthScale depthScale(gap, options);
   Grid grid(points.size());
   labels_.reserve(points.size());
-  Eigen::Vector3i last(0, 0, 0);  // neighbours mostly share a cell
+  Key last = -1;  // neighbours mostly share a cell
   const double cellsPerMetre = 1.0 / gap;
   for (const auto& p : points)
   {
-    const Eigen::Vector3d position(p.x() * cellsPerMetre, p.y() * cellsPerMetre, depthScale(p.z()));
-    const Eigen::Vector3i cell = position.array().floor().cast<int>();
-    labels_.push_back(!labels_.empty() && cell == last ? labels_.back() : grid.numberOf(cell));
+    const Key cell = keyAt(p.x() * cellsPerMetre, p.y() * cellsPerMetre, depthScale(p.z()));
+    labels_.push_back(cell == last ? labels_.back() : grid.numberOf(cell));
     last = cell;
   }
-  std::vector<int> component(grid.size(), -1);
-  for (std::size_t seed = 0; seed < component.size(); ++seed)
-    if (component[seed] < 0) grid.flood(static_cast<int>(seed), count_++, component);
-  for (int& label : labels_) label = component[static_cast<std::size_t>(label)];
+  const auto components = grid.components();
+  count_ = components.count;
+  for (int& label : labels_) label = components.of[static_cast<std::size_t>(label)];
 }
 
 void PointClusters::join(const std::vector<std::pair<int, int>>& pairs)
 {
-  // The cluster that each one was joined to: always one with a smaller number.
-  std::vector<int> parent(static_cast<std::size_t>(count_));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto rootOf = [&](int point)
-  {
-    int label = labels_[static_cast<std::size_t>(point)];
-    while (parent[static_cast<std::size_t>(label)] != label)
-      label = parent[static_cast<std::size_t>(label)];
-    return label;
-  };
-  for (const auto& [a, b] : pairs)
-  {
-    const int i = rootOf(a), j = rootOf(b);
-    parent[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
-  }
-  std::vector<int> number(parent.size());
-  count_ = 0;
-  for (std::size_t i = 0; i < parent.size(); ++i)
-    number[i] =
-        parent[i] == static_cast<int>(i) ? count_++ : number[static_cast<std::size_t>(parent[i])];
-  for (int& label : labels_) label = number[static_cast<std::size_t>(label)];
+  DisjointSets clusters(static_cast<std::size_t>(count_));
+  const auto labelOf = [&](int point) { return labels_[static_cast<std::size_t>(point)]; };
+  for (const auto& [a, b] : pairs) clusters.join(labelOf(a), labelOf(b));
+  const auto joined = clusters.numbers();
+  count_ = joined.count;
+  for (int& label : labels_) label = joined.of[static_cast<std::size_t>(label)];
 }
 
 }  // namespace quadmap

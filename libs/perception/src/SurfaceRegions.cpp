@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
+
+#include "DisjointSets.h"
 
 namespace quadmap
 {
@@ -24,29 +25,6 @@ bool isSamePlane(const SurfaceCell& cell, const SurfaceCell& before)
          cell.normal.dot(before.normal) > kMinCosine &&
          (cell.point - before.point).squaredNorm() < kMaxStep * kMaxStep * z2 * z2;
 }
-
-/** Sets that are joined one by one. */
-class DisjointSets
-{
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count)
-  {
-    std::iota(parent_.begin(), parent_.end(), std::size_t(0));
-  }
-  std::size_t rootOf(std::size_t i)
-  {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j)
-  {
-    const std::size_t a = rootOf(i), b = rootOf(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;  // never a later one; its own: a root
-};
 
 /** Least squares of the distances; nothing when the region is bent. */
 std::optional<SurfaceRegion> fitRegion(const SurfaceCells& cells, std::vector<std::size_t> indices)
@@ -76,26 +54,25 @@ std::vector<SurfaceRegion> surfaceRegions(const SurfaceCells& cells, std::size_t
   DisjointSets sets(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    if (i % width > 0 && isSamePlane(cells[i], cells[i - 1])) sets.join(i, i - 1);
-    if (i >= width && isSamePlane(cells[i], cells[i - width])) sets.join(i, i - width);
+    const int here = static_cast<int>(i);
+    if (i % width > 0 && isSamePlane(cells[i], cells[i - 1])) sets.join(here, here - 1);
+    if (i >= width && isSamePlane(cells[i], cells[i - width]))
+      sets.join(here, here - cells.columns());
   }
-  std::vector<std::size_t> count(cells.size(), 0);
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    if (cells[i].hasPlane()) ++count[sets.rootOf(i)];
+  const auto regions = sets.numbers();
+  std::vector<std::size_t> count(static_cast<std::size_t>(regions.count), 0);
+  for (const int region : regions.of) ++count[static_cast<std::size_t>(region)];
+  std::vector<std::size_t> largeOnes(count.size());  // index in `large`
   std::vector<std::vector<std::size_t>> large;
-  std::vector<int> number(cells.size(), -1);  // in `large`, of the root of a region
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    if (!cells[i].hasPlane()) continue;
-    const std::size_t root = sets.rootOf(i);  // never a later one
-    if (count[root] <= minCells) continue;
-    if (i == root)
+  for (std::size_t region = 0; region < count.size(); ++region)
+    if (count[region] > minCells)
     {
-      number[root] = static_cast<int>(large.size());
-      large.emplace_back().reserve(count[root]);
+      largeOnes[region] = large.size();
+      large.emplace_back().reserve(count[region]);
     }
-    large[static_cast<std::size_t>(number[root])].push_back(i);
-  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (const auto region = static_cast<std::size_t>(regions.of[i]); count[region] > minCells)
+      large[largeOnes[region]].push_back(i);
   std::vector<SurfaceRegion> out;
   for (auto& indices : large)
     if (auto region = fitRegion(cells, std::move(indices))) out.push_back(std::move(*region));
