@@ -79,26 +79,23 @@ std::optional<Eigen::Vector3f> DepthCloud::normal(int c, int r) const
   if (!inside(c - k, r - k) || !inside(c + k, r + k)) return {};
 
   const float tolerance = jumpTolerance(z) + 0.04f;
+  const float* here = &depth_[index(c, r)];
+  const float *rayX = &rayX_[static_cast<std::size_t>(c)], *rayY = &rayY_[std::size_t(r)];
+  // Differences between points to the left and right, above and below, in three lines each way.
   Eigen::Vector3f horizontal = Eigen::Vector3f::Zero(), vertical = Eigen::Vector3f::Zero();
   int used = 0;
   for (int s = -1; s <= 1; ++s)
   {
     const int o = s * (k / 2);
-    const int cells[4][2] = {
-        {c - k, r + o},
-        {c + k, r + o},
-        {c + o, r - k},
-        {c + o, r + k}
-    };
-    bool ok = true;
-    for (const auto& cell : cells)
-    {
-      const float zn = depth(cell[0], cell[1]);
-      ok = ok && zn > 0 && std::abs(zn - z) < tolerance;
-    }
-    if (!ok) continue;
-    horizontal += point(c + k, r + o) - point(c - k, r + o);
-    vertical += point(c + o, r + k) - point(c + o, r - k);
+    const float left = here[o * columns_ - k], right = here[o * columns_ + k];
+    const float above = here[o - k * columns_], below = here[o + k * columns_];
+    const float nearest = std::min(std::min(left, right), std::min(above, below));
+    const float farthest = std::max(std::max(left, right), std::max(above, below));
+    if (!(nearest > 0 && z - nearest < tolerance && farthest - z < tolerance)) continue;
+    horizontal +=
+        Eigen::Vector3f(rayX[k] * right - rayX[-k] * left, rayY[o] * (right - left), right - left);
+    vertical += Eigen::Vector3f(
+        rayX[o] * (below - above), rayY[k] * below - rayY[-k] * above, below - above);
     ++used;
   }
   if (used == 0) return {};

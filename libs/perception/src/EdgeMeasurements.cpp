@@ -75,6 +75,7 @@ class EdgeJudge
       nearBorder_[i] = isNearBorder(edge, depth);
       nearer_[i] = nearerShare(edge, depth);
     }
+    floating_ = floating();
   }
 
   EdgeState state(BoxEdge edge) const
@@ -265,7 +266,7 @@ class EdgeJudge
     for (std::size_t k = 0; k < 4; ++k)
       e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
     addSizes(e);
-    addHeights(e);
+    e.floating = floating_;
     return e;
   }
 
@@ -284,9 +285,10 @@ class EdgeJudge
         std::max(0.0, std::log(label.typicalSize.head<2>().maxCoeff() / width) / label.sizeSpread);
   }
 
-  void addHeights(HiddenEvidence& e) const
+  /** Share of the object's height by which its lower end is above the support, in [0, 1]. */
+  double floating() const
   {
-    if (!context_.object.support || context_.object.empty()) return;
+    if (!context_.object.support || context_.object.empty()) return 0;
     const Plane& support = context_.surfaces.front();
     const auto& points = context_.object.points;
     std::vector<double> heights;
@@ -295,7 +297,7 @@ class EdgeJudge
     const double top = quantile(heights, 0.98), low = quantile(std::move(heights), 0.02);
     // As much above the support was cut away with it.
     const double gap = low - supportTolerance(context_.depth);
-    if (top > 0) e.floating = std::clamp(gap / top, 0.0, 1.0);
+    return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;
   }
 
   struct CellsAtDepth
@@ -312,6 +314,7 @@ class EdgeJudge
   std::vector<CellsAtDepth> others_;    // the boxes whose depth is known
   std::array<bool, 4> nearBorder_;
   std::array<double, 4> nearer_;
+  double floating_ = 0;
 };
 
 }  // namespace

@@ -39,11 +39,11 @@ class CellMask
   {
     if (range_.contains(c, r)) own_[index(c, r)] = 1;
   }
-  /** A square within the range. \param c, r Its first cell. */
-  void insertSquare(int c, int r, int size)
+  /** A rectangle within the range. \param c, r Its first cell. */
+  void insert(int c, int r, int columns, int rows)
   {
-    for (int i = 0; i < size; ++i)
-      std::fill_n(own_.begin() + static_cast<std::ptrdiff_t>(index(c, r + i)), size, char(1));
+    for (int i = 0; i < rows; ++i)
+      std::fill_n(own_.begin() + static_cast<std::ptrdiff_t>(index(c, r + i)), columns, char(1));
   }
   template <typename Visit>
   void forEach(const Visit& visit) const  //!< Calls visit(c, r) for all cells.

@@ -21,36 +21,46 @@ void addRim(
   const int step = object.step;
   if (step == 1) return;
   const CellMask known = object.mask;
-  CellMask rejected(candidates.range);
+  CellMask settled = known;  // in the mask or rejected
+  ObjectCloud::Cell first = {0, 0};
+  int inRow = 0;  // known cells with known ones all around, from the first one on
+  const auto fillRow = [&]
+  {
+    for (CellMask* mask : {&object.mask, &settled})
+      mask->insert(first.c, first.r, inRow * step, inRow > 0 ? step : 0);
+    inRow = 0;
+  };
+  const auto& range = candidates.range;
   const std::size_t count = object.cells.size();
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto cell = object.cells[i];
     if (known.surrounds(cell.c, cell.r, step))
     {
-      object.mask.insertSquare(cell.c, cell.r, step);
+      if (cell.r != first.r || cell.c != first.c + inRow * step) fillRow();
+      if (inRow == 0) first = cell;
+      ++inRow;
       continue;
     }
+    fillRow();
     const double z = object.points[i].z();
-    for (int r = cell.r - step + 1; r < cell.r + step; ++r)
-      for (int c = cell.c - step + 1; c < cell.c + step; ++c)
+    const int endC = std::min(range.c1, cell.c + step), endR = std::min(range.r1, cell.r + step);
+    for (int r = std::max(range.r0, cell.r - step + 1); r < endR; ++r)
+      for (int c = std::max(range.c0, cell.c - step + 1); c < endC; ++c)
       {
-        if (!candidates.range.contains(c, r) || object.mask.contains(c, r) ||
-            rejected.contains(c, r))
-          continue;
+        if (settled.contains(c, r)) continue;
         const auto p = candidates.rule.candidate(c, r);
-        if (!p || !isFree({c, r}))
-        {
-          rejected.insert(c, r);
-          continue;
-        }
-        if (std::abs(p->z() - z) > gap) continue;
+        const bool isPossible = p && isFree({c, r});
+        if (isPossible && std::abs(p->z() - z) > gap) continue;
+        settled.insert(c, r);
+        if (!isPossible) continue;
         object.mask.insert(c, r);
         if ((c + r) % step != 0) continue;
         object.cells.push_back({c, r});
         object.points.push_back(*p);
       }
   }
+  fillRow();
 }
 
 }  // namespace quadmap

@@ -54,7 +54,19 @@ PlaneExtent::PlaneExtent(const Eigen::Vector3d& normal, const std::vector<Eigen:
   along_.row(1) = normal.cross(Eigen::Vector3d(along_.row(0)));
   std::vector<Eigen::Vector2d> flat;
   for (const auto& p : points) flat.push_back(along_ * p);
-  corners_ = convexHull(std::move(flat));
+  setCorners(std::move(flat));
+}
+
+void PlaneExtent::setCorners(std::vector<Eigen::Vector2d> points)
+{
+  corners_ = convexHull(std::move(points));
+  sides_.clear();
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+  {
+    const Eigen::Vector2d &a = corners_[i], along = corners_[(i + 1) % corners_.size()] - a;
+    const Eigen::Vector2d outwards = Eigen::Vector2d(along.y(), -along.x()).normalized();
+    sides_.push_back({outwards, outwards.dot(a)});
+  }
 }
 
 double PlaneExtent::area() const
@@ -69,8 +81,9 @@ PlaneExtent PlaneExtent::grown(const std::vector<Eigen::Vector3d>& points) const
 {
   PlaneExtent out = *this;
   if (isEverywhere()) return out;
-  for (const auto& p : points) out.corners_.push_back(along_ * p);
-  out.corners_ = convexHull(std::move(out.corners_));
+  std::vector<Eigen::Vector2d> all = corners_;
+  for (const auto& p : points) all.push_back(along_ * p);
+  out.setCorners(std::move(all));
   return out;
 }
 
@@ -98,6 +111,16 @@ double PlaneExtent::outside(const Eigen::Vector3d& p) const
   if (isEverywhere()) return -std::numeric_limits<double>::infinity();
   const Rim rim = nearestRim(along_ * p);
   return rim.isInside ? -rim.step.norm() : rim.step.norm();
+}
+
+bool PlaneExtent::isWithin(const Eigen::Vector3d& p, double margin) const
+{
+  if (isEverywhere()) return true;
+  const Eigen::Vector2d q = along_ * p;
+  double farthest = -std::numeric_limits<double>::infinity();  // outside of any side [m]
+  for (const auto& side : sides_) farthest = std::max(farthest, side.outwards.dot(q) - side.offset);
+  if (corners_.size() > 2 && farthest <= 0) return true;
+  return farthest < margin && outside(p) < margin;
 }
 
 Eigen::Vector3d PlaneExtent::toExtent(const Eigen::Vector3d& p) const

@@ -113,7 +113,7 @@ void addKnown(
     for (const auto& p : samples)
     {
       distance += seen.plane.signedDistance(p) / static_cast<double>(samples.size());
-      overlaps = overlaps || seen.extent.outside(p) < kNear;
+      overlaps = overlaps || seen.extent.isWithin(p, kNear);
     }
     if (std::abs(distance) > kSamePlane || !overlaps) continue;
     if (seen.extent.isEverywhere()) return;

@@ -144,7 +144,7 @@ class SupportJudge
     points.erase(
         std::remove_if(
             points.begin(), points.end(),
-            [&](const auto& p) { return extent.outside(p) > kReach; }),
+            [&](const auto& p) { return !extent.isWithin(p, kReach); }),
         points.end());
     return points;
   }
@@ -217,7 +217,7 @@ std::vector<std::optional<int>> addTops(
         {
           const ScenePlane& other = planes.plane(i);
           return std::abs(other.plane.signedDistance(top->centroid)) < kSameLevel &&
-                 other.extent.outside(top->centroid) < kSameLevel;
+                 other.extent.isWithin(top->centroid, kSameLevel);
         });
     if (isKnown) continue;
     tops[lower] = static_cast<int>(planes.all.planes.size());

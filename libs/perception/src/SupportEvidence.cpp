@@ -93,27 +93,34 @@ double coverage(
     const PerceptionOptions& options)
 {
   constexpr double kSure = 0.02, kSeenFall = 0.08, kHiddenFall = 0.4;  // [m]
+  if (extent.isWithin(p, kSure)) return 1.0;
+  if (!extent.isWithin(p, kSure + kHiddenFall)) return 0.0;
   const double outside = extent.outside(p) - kSure;
-  if (outside <= 0) return 1.0;
-  if (outside >= kHiddenFall) return 0.0;
   const Eigen::Vector3d foot = p - plane.signedDistance(p) * plane.n;
   const bool isRim = looksThroughRim(cloud, foot, extent.toExtent(p), options);
   return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
 }
 
-/** Distance to the horizontal plane that a point most likely lies on [m]; its tolerance when none
- * reaches there. */
-double nearestLevel(const ScenePlanes& planes, const RingPoint& point)
+struct Levels
+{
+  bool isOnAny = false;  // however far the planes were seen to reach
+  double nearest;        // distance to the plane that a point most likely lies on [m]
+};
+
+/** Horizontal planes at a point. The nearest is at its tolerance when none reaches there. */
+Levels levelsAt(const ScenePlanes& planes, const RingPoint& point)
 {
   constexpr double kReach = 0.10;  // beyond what was seen of a surface [m]
-  double nearest = point.tolerance;
+  Levels out = {false, point.tolerance};
   for (const int i : planes.horizontal)
   {
     const ScenePlane& plane = planes.plane(i);
     const double distance = std::abs(plane.plane.signedDistance(point.point));
-    if (distance < nearest && plane.extent.outside(point.point) < kReach) nearest = distance;
+    out.isOnAny = out.isOnAny || distance <= point.tolerance;
+    if (distance < out.nearest && plane.extent.isWithin(point.point, kReach))
+      out.nearest = distance;
   }
-  return nearest;
+  return out;
 }
 
 /** The share of a surface's extent that its points fill, about. */
@@ -315,8 +322,10 @@ std::vector<RingPoint> ringAround(
       point.point = cloud.point(c, r).cast<double>();
       point.noise = options.depthSigma(point.point.z());
       point.tolerance = options.planeTolerance + 2.5 * point.noise;
-      point.nearest = nearestLevel(planes, point);
-      if (const auto normal = cloud.normal(c, r)) point.normal = normal->cast<double>();
+      const Levels levels = levelsAt(planes, point);
+      point.nearest = levels.nearest;
+      if (levels.isOnAny && !point.inBox)
+        if (const auto normal = cloud.normal(c, r)) point.normal = normal->cast<double>();
       out.push_back(point);
     }
   return out;

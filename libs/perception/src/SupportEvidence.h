@@ -83,12 +83,12 @@ struct RingEvidence
 struct RingPoint
 {
   Eigen::Vector3d point;
-  std::optional<Eigen::Vector3d> normal;
-  double tolerance = 0;  //!< For lying on a plane [m]
-  double noise = 0;      //!< Standard deviation of its depth [m]
-  double nearest = 0;    //!< To the nearest horizontal plane that reaches there [m]
-  bool inBox = false;    //!< In the lowest tenth of the box: the support shows there, too
-  bool lower = false;    //!< Below the middle of the box
+  std::optional<Eigen::Vector3d> normal;  //!< Outside the box, on a horizontal plane
+  double tolerance = 0;                   //!< For lying on a plane [m]
+  double noise = 0;                       //!< Standard deviation of its depth [m]
+  double nearest = 0;  //!< To the nearest horizontal plane that reaches there [m]
+  bool inBox = false;  //!< In the lowest tenth of the box: the support shows there, too
+  bool lower = false;  //!< Below the middle of the box
 };
 
 /** The surroundings of a box: a ring of an eighth of its size, some hundred points. */

@@ -95,7 +95,8 @@ struct Rectangle
 
 Rectangle smallestRectangle(const LevelCloud& cloud)
 {
-  const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / 400);
+  constexpr std::size_t kMaxPoints = 400;
+  const std::size_t step = 1 + cloud.points.size() / kMaxPoints;
   Rectangle best;
   double bestArea = 1e9;
   for (int degree = 0; degree < 90; degree += 2)
