@@ -1,12 +1,11 @@
 #include "quadmap/slam/PoseGraphWriter.h"
 
 #include <mrpt/core/bits_math.h>
-#include <mrpt/math/wrap2pi.h>
-#include <mrpt/poses/Lie/SO.h>
 
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "PoseAngles.h"
@@ -22,6 +21,8 @@ namespace
 constexpr double kUprightSigma = 0.035;  //!< Roll and pitch of a supported object, 2 deg [rad]
 constexpr double kUnknownYawSigma =
     0.453;  //!< Anything within a quarter turn: pi/2 / sqrt(12) [rad]
+
+constexpr double kLoose = 1e-6;  //!< Information of next to nothing [1/m^2], [1/rad^2]
 
 /** Where a graph's line has yaw, pitch and roll (MRPT's order of a pose: x y z yaw pitch roll). */
 constexpr int kTextOrder[] = {0, 1, 2, 5, 4, 3};
@@ -51,24 +52,6 @@ void writeEdge(
   for (int row = 0; row < 6; ++row)
     for (int col = row; col < 6; ++col) out << " " << information(kTextOrder[row], kTextOrder[col]);
   out << "\n";
-}
-
-/** A complete measurement numbers the axes of a cuboid as it likes; the map may have chosen another
- * of the four upright ways. \return The measured pose, turned to fit the map's. */
-CPose3D turnedLike(const CPose3D& T_map_measured, const CPose3D& T_map_obj)
-{
-  CPose3D best = T_map_measured;
-  double bestAngle = 2 * M_PI;
-  for (int turns = 0; turns < 4; ++turns)
-  {
-    const CPose3D turned = T_map_measured + CPose3D(0, 0, 0, turns * M_PI / 2, 0, 0);
-    const double angle =
-        mrpt::poses::Lie::SO<3>::log((turned - T_map_obj).getRotationMatrix()).norm();
-    if (angle >= bestAngle) continue;
-    bestAngle = angle;
-    best = turned;
-  }
-  return best;
 }
 
 /** Standard deviation of the measured centre along axis 0..2 of the measurement [m]. */
@@ -104,38 +87,15 @@ Matrix6 measurementInformation(
   return information;
 }
 
-/** What several cameras of one pose measured of one object, as one edge: MRPT keeps only one
- * between two nodes. The mean is weighted by information. */
-class FusedEdge
+/** The information of a step as far as MRPT 2.5 reads it back: it forgets how angles correlate, and
+ * what then is left of a full matrix may be none. Kept are the variances, and the correlations of
+ * positions. */
+Matrix6 stepInformation(const Matrix6& covariance)
 {
- public:
-  void add(const CPose3D& T_robot_obj, const Matrix6& information)
-  {
-    if (information_.isZero()) first_ = T_robot_obj;
-    Vector6 difference;
-    for (unsigned i = 0; i < 6; ++i)
-    {
-      difference[i] = T_robot_obj[i] - first_[i];
-      if (i >= 3) difference[i] = mrpt::math::wrapToPi(difference[i]);
-    }
-    information_ += information;
-    weighted_ += information * difference;
-  }
-
-  CPose3D mean() const
-  {
-    const Vector6 d = information_.ldlt().solve(weighted_);
-    return {first_[0] + d[0], first_[1] + d[1], first_[2] + d[2],
-            first_[3] + d[3], first_[4] + d[4], first_[5] + d[5]};
-  }
-  const Matrix6& information() const { return information_; }
-
- private:
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  CPose3D first_;
-  Matrix6 information_ = Matrix6::Zero();
-  Vector6 weighted_ = Vector6::Zero();  //!< Sum of information times difference to `first_`
-};
+  Matrix6 kept = covariance.diagonal().asDiagonal();
+  kept.topLeftCorner<3, 3>() = covariance.topLeftCorner<3, 3>();
+  return kept.inverse();
+}
 
 class GraphText
 {
@@ -167,64 +127,83 @@ class GraphText
     }
     for (const MapObject* object : result_.map.confirmedObjects())
       writeNode(out_, nodes_.size() + object->id, object->object.pose());
-    for (std::size_t n = 1; n < nodes_.size(); ++n) writeOdometry(n);
+    for (std::size_t n = 1; n < nodes_.size(); ++n)
+      writeEdge(
+          out_, n - 1, n, nodes_[n].T_map_robot - nodes_[n - 1].T_map_robot,
+          stepInformation(stepCovariance(n)));
     if (result_.edges.empty())
       for (const auto& decision : result_.decisions) addMeasurement(decision);
     for (const auto& edge : result_.edges) addEdge(edge);
-    for (const auto& [nodes, edge] : measurements_)
-      writeEdge(out_, nodes.first, nodes.second, edge.mean(), edge.information());
+    tieLooseObjects();
+    for (const auto& [ends, information] : measurements_)
+      writeEdge(out_, ends.first, nodes_.size() + ends.second, T_robot_obj(ends), information);
   }
 
  private:
-  void writeOdometry(std::size_t n)
+  using Ends = std::pair<std::size_t, ObjectId>;  // node of the robot, object
+
+  CPose3D T_robot_obj(const Ends& ends) const
   {
-    const auto step = stepTo(n);
-    writeEdge(out_, n - 1, n, step.mean, step.cov.asEigen().inverse());
+    return result_.map.find(ends.second)->object.pose() - nodes_[ends.first].T_map_robot;
   }
 
-  /** From the node before, as the estimation had it: steps lead from keyframe to keyframe. */
-  mrpt::poses::CPose3DPDFGaussian stepTo(std::size_t n) const
+  /** Of the step from the node before, as the estimation had it: its steps lead from keyframe to
+   * keyframe. */
+  Matrix6 stepCovariance(std::size_t n) const
   {
     const std::size_t from = nodes_[n - 1].keyframes.front(), to = nodes_[n].keyframes.front();
     const auto stated = [&](std::size_t k) { return result_.keyframes[k].odometryStep; };
-    if (to == from + 1 && stated(to)) return *stated(to);
+    if (to == from + 1 && stated(to)) return stated(to)->cov.asEigen();
     // Several cameras, or not in the order of time: their steps may be at rest.
     auto step = odometryStep(uncertainty_, nodes_[n - 1].T_odom_robot, nodes_[n].T_odom_robot);
     for (std::size_t k = from + 1; k <= to; ++k)
       if (stated(k) && nodeOf_[k] == n && nodeOf_[k - 1] == n - 1) step.cov = stated(k)->cov;
-    return step;
+    return step.cov.asEigen();
+  }
+
+  bool isConfirmed(ObjectId id) const
+  {
+    const MapObject* object = result_.map.find(id);
+    return object && object->confirmed;
+  }
+
+  /** MRPT keeps one edge between two nodes: what several cameras of a pose know is summed. */
+  void add(const Ends& ends, const Matrix6& information)
+  {
+    measurements_.try_emplace(ends, Matrix6::Zero()).first->second += information;
   }
 
   void addEdge(const FactorGraph::PoseEdge& edge)
   {
-    const MapObject* object = result_.map.find(edge.object);
-    if (!object || !object->confirmed) return;
+    if (!isConfirmed(edge.object)) return;
     Matrix6 information = Matrix6::Zero();
     information.diagonal() << Eigen::Vector3d::Constant(edge.positionInformation),
         Eigen::Vector3d::Constant(edge.angleInformation);
-    measurements_[{nodeOf_[edge.pose], nodes_.size() + edge.object}].add(
-        edge.T_robot_obj, information);
+    add({nodeOf_[edge.pose], edge.object}, information);
   }
 
   void addMeasurement(const BoxDecision& box)
   {
-    const MapObject* object =
-        box.decision.object ? result_.map.find(*box.decision.object) : nullptr;
-    if (!object || !object->confirmed) return;
+    if (!box.decision.object || !isConfirmed(*box.decision.object)) return;
     loadBoxes(box.keyframe);
     const auto& measurement = boxes_->objects.at(box.decision.box).measurement;
     if (!measurement.complete) return;
 
-    const std::size_t node = nodeOf_[box.keyframe];
-    const CPose3D& T_map_robot = nodes_[node].T_map_robot;
+    const Ends ends(nodeOf_[box.keyframe], *box.decision.object);
     const CPose3D T_robot_measured =
         boxes_->sensorPose + measurement.complete->object_sensor.pose();
-    const CPose3D T_robot_obj =
-        turnedLike(T_map_robot + T_robot_measured, object->object.pose()) - T_map_robot;
-    measurements_[{node, nodes_.size() + object->id}].add(
-        T_robot_obj,
-        measurementInformation(
-            *measurement.complete, T_robot_measured.getRotationMatrix().asEigen(), T_robot_obj));
+    add(ends, measurementInformation(
+                  *measurement.complete, T_robot_measured.getRotationMatrix().asEigen(),
+                  T_robot_obj(ends)));
+  }
+
+  /** MRPT's optimiser gives up on a node without edges. */
+  void tieLooseObjects()
+  {
+    std::set<ObjectId> held;
+    for (const auto& [ends, information] : measurements_) held.insert(ends.second);
+    for (const MapObject* object : result_.map.confirmedObjects())
+      if (held.count(object->id) == 0) add({0, object->id}, kLoose * Matrix6::Identity());
   }
 
   void loadBoxes(std::size_t keyframe)
@@ -239,8 +218,8 @@ class GraphText
   const SlamResult& result_;
   const KeyframeSpool& spool_;
   const PoseUncertaintyOptions& uncertainty_;
-  std::vector<std::size_t> nodeOf_;                                        //!< Each keyframe
-  std::map<std::pair<std::size_t, std::size_t>, FusedEdge> measurements_;  //!< By their nodes
+  std::vector<std::size_t> nodeOf_;       //!< Each keyframe
+  std::map<Ends, Matrix6> measurements_;  //!< Their informations
   CObservationObjects::Ptr boxes_;
   std::size_t boxesOf_ = 0;
 };

@@ -223,9 +223,7 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
     summary.converged = summary.lastMove < options_.smallMove;
   }
   result.correction = summary;
-  FactorGraph graph = globalGraph(boxesOf, result);  // with the objects of the final map
-  graph.optimise();
-  result.edges = graph.poseEdges();
+  result.edges = globalGraph(boxesOf, result).poseEdges();  // with the objects of the final map
 }
 
 }  // namespace quadmap

@@ -233,12 +233,7 @@ void QuadricBackEnd::fillMap(SlamResult& result) const
     decision.object = known == idInMap.end() ? std::nullopt : std::optional(known->second);
     decision.startedObject &= decision.object.has_value();
   }
-  FactorGraph graph = globalGraph(result);
-  if (correctPoses_)
-    graph.optimise();
-  else
-    graph.optimiseObjects();
-  result.edges = graph.poseEdges();
+  result.edges = globalGraph(result).poseEdges();
   for (auto& edge : result.edges) edge.object = idInMap.at(edge.object);
 }
 

@@ -1,10 +1,8 @@
 #include <ceres/cost_function.h>
 #include <ceres/manifold.h>
 
-#include <algorithm>
-#include <cmath>
+#include <map>
 
-#include "quadmap/geometry/RotationVector.h"
 #include "quadmap/slam/graph/FactorGraph.h"
 
 namespace quadmap
@@ -16,40 +14,21 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 constexpr double kLeast = 1e-6;  // information of what is unknown [1/m^2], [1/rad^2]
 
-/** What the views of one pose want of one object, along the axes of the map. */
-struct Pull
+/** Adds what a view of an object knows of its pose relative to the robot's, the object's size
+ * being what it is.
+ *  \param perStep Derivatives of its residuals by (w, d) of the robot.
+ *  \param lever From the robot to the object's centre [m]. */
+void addInformation(const RowMajor& perStep, const Vector3d& lever, FactorGraph::PoseEdge& edge)
 {
-  Vector3d force = Vector3d::Zero();   // gradient by a move of the object [1/m]
-  Vector3d torque = Vector3d::Zero();  // ... and by a turn of it about its centre [1/rad]
-  double stiffness = 0;                // mean information of its position [1/m^2]
-  double turnStiffness = 0;            // ... and of its orientation [1/rad^2]
-
-  /** \param r, perStep Residuals of a view and their derivatives by (w, d) of the robot.
-   *  \param lever From the robot to the object's centre [m]. */
-  void add(const Eigen::VectorXd& r, const RowMajor& perStep, const Vector3d& lever)
+  for (Eigen::Index i = 0; i < perStep.rows(); ++i)
   {
-    for (Eigen::Index i = 0; i < r.size(); ++i)
-    {
-      // Only the relative pose counts: the object moves against the robot.
-      const Vector3d perMove = -perStep.row(i).tail<3>().transpose();
-      const Vector3d perTurn = -perStep.row(i).head<3>().transpose() - lever.cross(perMove);
-      force += r[i] * perMove;
-      torque += r[i] * perTurn;
-      stiffness += perMove.squaredNorm() / 3;
-      turnStiffness += perTurn.squaredNorm() / 3;
-    }
+    // Only the relative pose counts: the object moves against the robot.
+    const Vector3d perMove = -perStep.row(i).tail<3>().transpose();
+    const Vector3d perTurn = -perStep.row(i).head<3>().transpose() - lever.cross(perMove);
+    edge.positionInformation += perMove.squaredNorm() / 3;
+    edge.angleInformation += perTurn.squaredNorm() / 3;
   }
-
-  /** The object where the pull would bring it to. */
-  mrpt::poses::CPose3D follow(const Ellipsoid& at) const
-  {
-    Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
-    T.topLeftCorner<3, 3>() =
-        rotationOf(-torque / std::max(kLeast, turnStiffness)).toRotationMatrix() * at.rotation();
-    T.topRightCorner<3, 1>() = at.center() - force / std::max(kLeast, stiffness);
-    return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T));
-  }
-};
+}
 
 }  // namespace
 
@@ -63,7 +42,7 @@ std::vector<FactorGraph::PoseEdge> FactorGraph::poseEdges() const
     const Vector3d robot(T_map_robot.x(), T_map_robot.y(), T_map_robot.z());
     RowMajor plus(7, 6);
     manifold->PlusJacobian(poses_[k].data(), plus.data());
-    std::map<ObjectId, Pull> pulls;
+    std::map<ObjectId, PoseEdge> edgeTo;
     for (const View& view : viewsByPose_[k])
     {
       if (!hasObject(view.object)) continue;
@@ -75,12 +54,10 @@ std::vector<FactorGraph::PoseEdge> FactorGraph::poseEdges() const
       const double* blocks[] = {poses_[k].data(), vertex.block.data()};
       double* jacobians[] = {J.data(), nullptr};
       factor->Evaluate(blocks, r.data(), jacobians);
-      pulls[view.object].add(r, J * plus, object(view.object).center() - robot);
+      const auto edge = edgeTo.try_emplace(view.object, PoseEdge{k, view.object, kLeast, kLeast});
+      addInformation(J * plus, object(view.object).center() - robot, edge.first->second);
     }
-    for (const auto& [id, pull] : pulls)
-      edges.push_back(
-          {k, id, pull.follow(object(id)) - T_map_robot, std::max(kLeast, pull.stiffness),
-           std::max(kLeast, pull.turnStiffness)});
+    for (const auto& [id, edge] : edgeTo) edges.push_back(edge);
   }
   return edges;
 }

@@ -90,19 +90,17 @@ class FactorGraph
   /** Of the objects, given all poses. */
   std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
 
-  /** What the views of one pose say of one object, as a relative pose. */
+  /** How much the views of one pose know of the relative pose of one object. */
   struct PoseEdge
   {
     std::size_t pose = 0;
     ObjectId object = 0;
-    mrpt::poses::CPose3D T_robot_obj;
     double positionInformation = 0;  //!< Mean over all directions [1/m^2]
     double angleInformation = 0;     //!< Mean over all axes [1/rad^2]
   };
-  /** The views at the present estimate in a form for graphs of poses, which know no sizes: an edge
-   * pulls at pose and object as its views do, so that where this graph is at its minimum, one of
-   * these edges and the steps is too. Information is the same in all directions, because programs
-   * differ in the axes they think it belongs to. */
+  /** The views at the present estimate in a form for graphs of poses, which know no sizes: those are
+   * taken as they are. Information is the same in all directions, because programs differ in the
+   * axes they think it belongs to. */
   std::vector<PoseEdge> poseEdges() const;
 
  private:
