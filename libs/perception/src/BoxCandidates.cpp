@@ -12,7 +12,7 @@ namespace
  * the object, in shares of its size, and it costs no more than a small one. */
 int stepFor(int cells)
 {
-  constexpr double kMaxCells = 8000;
+  constexpr double kMaxCells = 4000;
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(cells / kMaxCells))));
 }
 

@@ -31,6 +31,8 @@ class CandidateRule
     return p;
   }
 
+  float depth(int c, int r) const { return cloud_.depth(c, r); }  //!< Of a cell [m], 0 = none
+
   /** Vertical planes of the scene that reach beyond the box. */
   bool reachesBeyond(int plane) const { return reachesBeyond_[static_cast<std::size_t>(plane)]; }
 

@@ -101,7 +101,7 @@ class FaceEstimator
   double range_;
   Eigen::Matrix3d R_obj_optical_;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
-  std::vector<ObjectCloud::Cell> cells_;
+  const std::vector<ObjectCloud::Cell>& cells_;
   /** Of each axis of the cuboid the coordinates along it; normals are 0 where there are none. */
   std::array<std::vector<double>, 3> points_, normals_;
   std::array<double, kFaces> extremes_;

@@ -38,7 +38,7 @@ inline double roundOutlineSigma(double radius, double outline)
  * sensor's depth and what is not quite flat are. */
 inline double surfaceSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0028, 0.35 * options.depthSigma(range));
+  return std::hypot(0.0024, 0.31 * options.depthSigma(range));
 }
 
 /** The same of the top, which no heading moves. */
@@ -73,13 +73,13 @@ inline double farEdgeSigma(double perCell, double range, const PerceptionOptions
 /** The same of the top. */
 inline double topEdgeSigma(double perCell, double range, const PerceptionOptions& options)
 {
-  return std::hypot(std::hypot(0.002, 0.3 * perCell), 0.25 * options.depthSigma(range));
+  return std::hypot(std::hypot(0.0021, 0.31 * perCell), 0.26 * options.depthSigma(range));
 }
 
 /** A plane of many points, below the object. */
 inline double supportSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0007, 0.07 * options.depthSigma(range));
+  return std::hypot(0.0006, 0.06 * options.depthSigma(range));
 }
 
 }  // namespace quadmap

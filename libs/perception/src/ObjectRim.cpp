@@ -49,11 +49,10 @@ void addRim(
       for (int c = std::max(range.c0, cell.c - step + 1); c < endC; ++c)
       {
         if (settled.contains(c, r)) continue;
-        const auto p = candidates.rule.candidate(c, r);
-        const bool isPossible = p && isFree({c, r});
-        if (isPossible && std::abs(p->z() - z) > gap) continue;
+        if (std::abs(double(candidates.rule.depth(c, r)) - z) > gap) continue;
         settled.insert(c, r);
-        if (!isPossible) continue;
+        const auto p = candidates.rule.candidate(c, r);
+        if (!p || !isFree({c, r})) continue;
         object.mask.insert(c, r);
         if ((c + r) % step != 0) continue;
         object.cells.push_back({c, r});
