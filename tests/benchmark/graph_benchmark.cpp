@@ -156,7 +156,13 @@ void finalRounds()
         summary.iterations, wrong, positionError(world.truth, [&](auto k) { return poses[k]; }));
     if (round != 5) continue;
     const auto marginals = graph.marginals(0, true);
-    std::printf("marginals of %zu objects: %.2f s\n", marginals.objects.size(), cpu_s() - done);
+    const double ofObjects = cpu_s();
+    std::printf("marginals of %zu objects: %.2f s\n", marginals.objects.size(), ofObjects - done);
+    const std::size_t poseMarginals = graph.poseMarginals().size(),
+                      edges = graph.poseEdges().size();
+    std::printf(
+        "marginals of %zu poses and %zu edges of the pose graph: %.2f s\n", poseMarginals, edges,
+        cpu_s() - ofObjects);
   }
   std::printf(
       "total: %.2f s; odometry alone %.3f m\n", cpu_s() - start,

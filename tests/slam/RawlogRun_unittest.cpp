@@ -116,6 +116,15 @@ TEST_F(RawlogRun, MapFilesHoldTheSameObjects)
   mrpt::maps::CSimpleMap simple;
   ASSERT_TRUE(simple.loadFromFile(output("objects.simplemap")));
   ASSERT_EQ(simple.size(), 6u);
+  for (std::size_t k = 0; k < simple.size(); ++k)
+  {
+    const auto [pose, frame] = simple.get(k);
+    mrpt::math::CMatrixDouble66 covariance;
+    mrpt::poses::CPose3D mean;
+    pose->getCovarianceAndMean(covariance, mean);
+    ASSERT_TRUE(summary.result.keyframes[k].covariance);
+    EXPECT_EQ(covariance, *summary.result.keyframes[k].covariance) << "that of the estimation";
+  }
   CQuadricObjectMap rebuilt;
   rebuilt.loadFromSimpleMap(simple);
   rebuilt.consolidate();

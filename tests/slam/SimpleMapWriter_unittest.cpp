@@ -16,6 +16,7 @@
 using namespace quadmap;
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::poses::CPose3D;
+using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
@@ -35,10 +36,15 @@ class SimpleMapWriter : public testing::Test
     }
   }
 
+  std::vector<CPose3DPDFGaussian> poses() const
+  {
+    return poseDistributions(poseNodesOf(keyframes_), keyframes_, {options_, PoseSource::Auto});
+  }
+
   mrpt::maps::CSimpleMap written(SimpleMapContent content)
   {
     const auto path = folder_.path("x.simplemap");
-    writeSimpleMap(path, poseNodesOf(keyframes_), spool_, content, {options_, PoseSource::Auto});
+    writeSimpleMap(path, poseNodesOf(keyframes_), spool_, content, poses());
     mrpt::maps::CSimpleMap map;
     EXPECT_TRUE(map.loadFromFile(path));
     return map;
@@ -94,6 +100,28 @@ TEST_F(SimpleMapWriter, EqualsWhatTheStockClassWouldHaveWritten)
   EXPECT_EQ(archiveBytes(map), archiveBytes(reference));
 }
 
+TEST_F(SimpleMapWriter, PosesHaveTheCovariancesOfTheEstimation)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    auto& covariance = keyframes_[i].covariance.emplace();
+    for (int row = 0; row < 6; ++row)
+      covariance(row, row) = 1e-4 * (1 + row + 6 * static_cast<int>(i));
+    covariance(0, 5) = covariance(5, 0) = 1e-5;
+  }
+  const auto covarianceOf = [&](std::size_t i)
+  {
+    const auto [pose, frame] = written(SimpleMapContent::Objects).get(i);
+    return std::dynamic_pointer_cast<const CPose3DPDFGaussian>(pose)->cov;
+  };
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(covarianceOf(i), *keyframes_[i].covariance);
+
+  keyframes_[1].covariance = std::nullopt;  // then all are of one kind
+  PoseCovarianceChain chain(options_, PoseSource::Auto);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(covarianceOf(i), chain.next(keyframes_[i].T_map_robot).cov);
+}
+
 TEST_F(SimpleMapWriter, CamerasOfOnePoseShareAFrame)
 {
   const auto pose = keyframes_[1].T_map_robot;
@@ -141,11 +169,7 @@ TEST_F(SimpleMapWriter, FullDiskIsAnErrorAndLeavesNothing)
   const auto path = folder_.path("x.simplemap");
   const std::string error = errorOf(
       [&]
-      {
-        writeSimpleMap(
-            path, poseNodesOf(keyframes_), spool_, SimpleMapContent::Scans,
-            {options_, PoseSource::Auto});
-      });
+      { writeSimpleMap(path, poseNodesOf(keyframes_), spool_, SimpleMapContent::Scans, poses()); });
   EXPECT_EQ(error.find(path + ": cannot be written"), 0u) << error;
   EXPECT_EQ(folder_.fileCount(), before);
 }
@@ -186,7 +210,7 @@ TEST(KeyframeSpool, EmbedsExternalImages)
   std::filesystem::remove(folder.path("x.bin"));
   writeSimpleMap(
       folder.path("x.simplemap"), poseNodesOf({Keyframe()}), spool, SimpleMapContent::Scans,
-      {{}, PoseSource::Auto});
+      {CPose3DPDFGaussian()});
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile(folder.path("x.simplemap")));
   const auto stored = std::get<1>(map.get(0))->getObservationByClass<CObservation3DRangeScan>();

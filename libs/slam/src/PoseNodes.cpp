@@ -8,6 +8,8 @@
 
 namespace quadmap
 {
+using mrpt::poses::CPose3DPDFGaussian;
+
 namespace
 {
 constexpr double kSameMoment = 0.1;    //!< Longest time between the images of one node [s]
@@ -48,6 +50,23 @@ std::vector<PoseNode> poseNodesOf(const std::vector<Keyframe>& keyframes)
     nodes.back().keyframes.push_back(k);
   }
   return nodes;
+}
+
+std::vector<CPose3DPDFGaussian> poseDistributions(
+    const std::vector<PoseNode>& nodes,
+    const std::vector<Keyframe>& keyframes,
+    PoseCovarianceChain chain)
+{
+  const bool estimated = std::all_of(
+      keyframes.begin(), keyframes.end(), [](const auto& k) { return k.covariance.has_value(); });
+  std::vector<CPose3DPDFGaussian> poses;
+  poses.reserve(nodes.size());
+  for (const auto& node : nodes)
+    poses.push_back(
+        estimated
+            ? CPose3DPDFGaussian(node.T_map_robot, *keyframes[node.keyframes.front()].covariance)
+            : chain.next(node.T_map_robot));
+  return poses;
 }
 
 std::vector<std::size_t> nodeOfEachKeyframe(const std::vector<PoseNode>& nodes)

@@ -28,11 +28,10 @@ std::vector<std::string> writeResult(const std::string& directory, const RunReco
 {
   const SlamResult& result = run.result;
   const std::vector<PoseNode> nodes = poseNodesOf(result.keyframes);
+  const auto poses = poseDistributions(
+      nodes, result.keyframes, {run.configuration.poses, run.configuration.slam.odometry});
   const auto simpleMap = [&](const std::string& path, SimpleMapContent content)
-  {
-    const PoseCovarianceChain covariances(run.configuration.poses, run.configuration.slam.odometry);
-    writeSimpleMap(path, nodes, run.spool, content, covariances);
-  };
+  { writeSimpleMap(path, nodes, run.spool, content, poses); };
   const auto trajectory = [&](const std::string& path, mrpt::poses::CPose3D PoseNode::*pose)
   { writeTumTrajectory(path, trajectoryOf(nodes, pose)); };
 

@@ -65,13 +65,13 @@ class StreamedSimpleMap : public StandIn
       const std::vector<PoseNode>& nodes,
       const KeyframeSpool& spool,
       SimpleMapContent content,
-      PoseCovarianceChain covariances,
+      const std::vector<mrpt::poses::CPose3DPDFGaussian>& poses,
       GzipFileWriter& file) :
       StandIn(CLASS_ID(mrpt::maps::CSimpleMap), 1),
       nodes_(nodes),
       spool_(spool),
       content_(content),
-      covariances_(std::move(covariances)),
+      poses_(poses),
       file_(file)
   {
   }
@@ -79,10 +79,9 @@ class StreamedSimpleMap : public StandIn
  protected:
   void serializeTo(mrpt::serialization::CArchive& out) const override
   {
-    PoseCovarianceChain covariances = covariances_;
     out << static_cast<std::uint32_t>(nodes_.size());
-    for (const auto& node : nodes_)
-      out << covariances.next(node.T_map_robot) << StreamedSensoryFrame(membersOf(node), file_);
+    for (std::size_t n = 0; n < nodes_.size(); ++n)
+      out << poses_[n] << StreamedSensoryFrame(membersOf(nodes_[n]), file_);
   }
 
  private:
@@ -100,7 +99,7 @@ class StreamedSimpleMap : public StandIn
   const std::vector<PoseNode>& nodes_;
   const KeyframeSpool& spool_;
   SimpleMapContent content_;
-  PoseCovarianceChain covariances_;
+  const std::vector<mrpt::poses::CPose3DPDFGaussian>& poses_;
   GzipFileWriter& file_;
 };
 
@@ -111,11 +110,11 @@ void writeSimpleMap(
     const std::vector<PoseNode>& nodes,
     const KeyframeSpool& spool,
     SimpleMapContent content,
-    PoseCovarianceChain covariances)
+    const std::vector<mrpt::poses::CPose3DPDFGaussian>& poses)
 {
   GzipFileWriter file(path);
   auto archive = mrpt::serialization::archiveFrom(file);
-  archive << StreamedSimpleMap(nodes, spool, content, std::move(covariances), file);
+  archive << StreamedSimpleMap(nodes, spool, content, poses, file);
   file.commit();
 }
 

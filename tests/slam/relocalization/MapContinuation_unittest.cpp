@@ -99,7 +99,14 @@ TEST(MapContinuation, PosesComeIntoTheMapsFrame)
   const CQuadricObjectMap given = Session(world, {}, 3).result.map;
   const Session there(world, {}, 4);  // the same noise, in the map's frame
   Session run(world, kElsewhere, 4);
+  auto& covariance = run.result.keyframes[1].covariance.emplace();
+  covariance(0, 0) = covariance(3, 3) = 1;  // only along x, and of the yaw
   run.continueIn(given);
+  const CPose3D& T_map_local = run.result.continuation->match.T_map_local;
+  const Eigen::Vector3d x = T_map_local.getRotationMatrix().asEigen().col(0);
+  const Eigen::Matrix<double, 6, 6> turned = covariance.asEigen();
+  EXPECT_LT((turned.topLeftCorner<3, 3>() - x * x.transpose()).norm(), 1e-6);
+  EXPECT_NEAR(turned(3, 3), 1, 1e-6) << "yaws are only shifted";
   for (std::size_t k = 0; k < run.result.keyframes.size(); ++k)
   {
     const CPose3D error =

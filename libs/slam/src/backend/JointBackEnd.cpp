@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "OdometryChain.h"
+#include "PoseMarginals.h"
 #include "ViewRedundancy.h"
 
 namespace quadmap
@@ -223,7 +224,9 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
     summary.converged = summary.lastMove < options_.smallMove;
   }
   result.correction = summary;
-  result.edges = globalGraph(boxesOf, result).poseEdges();  // with the objects of the final map
+  FactorGraph graph = globalGraph(boxesOf, result);  // with the objects of the final map
+  result.edges = graph.poseEdges();
+  noteMarginals(graph, result.keyframes);
 }
 
 }  // namespace quadmap

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "OdometryChain.h"
+#include "PoseMarginals.h"
 #include "ViewRedundancy.h"
 
 namespace quadmap
@@ -233,7 +234,9 @@ void QuadricBackEnd::fillMap(SlamResult& result) const
     decision.object = known == idInMap.end() ? std::nullopt : std::optional(known->second);
     decision.startedObject &= decision.object.has_value();
   }
-  result.edges = globalGraph(result).poseEdges();
+  FactorGraph graph = globalGraph(result);
+  result.edges = graph.poseEdges();
+  if (correctPoses_) noteMarginals(graph, result.keyframes);
   for (auto& edge : result.edges) edge.object = idInMap.at(edge.object);
 }
 

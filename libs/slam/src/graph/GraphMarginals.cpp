@@ -1,8 +1,7 @@
 #include <ceres/crs_matrix.h>
 
-#include <Eigen/Sparse>
-
 #include "GraphProblem.h"
+#include "SparseInverse.h"
 
 namespace quadmap
 {
@@ -13,6 +12,8 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 /** What is known of an object's position and yaw without measurements, as in the object map. */
 constexpr double kFreePositionSigma = 2.0;    // [m]
 constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
+
+constexpr double kLeast = 1e-9;  // information of what nothing tells of, against zero pivots
 
 SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
 {
@@ -35,36 +36,35 @@ Eigen::MatrixXd marginalBlock(
 
 }  // namespace
 
-FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
+GraphProblem::NormalMatrix GraphProblem::normalMatrix()
 {
-  FactorGraph::Marginals result;
-  // The free blocks, objects last; `objectAt` are the first columns of their steps.
-  ceres::Problem::EvaluateOptions options;
-  std::map<ObjectId, Eigen::Index> objectAt;
-  Eigen::Index columns = 0, lastPoseAt = -1;
+  NormalMatrix normal;
+  ceres::Problem::EvaluateOptions options;  // with the free blocks, objects last
+  Eigen::Index columns = 0;
   for (const auto& [index, block] : poses_)
   {
     if (index < firstFree_) continue;
     options.parameter_blocks.push_back(block);
-    if (index + 1 == graph_.poses_.size()) lastPoseAt = columns;
+    normal.poseAt[index] = columns;
     columns += 6;
   }
   for (const auto& [id, block] : objects_)
   {
     options.parameter_blocks.push_back(block);
-    objectAt[id] = columns;
+    normal.objectAt[id] = columns;
     columns += stepSize(graph_.objects_.at(id).freedom);
   }
   if (problem_.HasParameterBlock(&graph_.floorHeight_))
     options.parameter_blocks.push_back(&graph_.floorHeight_);
-  if (options.parameter_blocks.empty()) return result;
+  if (options.parameter_blocks.empty()) return normal;
 
   ceres::CRSMatrix crs;
   problem_.Evaluate(options, nullptr, nullptr, nullptr, &crs);
   const SparseMatrix J = jacobianOf(crs);
-  SparseMatrix H = J.transpose() * J;
-  for (Eigen::Index i = 0; i < H.cols(); ++i) H.coeffRef(i, i) += 1e-9;
-  for (const auto& [id, at] : objectAt)
+  SparseMatrix& H = normal.H;
+  H = J.transpose() * J;
+  for (Eigen::Index i = 0; i < H.cols(); ++i) H.coeffRef(i, i) += kLeast;
+  for (const auto& [id, at] : normal.objectAt)
   {
     const int angles = graph_.objects_.at(id).freedom == ObjectFreedom::Upright ? 1 : 3;
     for (Eigen::Index i = 0; i < 3 + angles; ++i)
@@ -73,17 +73,45 @@ FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
       H.coeffRef(at + i, at + i) += 1 / (sigma * sigma);
     }
   }
-  const Eigen::SimplicialLDLT<SparseMatrix> factorised(H);
-  if (lastPoseAt >= 0) result.lastPose = marginalBlock(factorised, lastPoseAt, 6);
+  return normal;
+}
+
+FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
+{
+  FactorGraph::Marginals result;
+  const NormalMatrix normal = normalMatrix();
+  if (normal.H.rows() == 0) return result;
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  const auto last = normal.poseAt.find(graph_.poses_.size() - 1);
+  if (last != normal.poseAt.end()) result.lastPose = marginalBlock(factorised, last->second, 6);
   if (withObjects)
-    for (const auto& [id, at] : objectAt)
+    for (const auto& [id, at] : normal.objectAt)
       result.objects[id] = marginalBlock(factorised, at, stepSize(graph_.objects_.at(id).freedom));
   return result;
+}
+
+std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
+{
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  std::vector<Matrix6> marginals(graph_.poses_.size(), Matrix6::Zero());
+  const NormalMatrix normal = normalMatrix();
+  if (normal.poseAt.size() + 1 < marginals.size()) return {};  // nothing says where the others are
+  if (normal.poseAt.empty()) return marginals;
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  if (factorised.info() != Eigen::Success || factorised.vectorD().minCoeff() <= 0) return {};
+  const SparseInverse inverse(factorised);
+  for (const auto& [index, at] : normal.poseAt) marginals[index] = inverse.block(at, 6);
+  return marginals;
 }
 
 FactorGraph::Marginals FactorGraph::marginals(std::size_t firstFree, bool withObjects)
 {
   return GraphProblem(*this, firstFree, firstFree > 0).marginals(withObjects);
+}
+
+std::vector<Eigen::Matrix<double, 6, 6>> FactorGraph::poseMarginals()
+{
+  return GraphProblem(*this, 1, false).poseMarginals();
 }
 
 std::map<ObjectId, Eigen::MatrixXd> FactorGraph::objectMarginals()

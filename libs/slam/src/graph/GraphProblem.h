@@ -4,6 +4,7 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 
+#include <Eigen/Sparse>
 #include <map>
 #include <memory>
 #include <vector>
@@ -21,8 +22,19 @@ class GraphProblem
 
   FactorGraph::Summary solve();
   FactorGraph::Marginals marginals(bool withObjects);
+  std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
 
  private:
+  using SparseMatrix = Eigen::SparseMatrix<double>;
+  /** H of steps of the free blocks, and where theirs begin. */
+  struct NormalMatrix
+  {
+    SparseMatrix H;
+    std::map<std::size_t, Eigen::Index> poseAt;
+    std::map<ObjectId, Eigen::Index> objectAt;
+  };
+  NormalMatrix normalMatrix();
+
   void addFloor();
   void addStep(const FactorGraph::Step& step);
   void addView(std::size_t pose, const FactorGraph::View& view);

@@ -134,7 +134,13 @@ void continueMap(
         local.size(), known.size()));
 
   for (auto& keyframe : result.keyframes)
-    keyframe.T_map_robot = match->T_map_local + keyframe.T_map_robot;
+  {
+    mrpt::poses::CPose3DPDFGaussian pose(keyframe.T_map_robot);
+    if (keyframe.covariance) pose.cov = *keyframe.covariance;
+    pose.changeCoordinatesReference(match->T_map_local);
+    keyframe.T_map_robot = pose.mean;
+    if (keyframe.covariance) keyframe.covariance = pose.cov;
+  }
   CQuadricObjectMap map = preparedMap(given, result.map);
   for (const ObjectId id : goneObjects(given, result, *match, boxesOf, options)) map.remove(id);
 

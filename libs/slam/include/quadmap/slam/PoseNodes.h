@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "quadmap/slam/PoseUncertainty.h"
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
@@ -23,6 +24,13 @@ struct PoseNode
  * took their images one after the other on a moving robot saw from different poses and stay apart.
  */
 std::vector<PoseNode> poseNodesOf(const std::vector<Keyframe>& keyframes);
+
+/** The nodes' poses with their covariances: those of the estimation where it has them for all, else
+ * those of `chain`. */
+std::vector<mrpt::poses::CPose3DPDFGaussian> poseDistributions(
+    const std::vector<PoseNode>& nodes,
+    const std::vector<Keyframe>& keyframes,
+    PoseCovarianceChain chain);
 
 /** The index of its node, for each keyframe. */
 std::vector<std::size_t> nodeOfEachKeyframe(const std::vector<PoseNode>& nodes);

@@ -4,7 +4,6 @@
 
 #include "quadmap/slam/KeyframeSpool.h"
 #include "quadmap/slam/PoseNodes.h"
-#include "quadmap/slam/PoseUncertainty.h"
 
 namespace quadmap
 {
@@ -17,12 +16,13 @@ enum class SimpleMapContent
 
 /** Writes an mrpt::maps::CSimpleMap with a sensory frame per node, that is one for all cameras of a
  * pose, and the observations of the spool; it is never in memory as a whole.
+ * \param poses Those of the nodes.
  * \exception std::runtime_error If the file cannot be written. */
 void writeSimpleMap(
     const std::string& path,
     const std::vector<PoseNode>& nodes,
     const KeyframeSpool& spool,
     SimpleMapContent content,
-    PoseCovarianceChain covariances);
+    const std::vector<mrpt::poses::CPose3DPDFGaussian>& poses);
 
 }  // namespace quadmap

@@ -30,6 +30,9 @@ struct Keyframe
   /** Motion since the keyframe before, by the input, (x, y, z, yaw, pitch, roll); the first has
    *  none. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> odometryStep = std::nullopt;
+  /** Marginal covariance of T_map_robot in the same order, the first keyframe being exact because
+   * it defines the map. Nothing when the method estimates none, or no pose. */
+  std::optional<mrpt::math::CMatrixDouble66> covariance = std::nullopt;
 };
 
 /** Which object a box was taken for. */
@@ -88,8 +91,8 @@ struct SlamResult
   std::map<std::string, SlamCounts> countsBySensor;
   OdometrySummary odometry;
   std::map<std::string, LabelCounts> labels;
-  /** What the final estimation made of the measurements; `pose` is a keyframe. Nothing when
-   * there was no graph of them: the pose graph then has the measurements. */
+  /** How much the final estimation knew of the objects from each keyframe, `pose`. Nothing when
+   * there was no graph: the pose graph then has the uncertainty of the measurements. */
   std::vector<FactorGraph::PoseEdge> edges;
   std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
   std::optional<MapContinuation> continuation;  //!< When it started in an existing map

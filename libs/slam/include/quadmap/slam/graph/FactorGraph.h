@@ -87,6 +87,11 @@ class FactorGraph
   /** Of the free part, given the rest. \param firstFree As in optimiseWindow(); 0: everything.
    *  \param withObjects False: of the last pose only. */
   Marginals marginals(std::size_t firstFree, bool withObjects);
+  /** Covariances of the steps of all poses' blocks (GraphState.h), that of pose 0 zero; takes about
+   * as long as one iteration of optimise().
+   * \return Nothing when something is not determined at all: a pose that nothing joins to others.
+   */
+  std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
   /** Of the objects, given all poses. */
   std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
 
@@ -98,9 +103,9 @@ class FactorGraph
     double positionInformation = 0;  //!< Mean over all directions [1/m^2]
     double angleInformation = 0;     //!< Mean over all axes [1/rad^2]
   };
-  /** The views at the present estimate in a form for graphs of poses, which know no sizes: those are
-   * taken as they are. Information is the same in all directions, because programs differ in the
-   * axes they think it belongs to. */
+  /** The views at the present estimate in a form for graphs of poses, which know no sizes: those
+   * are taken as they are. Information is the same in all directions, because programs differ in
+   * the axes they think it belongs to. */
   std::vector<PoseEdge> poseEdges() const;
 
  private:

@@ -1,0 +1,29 @@
+#include "PoseMarginals.h"
+
+#include "../PoseAngles.h"
+
+namespace quadmap
+{
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+std::optional<mrpt::math::CMatrixDouble66> covarianceOfPose(
+    const mrpt::poses::CPose3D& T_map_robot, const Matrix6& covarianceOfStep)
+{
+  constexpr double kLeastCosine = 1e-3;  // of the pitch, 0.06 deg off straight down
+  if (std::abs(std::cos(T_map_robot.pitch())) < kLeastCosine) return std::nullopt;
+  const Eigen::Matrix3d R = T_map_robot.getRotationMatrix().asEigen();
+  Matrix6 J = Matrix6::Zero();
+  J.topRightCorner<3, 3>().setIdentity();
+  J.bottomLeftCorner<3, 3>() = localTurnsPerAngle(T_map_robot).inverse() * R.transpose();
+  const Matrix6 covariance = J * covarianceOfStep * J.transpose();
+  return mrpt::math::CMatrixDouble66(Matrix6(0.5 * (covariance + covariance.transpose())));
+}
+
+void noteMarginals(FactorGraph& graph, std::vector<Keyframe>& keyframes)
+{
+  const auto marginals = graph.poseMarginals();
+  for (std::size_t k = 0; k < marginals.size(); ++k)
+    keyframes[k].covariance = covarianceOfPose(keyframes[k].T_map_robot, marginals[k]);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/graph/FactorGraph.h"
+
+namespace quadmap
+{
+/** Covariance of (x, y, z, yaw, pitch, roll) from that of a pose block's step (w, d).
+ * \return Nothing where the robot looks straight up or down: there yaw and roll are one. */
+std::optional<mrpt::math::CMatrixDouble66> covarianceOfPose(
+    const mrpt::poses::CPose3D& T_map_robot, const Eigen::Matrix<double, 6, 6>& covarianceOfStep);
+
+/** Notes the marginal covariances of the poses of a graph, at its present estimate, at the
+ * keyframes of the same indices. */
+void noteMarginals(FactorGraph& graph, std::vector<Keyframe>& keyframes);
+
+}  // namespace quadmap
