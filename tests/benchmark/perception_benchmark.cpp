@@ -1,10 +1,12 @@
 #include <benchmark/benchmark.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -34,6 +36,7 @@ constexpr std::size_t kMaxFrames = 120;  // 640x480 with colour: 1.5 MB each
 constexpr std::size_t kBoxes = 5;        // in each frame
 constexpr int kPasses = 5;               // over all frames
 constexpr int kManyFrames = 10000;
+constexpr int kLooksAtMemory[] = {1000, 5000, kManyFrames};  // after so many frames
 
 void addFrame(
     Frames& frames,
@@ -140,6 +143,15 @@ double liveMemory_kb()
   return 1e-3 * static_cast<double>(info.uordblks + info.hblkhd);
 }
 
+/** What of this process is in memory [kB]. */
+double residentMemory_kb()
+{
+  std::ifstream file("/proc/self/statm");
+  double pages = 0, residentPages = 0;
+  file >> pages >> residentPages;
+  return 1e-3 * residentPages * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
 void measureFrames(benchmark::State& state, const Frames& frames)
 {
   const FramePerception perception(PerceptionOptions(), LabelTable::installed());
@@ -161,21 +173,24 @@ void measureFrames(benchmark::State& state, const Frames& frames)
   state.counters["p95_ms"] = quantile(times_ms, 0.95);
 }
 
-/** Memory after a tenth of the frames, and how much more it is after all. */
+/** Memory after some of the frames: allocated, and resident. */
 void measureMemory(benchmark::State& state, const Frames& frames)
 {
   const FramePerception perception(PerceptionOptions(), LabelTable::installed());
-  std::size_t next = 0;
-  double early_kb = 0;
+  int done = 0;
   for (auto _ : state)
   {
-    if (next == kManyFrames / 10) early_kb = liveMemory_kb();
-    const Frame& frame = frames[next++ % frames.size()];
+    const Frame& frame = frames[static_cast<std::size_t>(done) % frames.size()];
     CObservationObjects measured = frame.boxes;
     perception.measure(*frame.scan, measured, frame.up_sensor);
+    ++done;
+    for (const int look : kLooksAtMemory)
+      if (done == look)
+      {
+        state.counters["live_kB_" + std::to_string(look)] = liveMemory_kb();
+        state.counters["resident_kB_" + std::to_string(look)] = residentMemory_kb();
+      }
   }
-  state.counters["early_kB"] = early_kb;
-  state.counters["growth_kB"] = liveMemory_kb() - early_kb;
 }
 
 void registerFrames(const std::string& name, const Frames& frames)
