@@ -1,10 +1,12 @@
 #pragma once
 
+#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <functional>
 #include <string>
@@ -16,6 +18,22 @@ namespace quadmap
 {
 using Record = mrpt::serialization::CSerializable::Ptr;
 using Records = std::vector<Record>;
+
+/** All records of a compressed rawlog of stock classes. */
+inline Records readRecords(const std::string& path)
+{
+  mrpt::io::CFileGZInputStream stream(path);
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  Records records;
+  while (true) try
+    {
+      records.push_back(archive.ReadObject());
+    }
+    catch (const mrpt::serialization::CExceptionEOF&)
+    {
+      return records;
+    }
+}
 
 /** A moment of a recording: where odometry thinks the robot is, and its images. */
 struct Moment

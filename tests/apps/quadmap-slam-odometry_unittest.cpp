@@ -1,8 +1,6 @@
 // Every kind of odometry of both rawlog formats, as a user meets it: one recording, written anew
 // with each kind by MRPT's own classes, mapped by the program.
 #include <gtest/gtest.h>
-#include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include "OdometryRecords.h"
 #include "RunProgram.h"
 #include "quadmap/obs/Trajectory.h"
+#include "quadmap/sensors/RawlogNames.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;
@@ -31,25 +30,16 @@ std::vector<Moment> simulated(const TemporaryFolder& folder)
       "[trajectory]\nframes = 8\nduration = 30\n");
   const auto result = runProgram("quadmap-simulate", scene + " -o " + file);
   EXPECT_EQ(result.status, 0) << result.err;
-  mrpt::io::CFileGZInputStream stream(file);
-  auto archive = mrpt::serialization::archiveFrom(stream);
   std::vector<Moment> moments;
-  while (true) try
+  for (const auto& object : readRecords(file))
+    if (const auto pose = std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(object))
     {
-      const auto object = archive.ReadObject();
-      if (const auto pose = std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(object))
-      {
-        if (pose->sensorLabel != "odometry") continue;
-        moments.push_back({mrpt::Clock::toDouble(pose->timestamp), {}, {}});
-        moments.back().T_odom_robot = CPose3D(planar(pose->pose.mean));
-      }
-      else if (const auto image = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
-        moments.back().images.push_back(image);
+      if (pose->sensorLabel != kOdometryLabel) continue;
+      moments.push_back({mrpt::Clock::toDouble(pose->timestamp), {}, {}});
+      moments.back().T_odom_robot = CPose3D(planar(pose->pose.mean));
     }
-    catch (const mrpt::serialization::CExceptionEOF&)
-    {
-      break;
-    }
+    else if (const auto image = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+      moments.back().images.push_back(image);
   EXPECT_EQ(moments.size(), 8u);
   return moments;
 }

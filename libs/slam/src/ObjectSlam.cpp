@@ -224,8 +224,8 @@ void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
 {
   const auto scope = times_.measure("relocalisation");
   continueMap(
-      map, [this](std::size_t k) { return spool_.objects(k); }, configuration_.relocalization,
-      result_);
+      map, backEnd_.backEnd(), [this](std::size_t k) { return spool_.objects(k); },
+      configuration_.relocalization, result_);
   const auto& match = result_.continuation->match;
   MRPT_LOG_INFO_FMT(
       "localised: %zu of the map's %zu objects found again (ln odds %.1f, next best place %.1f)",

@@ -44,7 +44,7 @@ ObjectPrior randomPrior(int size, ObjectFreedom freedom, int rank)
   for (Eigen::Index i = 0; i < A.size(); ++i) A.data()[i] = 3 * gauss(random);
   Eigen::VectorXd b(rank);
   for (Eigen::Index i = 0; i < rank; ++i) b[i] = gauss(random);
-  return {objectBlockOf(kObject, freedom), A.transpose() * A, A.transpose() * b};
+  return {objectBlockOf(kObject, freedom), A.transpose() * A, A.transpose() * b, 0};
 }
 
 }  // namespace
@@ -188,4 +188,26 @@ TEST(ObjectPriorFactor, IsTheQuadraticItStandsFor)
         EXPECT_NEAR(cost, expected, 1e-8 * (1 + std::abs(expected)));
       }
     }
+}
+
+TEST(ObjectPriorFactor, CauchysKernelLimitsWhatItSays)
+{
+  constexpr double kCauchy = 2.0;
+  for (const auto freedom : {ObjectFreedom::Upright, ObjectFreedom::Free})
+  {
+    const auto plain = randomPrior(stepSize(freedom), freedom, 12);
+    auto prior = plain;
+    prior.cauchy = kCauchy;
+    const auto factor = createObjectPrior(prior, freedom);
+    const Block at = objectBlock(kObject, freedom);
+    for (const double step : {1e-3, 0.2, 1.0})
+    {
+      const Block moved = at.moved(1, step);
+      expectRightDerivatives(*factor, {moved});
+      const double square = residualsOf(*createObjectPrior(plain, freedom), {moved}).squaredNorm();
+      EXPECT_NEAR(
+          residualsOf(*factor, {moved}).squaredNorm(),
+          kCauchy * kCauchy * std::log(1 + square / (kCauchy * kCauchy)), 1e-9 * (1 + square));
+    }
+  }
 }

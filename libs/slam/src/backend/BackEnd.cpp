@@ -18,6 +18,21 @@ void BackEnd::insertIntoMap(
     result.decisions.push_back({static_cast<std::uint32_t>(keyframe), decision});
 }
 
+void BackEnd::rebuildMap(const BoxesOf& boxesOf, SlamResult& result)
+{
+  result.map.clear();
+  result.decisions.clear();
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    if (const auto boxes = boxesOf(k))
+      insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
+  result.map.consolidate();
+}
+
+void BackEnd::correctWith(const KnownObjects&, const BoxesOf& boxesOf, SlamResult& result)
+{
+  rebuildMap(boxesOf, result);
+}
+
 std::unique_ptr<BackEnd> createBackEnd(
     const SlamConfiguration& configuration, const LabelTable& labels)
 {

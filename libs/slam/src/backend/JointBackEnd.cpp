@@ -148,7 +148,8 @@ void JointBackEnd::forgetMerged(const CQuadricObjectMap& map)
   }
 }
 
-FactorGraph JointBackEnd::globalGraph(const BoxesOf& boxesOf, const SlamResult& result) const
+FactorGraph JointBackEnd::globalGraph(
+    const BoxesOf& boxesOf, const SlamResult& result, const Priors& priors) const
 {
   struct Seen
   {
@@ -157,25 +158,29 @@ FactorGraph JointBackEnd::globalGraph(const BoxesOf& boxesOf, const SlamResult& 
     RobotView view;
   };
   FactorGraph graph(graphOptions(options_, estimator_));
+  if (!priors.empty()) graph.addPose(CPose3D());
+  const std::size_t first = graph.poses();
   std::map<ObjectId, std::vector<Seen>> seenOf;
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
     const Keyframe& keyframe = result.keyframes[k];
-    graph.addPose(keyframe.T_map_robot);
-    if (k > 0 && keyframe.odometryStep)
-      graph.addStep(k - 1, k, stiffAtRest(*keyframe.odometryStep));
+    const std::size_t pose = graph.addPose(keyframe.T_map_robot);
+    if (pose > first && keyframe.odometryStep)
+      graph.addStep(pose - 1, pose, stiffAtRest(*keyframe.odometryStep));
     const auto boxes = boxesOf(k);
     if (!boxes) continue;
     for (const auto& decision : result.map.match(*boxes, keyframe.T_map_robot))
       if (const MapObject* object = decision.object ? result.map.find(*decision.object) : nullptr)
         if (auto view = viewFor(*boxes, decision.box, keyframe.T_map_robot, *object))
           seenOf[object->id].push_back(
-              {k, positionOf(keyframe.T_map_robot + boxes->sensorPose), std::move(*view)});
+              {pose, positionOf(keyframe.T_map_robot + boxes->sensorPose), std::move(*view)});
   }
   for (auto& [id, seen] : seenOf)
   {
     const MapObject& object = *result.map.find(id);
     graph.setObject(id, object.object, labels_.properties(object.label()));
+    if (const auto prior = priors.find(id); prior != priors.end())
+      graph.setObjectPrior(id, prior->second);
     std::vector<Eigen::Vector3d> cameras;
     for (const auto& s : seen) cameras.push_back(s.camera);
     const auto shares = independentShares(cameras, object.object.center(), existence_);
@@ -188,45 +193,57 @@ FactorGraph JointBackEnd::globalGraph(const BoxesOf& boxesOf, const SlamResult& 
   return graph;
 }
 
-void JointBackEnd::rebuildMap(const BoxesOf& boxesOf, SlamResult& result)
+double JointBackEnd::takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result)
 {
-  result.map.clear();
-  result.decisions.clear();
+  const std::size_t first = graph.poses() - result.keyframes.size();
+  const auto poseOf = [&](std::size_t k) { return graph.pose(first + k); };
+  const CPose3D T_map_graph =
+      priors.empty() ? alignmentWithOdometry(poseOf, result.keyframes) : CPose3D();
+  double farthest = 0;
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
-    const auto boxes = boxesOf(k);
-    if (boxes) insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
+    CPose3D& pose = result.keyframes[k].T_map_robot;
+    const CPose3D corrected = T_map_graph + poseOf(k);
+    farthest = std::max(farthest, pose.distanceTo(corrected));
+    pose = corrected;
   }
-  result.map.consolidate();
+  return farthest;
 }
 
-void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
+void JointBackEnd::estimate(
+    const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) const
 {
   CorrectionSummary summary;
-  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
-    result.keyframes[k].T_map_robot = graph_.pose(k);
-  result.map.consolidate();
   for (; summary.rounds < options_.rounds && !summary.converged; ++summary.rounds)
   {
-    FactorGraph graph = globalGraph(boxesOf, result);
+    const Priors priors = knownObjects(result.map);
+    FactorGraph graph = globalGraph(boxesOf, result, priors);
     graph.optimise();
-    const CPose3D T_map_graph =
-        alignmentWithOdometry([&](std::size_t k) { return graph.pose(k); }, result.keyframes);
-    summary.lastMove = 0;
-    for (std::size_t k = 0; k < result.keyframes.size(); ++k)
-    {
-      CPose3D& pose = result.keyframes[k].T_map_robot;
-      const CPose3D corrected = T_map_graph + graph.pose(k);
-      summary.lastMove = std::max(summary.lastMove, pose.distanceTo(corrected));
-      pose = corrected;
-    }
+    summary.lastMove = takePoses(graph, priors, result);
     rebuildMap(boxesOf, result);
     summary.converged = summary.lastMove < options_.smallMove;
   }
   result.correction = summary;
-  FactorGraph graph = globalGraph(boxesOf, result);  // with the objects of the final map
+  const Priors priors = knownObjects(result.map);
+  FactorGraph graph = globalGraph(boxesOf, result, priors);  // with the objects of the final map
   result.edges = graph.poseEdges();
+  for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);
+}
+
+void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
+{
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    result.keyframes[k].T_map_robot = graph_.pose(k);
+  result.map.consolidate();
+  estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, result);
+}
+
+void JointBackEnd::correctWith(
+    const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result)
+{
+  rebuildMap(boxesOf, result);
+  estimate(knownObjects, boxesOf, result);
 }
 
 }  // namespace quadmap

@@ -22,8 +22,10 @@ std::optional<mrpt::math::CMatrixDouble66> covarianceOfPose(
 void noteMarginals(FactorGraph& graph, std::vector<Keyframe>& keyframes)
 {
   const auto marginals = graph.poseMarginals();
-  for (std::size_t k = 0; k < marginals.size(); ++k)
-    keyframes[k].covariance = covarianceOfPose(keyframes[k].T_map_robot, marginals[k]);
+  if (marginals.empty()) return;
+  const std::size_t first = marginals.size() - keyframes.size();
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    keyframes[k].covariance = covarianceOfPose(keyframes[k].T_map_robot, marginals[first + k]);
 }
 
 }  // namespace quadmap

@@ -13,7 +13,7 @@ std::optional<mrpt::math::CMatrixDouble66> covarianceOfPose(
     const mrpt::poses::CPose3D& T_map_robot, const Eigen::Matrix<double, 6, 6>& covarianceOfStep);
 
 /** Notes the marginal covariances of the poses of a graph, at its present estimate, at the
- * keyframes of the same indices. */
+ * keyframes, which are its last ones. */
 void noteMarginals(FactorGraph& graph, std::vector<Keyframe>& keyframes);
 
 }  // namespace quadmap

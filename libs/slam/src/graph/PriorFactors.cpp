@@ -161,6 +161,7 @@ struct ObjectPriorResidual
   ObjectBlock at;
   Eigen::Matrix<double, kStep, kStep> S;
   Eigen::Matrix<double, kStep, 1> b;
+  double cauchy = 0;
 
   template <typename T>
   bool operator()(const T* object, T* residual) const
@@ -178,7 +179,20 @@ struct ObjectPriorResidual
     }
     Eigen::Map<Eigen::Matrix<T, kStep, 1>> r(residual);
     r = S.template cast<T>() * d + b.template cast<T>();
+    if (cauchy > 0) soften<T>(r);
     return true;
+  }
+
+  template <typename T>
+  void soften(Eigen::Map<Eigen::Matrix<T, kStep, 1>>& r) const
+  {
+    using std::log;
+    using std::sqrt;
+    constexpr double kNone = 1e-12;  // [sigmas^2]: the kernel is 1 there, and its quotient 0 / 0
+    const double squaredCauchy = cauchy * cauchy;
+    const T square = r.squaredNorm();
+    if (square < kNone) return;
+    r *= sqrt(squaredCauchy * log(1.0 + square / squaredCauchy) / square);
   }
 };
 
@@ -188,7 +202,8 @@ ObjectPriorResidual<kStep> objectPriorResidual(const ObjectPrior& prior)
   using Matrix = Eigen::Matrix<double, kStep, kStep>;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(prior.L));
   const double smallest = 1e-9 * std::max(eigen.eigenvalues().maxCoeff(), 1e-9);
-  ObjectPriorResidual<kStep> r{prior.at, Matrix::Zero(), Eigen::Matrix<double, kStep, 1>::Zero()};
+  ObjectPriorResidual<kStep> r{
+      prior.at, Matrix::Zero(), Eigen::Matrix<double, kStep, 1>::Zero(), prior.cauchy};
   for (int i = 0; i < kStep; ++i)
   {
     const double value = eigen.eigenvalues()[i];

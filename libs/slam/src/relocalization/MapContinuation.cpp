@@ -7,8 +7,10 @@
 #include <set>
 
 #include "GoneObjects.h"
+#include "KnownObjects.h"
 #include "quadmap/maps/Assignment.h"
 #include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/backend/BackEnd.h"
 
 namespace quadmap
 {
@@ -103,6 +105,21 @@ void pairMoves(
   changes.added = without({changes.added.begin(), changes.added.end()}, came);
 }
 
+/** \exception NotLocalised */
+ConstellationMatch requireMatch(
+    const CQuadricObjectMap& run,
+    const CQuadricObjectMap& given,
+    const RelocalizationOptions& options)
+{
+  const auto local = run.confirmedObjects(), known = given.confirmedObjects();
+  const auto match = matchConstellation(local, known, run.labels(), options);
+  if (match) return *match;
+  throw NotLocalised(mrpt::format(
+      "it cannot be told where this is in the map: the %zu objects of the recording were "
+      "compared with the %zu of the map",
+      local.size(), known.size()));
+}
+
 MapContinuation changesBetween(
     const CQuadricObjectMap& given,
     const CQuadricObjectMap& now,
@@ -121,28 +138,28 @@ MapContinuation changesBetween(
 
 void continueMap(
     const CQuadricObjectMap& given,
+    BackEnd& backEnd,
     const std::function<CObservationObjects::Ptr(std::size_t)>& boxesOf,
     const RelocalizationOptions& options,
-    SlamResult& result)
+    SlamResult& finalResult)
 {
-  const auto local = result.map.confirmedObjects(), known = given.confirmedObjects();
-  const auto match = matchConstellation(local, known, result.map.labels(), options);
-  if (!match)
-    throw NotLocalised(mrpt::format(
-        "it cannot be told where this is in the map: the %zu objects of the recording were "
-        "compared with the %zu of the map",
-        local.size(), known.size()));
-
+  const auto place = requireMatch(finalResult.map, given, options).T_map_local;
+  SlamResult result = finalResult;
   for (auto& keyframe : result.keyframes)
   {
     mrpt::poses::CPose3DPDFGaussian pose(keyframe.T_map_robot);
     if (keyframe.covariance) pose.cov = *keyframe.covariance;
-    pose.changeCoordinatesReference(match->T_map_local);
+    pose.changeCoordinatesReference(place);
     keyframe.T_map_robot = pose.mean;
     if (keyframe.covariance) keyframe.covariance = pose.cov;
   }
+  backEnd.correctWith(
+      [&](const CQuadricObjectMap& local)
+      { return priorsOf(local, given, requireMatch(local, given, options).pairs, options); },
+      boxesOf, result);
+  ConstellationMatch match = requireMatch(result.map, given, options);
   CQuadricObjectMap map = preparedMap(given, result.map);
-  for (const ObjectId id : goneObjects(given, result, *match, boxesOf, options)) map.remove(id);
+  for (const ObjectId id : goneObjects(given, result, match, boxesOf, options)) map.remove(id);
 
   const std::vector<BoxDecision> before = std::move(result.decisions);
   result.map = std::move(map);
@@ -153,7 +170,9 @@ void continueMap(
   result.map.consolidate();
   renameObjectsOfEdges(before, result);
   result.continuation = changesBetween(given, result.map, options);
-  result.continuation->match = *match;
+  match.T_map_local = place;
+  result.continuation->match = match;
+  finalResult = std::move(result);
 }
 
 }  // namespace quadmap

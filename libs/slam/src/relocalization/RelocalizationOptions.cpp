@@ -10,12 +10,13 @@ void RelocalizationOptions::loadFromConfigFile(
 {
   rejectUnknownKeys(
       config, section,
-      {"positionSigma", "yawSigma_deg", "maxSizeLogRatio", "minLabelAgreement", "knownShare",
-       "minPairs", "minLogOdds"});
+      {"positionSigma", "yawSigma_deg", "mapSigma", "maxSizeLogRatio", "minLabelAgreement",
+       "knownShare", "minPairs", "minLogOdds"});
   readNumber(config, section, "positionSigma", positionSigma, 1e-3, 10.0);
   double yaw_deg = mrpt::RAD2DEG(yawSigma);
   readNumber(config, section, "yawSigma_deg", yaw_deg, 0.01, 90.0);
   yawSigma = mrpt::DEG2RAD(yaw_deg);
+  readNumber(config, section, "mapSigma", mapSigma, 1e-3, 10.0);
   readNumber(config, section, "maxSizeLogRatio", maxSizeLogRatio, 0.01, 10.0);
   readNumber(config, section, "minLabelAgreement", minLabelAgreement, 0.0, 1.0);
   readNumber(config, section, "knownShare", knownShare, 0.01, 0.99);
@@ -28,6 +29,7 @@ void RelocalizationOptions::saveToConfigFile(
 {
   config.write(section, "positionSigma", optionText(positionSigma));
   config.write(section, "yawSigma_deg", optionText(mrpt::RAD2DEG(yawSigma)));
+  config.write(section, "mapSigma", optionText(mapSigma));
   config.write(section, "maxSizeLogRatio", optionText(maxSizeLogRatio));
   config.write(section, "minLabelAgreement", optionText(minLabelAgreement));
   config.write(section, "knownShare", optionText(knownShare));

@@ -30,7 +30,7 @@ struct Keyframe
   /** Motion since the keyframe before, by the input, (x, y, z, yaw, pitch, roll); the first has
    *  none. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> odometryStep = std::nullopt;
-  /** Marginal covariance of T_map_robot in the same order, the first keyframe being exact because
+  /** Marginal covariance of T_map_robot in the same order, the first keyframe being exact where
    * it defines the map. Nothing when the method estimates none, or no pose. */
   std::optional<mrpt::math::CMatrixDouble66> covariance = std::nullopt;
 };

@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
+#include "quadmap/slam/graph/GraphFactors.h"
 
 namespace quadmap
 {
@@ -38,12 +40,26 @@ class BackEnd
   /** After the last keyframe: `result`'s poses, map and decisions become the final ones. */
   virtual void finish(const BoxesOf& boxesOf, SlamResult& result) = 0;
 
+  /** What a map says of the objects of a run, by the run's ids. Both are in the map's frame. */
+  using KnownObjects = std::function<std::map<ObjectId, ObjectPrior>(const CQuadricObjectMap&)>;
+
+  /** After finish(), and after the poses were moved into the frame of a map: estimates everything
+   * anew with what that map says, asking it again in each round. `result`'s map and decisions,
+   * still those of the run alone, and its edges then belong to its poses. This one believes the
+   * poses. */
+  virtual void correctWith(
+      const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result);
+
   /** Inserts the boxes of a keyframe into the map of `result` and notes the decisions. */
   static void insertIntoMap(
       const CObservationObjects& boxes,
       std::size_t keyframe,
       const mrpt::poses::CPose3D& T_map_robot,
       SlamResult& result);
+
+ protected:
+  /** Makes map and decisions anew, at the poses of the keyframes. */
+  static void rebuildMap(const BoxesOf& boxesOf, SlamResult& result);
 };
 
 /** The one that a run's method and source of poses ask for.

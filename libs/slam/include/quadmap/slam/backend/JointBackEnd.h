@@ -37,6 +37,10 @@ class JointBackEnd : public BackEnd
    * poses. `result` is told how it went. */
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
+  /** As finish(), but it is the known objects that say where the map lies. */
+  void correctWith(
+      const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) override;
+
  private:
   /** Where the robot is by odometry from the last keyframe's pose.
    *  \param T_odom_robot Its pose as the odometry has it. */
@@ -55,8 +59,15 @@ class JointBackEnd : public BackEnd
       std::size_t pose,
       const CQuadricObjectMap& map);
   void forgetMerged(const CQuadricObjectMap& map);
-  FactorGraph globalGraph(const BoxesOf& boxesOf, const SlamResult& result) const;
-  static void rebuildMap(const BoxesOf& boxesOf, SlamResult& result);
+  using Priors = std::map<ObjectId, ObjectPrior>;
+
+  /** All poses and objects. With priors pose 0 is the map, and pose k + 1 that of keyframe k. */
+  FactorGraph globalGraph(
+      const BoxesOf& boxesOf, const SlamResult& result, const Priors& priors) const;
+  /** Moves the keyframes to where a graph has them. \return The longest move [m]. */
+  static double takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result);
+  /** Rounds of association and estimation. */
+  void estimate(const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) const;
 
   JointOptions options_;
   PoseNoise viewNoise_;  //!< Of the map's options: what a view errs by beyond its faces

@@ -54,6 +54,9 @@ struct ObjectPrior
   ObjectBlock at{};
   Eigen::MatrixXd L;
   Eigen::VectorXd g;
+  /** Cauchy's kernel c of the whole residual r, for knowledge that may be wrong: |r|^2 becomes
+   * c^2 ln(1 + |r|^2 / c^2); 0: none. [sigmas] */
+  double cauchy = 0;
 };
 Factor createObjectPrior(const ObjectPrior& prior, ObjectFreedom freedom);
 

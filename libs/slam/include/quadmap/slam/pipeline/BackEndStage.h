@@ -44,6 +44,8 @@ class BackEndStage
     backEnd_->finish(boxesOf, result);
   }
 
+  BackEnd& backEnd() { return *backEnd_; }
+
  private:
   std::unique_ptr<BackEnd> backEnd_;
   std::array<mrpt::poses::CPose3D, kLag> corrections_;  //!< After the latest items, round and round

@@ -13,6 +13,7 @@
 
 namespace quadmap
 {
+class BackEnd;
 struct SlamResult;
 
 /** What a run found changed in the map it started in. Ids are those of the continued map. */
@@ -35,12 +36,15 @@ struct NotLocalised : std::runtime_error
   using runtime_error::runtime_error;
 };
 
-/** Finds a finished run in a map and carries that on: the poses go into the map's frame, what is
- * gone is taken out, and the run's observations are put in. Ids of known objects stay.
- * \param boxesOf As in BackEnd. \param result Of the whole run, in its own frame.
+/** Finds a finished run in a map and carries that on: the poses go into the map's frame and are
+ * corrected by its objects, what is gone is taken out, and the run's observations are put in. Ids
+ * of known objects stay.
+ * \param backEnd That of the run. \param boxesOf As in BackEnd.
+ * \param result Of the whole run, in its own frame.
  * \exception NotLocalised `result` is then unchanged. */
 void continueMap(
     const CQuadricObjectMap& given,
+    BackEnd& backEnd,
     const std::function<CObservationObjects::Ptr(std::size_t)>& boxesOf,
     const RelocalizationOptions& options,
     SlamResult& result);

@@ -12,6 +12,10 @@ struct RelocalizationOptions : public mrpt::config::CLoadableOptions
    * run's drift, sides of it that only one of them saw [m], > 0 */
   double positionSigma = 0.08;
   double yawSigma = mrpt::DEG2RAD(5.0);  //!< The same of its heading [rad], > 0; INI in degrees
+  /** How far the sides of a known object are from where the map has them, beyond its covariance:
+   * drift of the run that made it, sides that only one of them saw [m], > 0. So tightly do known
+   * objects hold the poses */
+  double mapSigma = 0.01;
   double maxSizeLogRatio = 0.5;    //!< |ln| of how much their sizes differ at most, per axis, > 0
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
   /** Of the run's objects in the area of the map, the share it has; the others were moved or

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/slam/graph/GraphFactors.h"
+#include "quadmap/slam/relocalization/RelocalizationOptions.h"
+
+namespace quadmap
+{
+/** What a map knows of objects that a run has found again, by their ids in the run: their states
+ * with the map's covariance and what both may err by beyond it.
+ * \param pairs (local, given), of objects the maps have. */
+std::map<ObjectId, ObjectPrior> priorsOf(
+    const CQuadricObjectMap& local,
+    const CQuadricObjectMap& given,
+    const std::vector<std::pair<ObjectId, ObjectId>>& pairs,
+    const RelocalizationOptions& options);
+
+}  // namespace quadmap
