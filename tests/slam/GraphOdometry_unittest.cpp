@@ -189,3 +189,30 @@ TEST_F(GraphOdometryFile, TheGraphOfARunIsTheOdometryOfAnother)
   EXPECT_EQ(a[0].label, b[0].label);
   EXPECT_LT((a[0].object.center() - b[0].object.center()).norm(), 0.005) << "its noise is a pixel";
 }
+
+TEST_F(GraphOdometryFile, PlanarGraphsSayNothingOfHeightAndTilt)
+{
+  const PoseUncertaintyOptions options;
+  for (const bool forward : {true, false})
+  {
+    // x y phi; information xx xy xp yy yp pp
+    auto graph = read(
+        std::string("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0.5\n") +
+        (forward ? "EDGE_SE2 0 1 1 0 0.5 100 20 30 200 0 7000\n"
+                 : "EDGE_SE2 1 0 -0.877583 0.479426 -0.5 100 0 0 100 0 7000\n"));
+    graph.poseAt(1);
+    graph.takeStep(options);
+    EXPECT_LT((graph.poseAt(2).value() - CPose3D(1, 0, 0, 0.5, 0, 0)).norm(), 1e-9);
+    const auto step = graph.takeStep(options).value();
+    const auto usual = odometryStep(options, CPose3D(), CPose3D(1, 0, 0, 0.5, 0, 0));
+    for (const int i : {2, 4, 5}) EXPECT_NEAR(step.cov(i, i), usual.cov(i, i), 1e-12) << i;
+    EXPECT_EQ(Matrix6(step.cov.asEigen()).llt().info(), Eigen::Success);
+    if (!forward) continue;
+    Eigen::Matrix3d information, covariance;
+    information << 100, 20, 30, 20, 200, 0, 30, 0, 7000;
+    const int at[] = {0, 1, 3};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) covariance(r, c) = step.cov(at[r], at[c]);
+    EXPECT_LT((covariance * information - Eigen::Matrix3d::Identity()).norm(), 1e-6);
+  }
+}

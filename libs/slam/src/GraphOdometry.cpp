@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <sstream>
 #include <stdexcept>
 
@@ -27,6 +28,14 @@ struct NodeTime
   double time = 0;  // [s]
   TNodeID node = 0;
 };
+
+/** Does information say nothing of these coordinates? */
+bool isSilent(const Eigen::Matrix<double, 6, 6>& matrix, std::initializer_list<int> coordinates)
+{
+  for (const int i : coordinates)
+    if (!matrix.row(i).isZero() || !matrix.col(i).isZero()) return false;
+  return true;
+}
 
 /** The text of a graph, with what MRPT's reader takes for comments. */
 class GraphFile
@@ -58,20 +67,27 @@ class GraphFile
   Graph graph;
   std::vector<NodeTime> times;
 
-  /** Of the step from a node to another, when an edge joins them. */
+  /** Of the step from a node to another, when an edge joins them; zero where a planar one is
+   * silent. */
   std::optional<mrpt::math::CMatrixDouble66> stepCovariance(TNodeID from, TNodeID to) const
   {
     const bool isForward = graph.edgeExists(from, to);
     if (!isForward && !graph.edgeExists(to, from)) return std::nullopt;
     const auto& edge = isForward ? graph.getEdge(from, to) : graph.getEdge(to, from);
-    const Eigen::Matrix<double, 6, 6> information = edge.cov_inv.asEigen();
+    const Eigen::Matrix<double, 6, 6> given = edge.cov_inv.asEigen();
+    const bool isPlanar = !given.isZero() && isSilent(given, {2, 4, 5});
+    Eigen::Matrix<double, 6, 6> information = given;
+    if (isPlanar)
+      for (const int i : {2, 4, 5}) information(i, i) = 1;  // so that it has an inverse
     if (!information.isApprox(information.transpose()) ||
         information.llt().info() != Eigen::Success)
       throw std::runtime_error(mrpt::format(
           "%s: the information of the edge between %u and %u is not positive definite",
           path_.c_str(), unsigned(from), unsigned(to)));
-    CPose3DPDFGaussian step;
-    step.copyFrom(edge);
+    const Eigen::Matrix<double, 6, 6> covariance = information.inverse();
+    CPose3DPDFGaussian step(edge.mean, mrpt::math::CMatrixDouble66(covariance));
+    if (isPlanar)
+      for (const int i : {2, 4, 5}) step.cov(i, i) = 0;
     return (isForward ? step : -step).cov;
   }
 
@@ -170,7 +186,10 @@ CPose3DPDFGaussian GraphOdometry::step(
   for (std::size_t i = from; i < to; ++i)
   {
     auto next = odometryStep(options, poses_[i].T_map_robot, poses_[i + 1].T_map_robot);
-    if (poses_[i].stepCovariance) next.cov = *poses_[i].stepCovariance;
+    if (const auto& stated = poses_[i].stepCovariance)
+      for (int r = 0; r < 6; ++r)
+        for (int c = 0; c < 6; ++c)
+          if ((*stated)(r, r) > 0 && (*stated)(c, c) > 0) next.cov(r, c) = (*stated)(r, c);
     sum = sum ? *sum + next : next;
   }
   return *sum;
