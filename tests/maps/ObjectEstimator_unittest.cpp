@@ -170,6 +170,39 @@ TEST(ObjectEstimator, UnseenSidesAreLowerBounds)
   EXPECT_GT(far, largest - 0.02);
 }
 
+TEST(ObjectEstimator, FewLowerBoundsBehindTheObjectDoNotStretchIt)
+{
+  // Seen from one side; in every fourth view the wall behind was taken for the object's end.
+  SyntheticCamera camera(5);
+  camera.disturbances = Disturbances{};
+  camera.disturbances.poseSigma = camera.disturbances.poseAngleSigma = 0;
+  constexpr double kLeak = 0.25;  // [m]
+  std::vector<ObjectView> views;
+  for (int i = 0; i < 12; ++i)
+  {
+    const Eigen::Vector3d eye(-0.6, -0.6 + 0.1 * i, 0.9);
+    const auto T = SyntheticCamera::lookAt(eye, kCabinet.object.center());
+    auto view =
+        *viewOf(camera.observe(T, {kCabinet}).objects.at(0), T, boxy("suitcase"), {0.001, 0.001});
+    for (std::size_t f = 0; f < 4; ++f)
+    {
+      if (view.faces[f].kind != FaceKind::AtLeast) continue;
+      // Its end moves to the truth, or behind it.
+      const Eigen::Vector3d n = view.faceNormal(f),
+                            n_obj = kCabinet.object.rotation().transpose() * n;
+      const double truth =
+          n.dot(kCabinet.object.center()) + n_obj.cwiseAbs().dot(kCabinet.object.semiAxes());
+      const double out = truth + (i % 4 == 0 ? kLeak : 0) - view.faceOffset(f);
+      view.center += 0.5 * out * n;
+      view.halfSizes[static_cast<Eigen::Index>(f / 2)] += 0.5 * out;
+    }
+    views.push_back(view);
+  }
+  const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
+  expectNear(result.state, kCabinet.object, 0.02, 2.0);
+  EXPECT_GT(shapeIoU(result.state, kCabinet.object), 0.9);
+}
+
 TEST(ObjectEstimator, KeepsViewsFromAllSidesWhenThereAreTooMany)
 {
   SyntheticCamera camera(6);

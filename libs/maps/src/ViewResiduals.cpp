@@ -75,7 +75,10 @@ void addFaces(
     if (face.kind == FaceKind::AtLeast && gap <= 0) continue;  // large enough: nothing to say
     UprightState J;
     J << -normals[f], -width.d;
-    eq.add(gap / face.sigma, J / face.sigma, options.huber, weight);
+    if (face.kind == FaceKind::AtLeast)
+      eq.addCauchy(gap / face.sigma, J / face.sigma, options.huber, weight);
+    else
+      eq.add(gap / face.sigma, J / face.sigma, options.huber, weight);
   }
 }
 
@@ -108,6 +111,16 @@ void NormalEquations::add(
   const double r = std::abs(residual);
   cost += weight * (r <= huber ? 0.5 * r * r : huber * r - 0.5 * huber * huber);
   const double w = weight * huberWeight(residual, huber);
+  H.noalias() += w * jacobian * jacobian.transpose();
+  g.noalias() += w * residual * jacobian;
+}
+
+void NormalEquations::addCauchy(
+    double residual, const UprightState& jacobian, double scale, double weight)
+{
+  const double u = residual * residual / (scale * scale);
+  cost += 0.5 * weight * scale * scale * std::log1p(u);
+  const double w = weight / (1 + u);
   H.noalias() += w * jacobian * jacobian.transpose();
   g.noalias() += w * residual * jacobian;
 }

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "../PoseAngles.h"
-#include "HuberRow.h"
+#include "RobustRow.h"
 #include "quadmap/geometry/Support.h"
 #include "quadmap/slam/graph/GraphFactors.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "HuberRow.h"
+#include "RobustRow.h"
 #include "quadmap/geometry/RotationDistance.h"
 #include "quadmap/geometry/RotationVector.h"
 #include "quadmap/geometry/Support.h"
@@ -208,11 +208,11 @@ class RowWriter
       objectTurn_ = rotationStepPerQuaternion(Eigen::Map<const Eigen::Quaterniond>(object + 3));
   }
 
-  void add(const Row& row, double sigma, double huber, double weight)
+  /** \param robust The row's residual in sigmas under its kernel. */
+  void add(const Row& row, double sigma, const RobustRow& robust)
   {
-    const HuberRow h = huberRow(row.r / sigma, huber, weight);
-    residuals_[index_] = h.value;
-    const double slope = h.slope / sigma;
+    residuals_[index_] = robust.value;
+    const double slope = robust.slope / sigma;
     if (poseJacobian_)
     {
       Eigen::Map<Eigen::Matrix<double, 1, 7>> J(poseJacobian_ + 7 * index_);
@@ -222,7 +222,7 @@ class RowWriter
     ++index_;
   }
 
-  void addZero() { add(Row(), 1, 1, 1); }
+  void addZero() { add(Row(), 1, {0, 1}); }
 
  private:
   void addObject(const Row& row, double slope)
@@ -272,15 +272,18 @@ class ViewFactor : public ceres::CostFunction
     const SeenView seen(view_, pose, freedom_);
     RowWriter out(pose, blocks[1], freedom_, residuals, jacobians);
     const auto add = [&](const Row& row, double sigma)
-    { out.add(row, sigma, huber_, view_.weight); };
+    { out.add(row, sigma, huberRow(row.r / sigma, huber_, view_.weight)); };
 
     for (const std::size_t f : faces_)
     {
       const Row row = seen.face(f, object);
-      if (view_.faces[f].kind == FaceKind::AtLeast && row.r <= 0)
+      const double sigma = view_.faces[f].sigma;
+      if (view_.faces[f].kind != FaceKind::AtLeast)
+        add(row, sigma);
+      else if (row.r <= 0)
         out.addZero();  // large enough: nothing to say
       else
-        add(row, view_.faces[f].sigma);
+        out.add(row, sigma, cauchyRow(row.r / sigma, huber_, view_.weight));
     }
     if (usesYaw_) add(seen.yaw(object), view_.yawSigma);
     for (int i = 0; usesTilt_ && i < 2; ++i) add(seen.tilt(i), view_.tiltSigma);

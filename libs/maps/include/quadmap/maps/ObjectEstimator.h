@@ -14,8 +14,9 @@ struct EstimatorOptions
 {
   int maxMeasurements = 150;  //!< Of one object that are kept; redundant ones go, >= 3
   int maxIterations = 25;     //!< Of the optimiser, >= 1
-  double huber = 1.5;         //!< Residuals beyond this many sigmas lose weight, > 0
-  double edgeFloor = 0.01;    //!< Added to the sigma of every box edge [m], >= 0
+  /** Residuals beyond this many sigmas lose weight, lower bounds of sizes most of it, > 0. */
+  double huber = 1.5;
+  double edgeFloor = 0.01;  //!< Added to the sigma of every box edge [m], >= 0
   bool edgesOfComplete =
       true;  //!< Use the box edges of complete measurements with unseen sides too
   double roundnessSigma = 0.1;   //!< Of ln(a/b) for labels without dominant direction [-], > 0
@@ -41,6 +42,10 @@ struct NormalEquations
 
   /** Adds one residual in sigmas with its derivatives, under Huber's kernel. */
   void add(double residual, const UprightState& jacobian, double huber, double weight = 1.0);
+
+  /** Adds one residual under Cauchy's kernel: its pull fades with its distance. \param scale In
+   * sigmas. */
+  void addCauchy(double residual, const UprightState& jacobian, double scale, double weight = 1.0);
 };
 
 /** All residuals of one measurement: tangency of its faces and box edges, its yaw. The derivatives

@@ -30,8 +30,8 @@ Factor createOdometryFactor(const mrpt::poses::CPose3DPDFGaussian& step);
 Factor createPosePrior(const mrpt::poses::CPose3DPDFGaussian& T_map_robot);
 
 /** One measurement of an object: its faces, yaw (all three angles of a free object), tilt, box
- * edges and seed. Exact derivatives. Blocks: pose, object.
- * \param shapeExponent Of the label, for the box edges. \param huber In sigmas. */
+ * edges and seed. Exact derivatives. Lower bounds of sizes come under Cauchy's kernel. Blocks:
+ * pose, object. \param shapeExponent Of the label, for the box edges. \param huber In sigmas. */
 Factor createViewFactor(
     const RobotView& view, double shapeExponent, double huber, ObjectFreedom freedom);
 
