@@ -47,7 +47,8 @@ struct InputProblem
  * A scan that has none there gets those of its pixelLabels, when it has some. Odometry of any kind
  * (CActionRobotMovement2D/3D, CObservationOdometry, CObservationRobotPose) is interpolated at the
  * frame's time; CObservationRobotPose labelled "ground_truth" is the true pose, not odometry. What
- * a CObservationRobotPose states is the robot's pose, as MRPT defines it, wherever its sensor is. */
+ * a CObservationRobotPose states is the robot's pose, as MRPT defines it, wherever its sensor is.
+ */
 class RawlogSource : public mrpt::system::COutputLogger
 {
  public:

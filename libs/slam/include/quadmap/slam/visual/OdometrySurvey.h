@@ -15,8 +15,8 @@ struct OdometrySurvey
 {
   PoseSource source = PoseSource::Auto;     //!< Visual instead of Auto when there is no odometry
   std::optional<Eigen::Vector3d> up_robot;  //!< At the first image, from the floor; needs no poses
-  /** The best of several kinds of odometry (RawlogSourceOptions::odometryKind); empty: there are not
-   *  several. */
+  /** The best of several kinds of odometry (RawlogSourceOptions::odometryKind); empty: there are
+   * not several. */
   std::string odometryKind;
 };
 
