@@ -67,7 +67,7 @@ class RawlogSource : public mrpt::system::COutputLogger
   std::size_t recordsRead() const;
   std::size_t framesRead() const;
   bool hasBoxes() const;             //!< Boxes (or pixelLabels, if wanted) were seen somewhere
-  std::string odometryKind() const;  //!< "CObservationRobotPose odometry", ...; "" while unseen
+  std::string odometryKind() const;  //!< The one used: "CObservationOdometry wheels"; "" at first
   std::vector<std::string> odometryKinds() const;  //!< All that were seen, used or not
 
   /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".

@@ -23,8 +23,8 @@ namespace quadmap
  * An edge's pose is not what was measured but what the final estimate makes of it. At a minimum all
  * gradients add up to zero, and so do these, each by itself: the graph has the minimum and about
  * the curvature of the estimation, also for programs that know no robust kernels, sizes or planes.
- * The odometry and the measurements themselves are in the other files of a run. \exception
- * std::runtime_error If the file cannot be written. */
+ * The odometry and the measurements themselves are in the other files of a run.
+ * \exception std::runtime_error If the file cannot be written. */
 void writePoseGraph(
     const std::string& path,
     const std::vector<PoseNode>& nodes,
