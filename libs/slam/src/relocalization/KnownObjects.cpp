@@ -16,26 +16,40 @@ struct Known
   UprightCovariance covariance;
 };
 
-/** A cuboid has four upright states: the one whose yaw is nearest. */
-Known namedLike(Known known, double yaw)
+void swapHorizontalAxes(Known& known)
 {
-  const double turns = std::round((yaw - known.state[3]) / (M_PI / 2));
-  known.state[3] += turns * M_PI / 2;
-  if (std::fmod(std::abs(turns), 2) < 0.5) return known;
   Eigen::PermutationMatrix<7> swapAxes;
   swapAxes.setIdentity();
   std::swap(swapAxes.indices()[4], swapAxes.indices()[5]);
   known.state = swapAxes * known.state;
   known.covariance = swapAxes * known.covariance * swapAxes.transpose();
+}
+
+/** A cuboid has four upright states: the one whose yaw is nearest. */
+Known turnedLike(Known known, double yaw)
+{
+  const double turns = std::round((yaw - known.state[3]) / (M_PI / 2));
+  known.state[3] += turns * M_PI / 2;
+  if (std::fmod(std::abs(turns), 2) > 0.5) swapHorizontalAxes(known);
   return known;
 }
 
+/** Without a heading it is the longer one of the horizontal axes that tells which is which. */
+Known shapedLike(Known known, const UprightState& local)
+{
+  if ((known.state[4] - known.state[5]) * (local[4] - local[5]) < 0) swapHorizontalAxes(known);
+  known.state[3] = local[3];
+  return known;
+}
+
+}  // namespace
+
 ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma)
 {
-  const double yaw = uprightStateOf(local.object)[3];
-  Known known = namedLike({uprightStateOf(given.object), given.covariance}, yaw);
+  const UprightState here = uprightStateOf(local.object);
+  const Known there{uprightStateOf(given.object), given.covariance};
   const bool hasHeading = local.orientationDefined && given.orientationDefined;
-  if (!hasHeading) known.state[3] = yaw;
+  Known known = hasHeading ? turnedLike(there, here[3]) : shapedLike(there, here);
   // The sides err by sigma, each for itself: ln s by sigma / s, yaw as along the longer side.
   UprightState more;
   more.head<3>().setConstant(sigma);
@@ -50,8 +64,6 @@ ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma
   prior.cauchy = kKernel;
   return prior;
 }
-
-}  // namespace
 
 std::map<ObjectId, ObjectPrior> priorsOf(
     const CQuadricObjectMap& local,

@@ -10,6 +10,10 @@
 
 namespace quadmap
 {
+/** What a map knows of one object that a run has found again, its axes named as the run has them.
+ * \param sigma What each side may err by beyond the map's covariance [m], > 0. */
+ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma);
+
 /** What a map knows of objects that a run has found again, by their ids in the run: their states
  * with the map's covariance and what both may err by beyond it.
  * \param pairs (local, given), of objects the maps have. */
