@@ -230,6 +230,10 @@ void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
   MRPT_LOG_INFO_FMT(
       "localised: %zu of the map's %zu objects found again (ln odds %.1f, next best place %.1f)",
       match.pairs.size(), result_.continuation->knownObjects, match.logOdds, match.secondLogOdds);
+  if (result_.continuation->lostInCorrection)
+    warn(
+        "the map's objects could not correct the poses: where this is in the map could then no "
+        "longer be told; they are those of the run alone, moved into the map");
 }
 
 void ObjectSlam::placeFramesWithoutPose()

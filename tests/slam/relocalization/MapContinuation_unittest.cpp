@@ -56,12 +56,31 @@ struct Session
   void continueIn(const CQuadricObjectMap& given)
   {
     GivenPoses backEnd;
+    continueIn(given, backEnd);
+  }
+
+  void continueIn(const CQuadricObjectMap& given, BackEnd& backEnd)
+  {
     continueMap(
         given, backEnd, [this](std::size_t k) { return boxes[k]; }, {}, result);
   }
 };
 
 const CPose3D kElsewhere(2.5, -1.0, 0.1, mrpt::DEG2RAD(130.0), 0, 0);
+
+/** Spoils the run, and then notices or does not. */
+struct LosingBackEnd : GivenPoses
+{
+  bool asks = false;
+
+  void correctWith(const KnownObjects& known, const BoxesOf&, SlamResult& result) override
+  {
+    for (auto& keyframe : result.keyframes) keyframe.T_map_robot = CPose3D(50, 0, 0, 0, 0, 0);
+    result.map.clear();
+    result.decisions.clear();
+    if (asks) known(result.map);
+  }
+};
 
 ObjectId idAt(const CQuadricObjectMap& map, const TrueObject& truth)
 {
@@ -115,6 +134,36 @@ TEST(MapContinuation, PosesComeIntoTheMapsFrame)
     EXPECT_LT(error.norm(), 0.08) << k;
     EXPECT_LT(std::abs(error.yaw()), mrpt::DEG2RAD(1.5)) << k;
   }
+}
+
+TEST(MapContinuation, ARunLostInItsCorrectionGoesOnWithoutIt)
+{
+  const World before = furniture();
+  const CQuadricObjectMap given = Session(before, {}, 13).result.map;
+  World now = before;
+  now[4] = cuboid("suitcase", {1.15, -1.35, 0.3}, {0.7, 0.4, 0.6}, 0.7);
+  const Session there(now, {}, 14);  // the same noise, in the map's frame
+  for (const bool asks : {false, true})
+  {
+    Session run(now, kElsewhere, 14);
+    LosingBackEnd backEnd;
+    backEnd.asks = asks;
+    run.continueIn(given, backEnd);
+    ASSERT_NO_FATAL_FAILURE(expectMapOf(run.result.map, now, 0.08));
+    const MapContinuation& changes = run.result.continuation.value();
+    EXPECT_TRUE(changes.lostInCorrection);
+    EXPECT_EQ(changes.match.pairs.size(), now.size() - 1);
+    EXPECT_EQ(changes.moved.size(), 1u);
+    EXPECT_TRUE(changes.added.empty() && changes.removed.empty());
+    for (std::size_t k = 0; k < run.result.keyframes.size(); ++k)
+      EXPECT_LT(
+          (run.result.keyframes[k].T_map_robot - there.result.keyframes[k].T_map_robot).norm(),
+          0.08)
+          << k;
+  }
+  Session run(now, kElsewhere, 14);
+  run.continueIn(given);
+  EXPECT_FALSE(run.result.continuation.value().lostInCorrection);
 }
 
 TEST(MapContinuation, NoticesWhatMovedWentAndCame)

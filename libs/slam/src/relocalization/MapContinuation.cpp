@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "GoneObjects.h"
@@ -120,6 +121,34 @@ ConstellationMatch requireMatch(
       local.size(), known.size()));
 }
 
+/** Corrects a run, whose poses are in the map's frame, by the map's objects.
+ * \return Where its objects, then in that frame too, are in the map. Nothing when they can no
+ * longer be told there: near the limit the corrected ones may fall below it. `result` is then
+ * unchanged. */
+std::optional<ConstellationMatch> correctedMatch(
+    const CQuadricObjectMap& given,
+    BackEnd& backEnd,
+    const BackEnd::BoxesOf& boxesOf,
+    const RelocalizationOptions& options,
+    SlamResult& result)
+{
+  SlamResult corrected = result;
+  try
+  {
+    backEnd.correctWith(
+        [&](const CQuadricObjectMap& local)
+        { return priorsOf(local, given, requireMatch(local, given, options).pairs, options); },
+        boxesOf, corrected);
+    const auto match = requireMatch(corrected.map, given, options);
+    result = std::move(corrected);
+    return match;
+  }
+  catch (const NotLocalised&)
+  {
+    return std::nullopt;
+  }
+}
+
 MapContinuation changesBetween(
     const CQuadricObjectMap& given,
     const CQuadricObjectMap& now,
@@ -143,7 +172,8 @@ void continueMap(
     const RelocalizationOptions& options,
     SlamResult& finalResult)
 {
-  const auto place = requireMatch(finalResult.map, given, options).T_map_local;
+  ConstellationMatch match = requireMatch(finalResult.map, given, options);
+  const auto place = match.T_map_local;
   SlamResult result = finalResult;
   for (auto& keyframe : result.keyframes)
   {
@@ -153,11 +183,8 @@ void continueMap(
     keyframe.T_map_robot = pose.mean;
     if (keyframe.covariance) keyframe.covariance = pose.cov;
   }
-  backEnd.correctWith(
-      [&](const CQuadricObjectMap& local)
-      { return priorsOf(local, given, requireMatch(local, given, options).pairs, options); },
-      boxesOf, result);
-  ConstellationMatch match = requireMatch(result.map, given, options);
+  const auto corrected = correctedMatch(given, backEnd, boxesOf, options, result);
+  if (corrected) match = *corrected;
   CQuadricObjectMap map = preparedMap(given, result.map);
   for (const ObjectId id : goneObjects(given, result, match, boxesOf, options)) map.remove(id);
 
@@ -172,6 +199,7 @@ void continueMap(
   result.continuation = changesBetween(given, result.map, options);
   match.T_map_local = place;
   result.continuation->match = match;
+  result.continuation->lostInCorrection = !corrected;
   finalResult = std::move(result);
 }
 

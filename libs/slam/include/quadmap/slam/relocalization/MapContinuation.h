@@ -26,6 +26,9 @@ struct MapContinuation
   };
   std::size_t knownObjects = 0;  //!< Confirmed ones of the given map
   ConstellationMatch match;      //!< `local`: the run's own objects and frame
+  /** Corrected by the map's objects it could no longer be told where the run was: its poses are
+   * those of the run, moved as a whole */
+  bool lostInCorrection = false;
   std::vector<Move> moved;
   std::vector<ObjectId> added, removed;  //!< Those that did not move
 };
