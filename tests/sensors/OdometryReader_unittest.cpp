@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPosePDFParticles.h>
 #include <mrpt/random/RandomGenerators.h>
@@ -74,4 +75,41 @@ TEST(OdometryReader, TakesTheOdometryThatIsAskedFor)
   EXPECT_EQ(
       source.odometryKinds(),
       (std::vector<std::string>{"CObservationOdometry wheels", "CObservationRobotPose gps"}));
+}
+
+TEST(OdometryReader, IncrementsOfEitherClassAreOneKind)
+{
+  mrpt::obs::CActionRobotMovement2D planar;
+  planar.computeFromOdometry(CPose2D(1, 0, 0), {});
+  mrpt::obs::CActionRobotMovement3D spatial;
+  spatial.poseChange.mean = CPose3D(0, 0, 0.5, 0, 0, 0);
+  const auto step = [](const mrpt::obs::CAction& action)
+  {
+    auto actions = mrpt::obs::CActionCollection::Create();
+    actions->insert(action);
+    return actions;
+  };
+  const auto frameAt = [](double time)
+  {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(sampleScan(time));
+    return frame;
+  };
+  auto wheels = mrpt::obs::CObservationOdometry::Create();
+  wheels->timestamp = stamp(kStart);
+  const TemporaryFolder folder;
+  const auto file = writeObjects(
+      folder.path("x.rawlog"),
+      {wheels, step(planar), frameAt(kStart), step(spatial), frameAt(kStart + 1)});
+  for (const char* kind : {"CActionRobotMovement2D", "CActionRobotMovement3D"})
+  {
+    RawlogSourceOptions options;
+    options.odometryKind = kind;
+    RawlogSource source(file, options);
+    source.setVerbosityLevel(mrpt::system::LVL_ERROR);
+    const auto frames = readAll(source);
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_LT(frames[0].T_odom_robot.value().distanceTo(CPose3D(1, 0, 0, 0, 0, 0)), 1e-9) << kind;
+    EXPECT_LT(frames[1].T_odom_robot.value().distanceTo(CPose3D(1, 0, 0.5, 0, 0, 0)), 1e-9) << kind;
+  }
 }

@@ -91,6 +91,8 @@ std::optional<Movement> movementIn(const mrpt::obs::CActionCollection& actions)
   return Movement{"CActionRobotMovement2D", incrementOf(*planar)};
 }
 
+bool isIncrement(const std::string& kind) { return kind.rfind("CActionRobotMovement", 0) == 0; }
+
 double secondsOf(const mrpt::obs::CObservation& observation)
 {
   if (observation.timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
@@ -102,7 +104,8 @@ bool OdometryReader::accept(const std::string& kind)
 {
   if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end()) kinds_.push_back(kind);
   if (kind_.empty()) kind_ = kind;
-  if (kind_ == kind) return true;
+  // Increments of either class go on from where those before came to
+  if (kind_ == kind || (isIncrement(kind_) && isIncrement(kind))) return true;
   ignoredKind_ = kind;
   return false;
 }
@@ -132,7 +135,6 @@ bool OdometryReader::read(const mrpt::obs::CObservation& observation)
 void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
 {
   const auto movement = movementIn(actions);
-  // Increments of either class go on from where those before came to
   if (!movement || !(countsActions_ || accept(movement->kind))) return;
   countsActions_ = true;
   if (!isFinite(movement->increment.mean))
