@@ -144,6 +144,35 @@ TEST(ObjectEstimator, BoxEdgesAloneFixASizeWhenThereIsParallax)
   EXPECT_GT(shapeIoU(result.state, kCabinet.object), 0.8);
 }
 
+TEST(ObjectEstimator, WhatIsSeenThroughAnObjectDoesNotMoveIt)
+{
+  // A plant before a wall: every seed is taken from the wall, 0.6 m behind; only the boxes are
+  // right.
+  SyntheticCamera camera(4);
+  camera.disturbances.partialProbability = 1;
+  std::vector<ObjectView> views;  // from the room's side of the wall
+  for (auto& v : viewsAround(camera, kCabinet, 60))
+    if (v.camera.x() < kCabinet.object.center().x()) views.push_back(v);
+  for (auto& v : views) v.center += 0.6 * (v.center - v.camera).normalized();
+  const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
+  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.08);
+}
+
+TEST(ObjectEstimator, OneWrongCuboidIsOutvotedByBoxes)
+{
+  // The chair before a plant was once measured in the plant's box.
+  SyntheticCamera camera(4);
+  camera.disturbances.partialProbability = 1;
+  auto views = viewsAround(camera, kCabinet, 20);
+  camera.disturbances.partialProbability = 0;
+  ObjectView wrong = viewsAround(camera, kCabinet, 1).at(0);
+  ASSERT_TRUE(wrong.complete);
+  wrong.center += Eigen::Vector3d(0.5, 0.5, 0);
+  views.insert(views.begin() + 5, wrong);
+  const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
+  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.05);
+}
+
 TEST(ObjectEstimator, UnseenSidesAreLowerBounds)
 {
   // Seen from one side only: the far faces were measured inside the object; they must not pull.

@@ -10,6 +10,7 @@ namespace quadmap
 namespace
 {
 constexpr double kMinHalfSize = 0.005;  // [m]
+constexpr std::ptrdiff_t kFewCuboids = 3;
 
 /** Mean direction of angles that mean the same every 90 degrees. */
 double commonYaw(const std::deque<ObjectView>& views)
@@ -62,15 +63,22 @@ std::array<Side, kFaces> collectSides(const std::deque<ObjectView>& views, doubl
   return sides;
 }
 
-UprightState medianOfPartial(const std::deque<ObjectView>& views, const LabelProperties& label)
+Eigen::Vector3d medianOfCenters(const std::deque<ObjectView>& views)
 {
-  UprightState x = UprightState::Zero();
+  Eigen::Vector3d center;
   for (Eigen::Index i = 0; i < 3; ++i)
   {
     std::vector<double> values;
     for (const auto& v : views) values.push_back(v.center[i]);
-    x[i] = median(values);
+    center[i] = median(values);
   }
+  return center;
+}
+
+UprightState medianOfPartial(const std::deque<ObjectView>& views, const LabelProperties& label)
+{
+  UprightState x = UprightState::Zero();
+  x.head<3>() = medianOfCenters(views);
   x.tail<3>() = (0.5 * label.typicalSize).array().log();
   return x;
 }
@@ -81,8 +89,9 @@ std::optional<UprightState> medianState(
     const std::deque<ObjectView>& views, const LabelProperties& label)
 {
   if (views.empty()) return {};
-  if (std::none_of(views.begin(), views.end(), [](const auto& v) { return v.complete; }))
-    return medianOfPartial(views, label);
+  const auto complete =
+      std::count_if(views.begin(), views.end(), [](const auto& v) { return v.complete; });
+  if (complete == 0) return medianOfPartial(views, label);
 
   UprightState x = UprightState::Zero();
   x[3] = commonYaw(views);
@@ -95,6 +104,9 @@ std::optional<UprightState> medianState(
     x.head<3>() += 0.5 * (plus - minus) * frame.faceNormal(2 * axis);
     x[4 + static_cast<Eigen::Index>(axis)] = std::log(std::max(0.5 * (plus + minus), kMinHalfSize));
   }
+  // One or two cuboids among many that fitted none do not say where the object is.
+  if (complete < kFewCuboids && 2 * complete < static_cast<std::ptrdiff_t>(views.size()))
+    x.head<3>() = medianOfCenters(views);
   return x;
 }
 

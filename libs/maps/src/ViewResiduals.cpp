@@ -149,6 +149,7 @@ void addViewResiduals(
     // Where the depth says the object is: keeps it on the ray's right stretch until there is
     // parallax.
     const Eigen::Matrix3d whitening =
+        std::sqrt(kSeedShare) *
         view.centerCovariance.llt().matrixL().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
     const Eigen::Vector3d r = whitening * (x.head<3>() - view.center);
     for (Eigen::Index i = 0; i < 3; ++i)

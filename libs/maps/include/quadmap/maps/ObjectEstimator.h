@@ -23,6 +23,10 @@ struct EstimatorOptions
   double sizePriorSpread = 1.0;  //!< Factor on the label table's spread of sizes, > 0
 };
 
+/** Weight of the seed of a partial measurement. What is behind a thin or sparse object is taken for
+ * it in most frames alike: ten seeds are worth one. */
+constexpr double kSeedShare = 0.1;
+
 /** Quadratic knowledge about a state: cost = 1/2 x^T L x - xi^T x. */
 struct InformationPrior
 {
