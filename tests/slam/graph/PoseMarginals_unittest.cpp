@@ -49,7 +49,8 @@ Vector6 stepBetween(const CPose3D& truth, const CPose3D& estimate)
  * derivatives. */
 struct ExactDrive
 {
-  ExactDrive() : world(5, size()), graph(oneStep())
+  /** \param looseness Factor on the sigmas of steps and faces. */
+  explicit ExactDrive(double looseness) : world(5, size(looseness)), graph(oneStep())
   {
     for (std::size_t k = 0; k < world.truth.size(); ++k)
     {
@@ -85,9 +86,10 @@ struct ExactDrive
   std::vector<std::size_t> seen;  // objects
 
  private:
-  static GraphWorld::Size size()
+  static GraphWorld::Size size(double looseness)
   {
     GraphWorld::Size size;
+    for (double* sigma : {&size.faceSigma, &size.stepSigma, &size.stepAngle}) *sigma *= looseness;
     size.poses = 4;
     size.circles = 0.3;
     return size;
@@ -183,9 +185,13 @@ TEST(SparseInverse, IsTheDenseInverseWhereItIsKnown)
   }
 }
 
-TEST(PoseMarginals, AgreeWithTheDenseInverseOfASmallGraph)
+class PoseMarginalsOfADrive : public ::testing::TestWithParam<double>
 {
-  const ExactDrive drive;
+};
+
+TEST_P(PoseMarginalsOfADrive, AgreeWithTheDenseInverse)
+{
+  const ExactDrive drive(GetParam());
   ASSERT_GE(drive.seen.size(), 2u);
   constexpr double kStep = 1e-4;
   const Eigen::Index n = drive.steps();
@@ -208,9 +214,12 @@ TEST(PoseMarginals, AgreeWithTheDenseInverseOfASmallGraph)
   {
     const auto at = static_cast<Eigen::Index>(6 * (k - 1));
     const Matrix6 oracle = expected.block<6, 6>(at, at);
-    EXPECT_LT((marginals[k] - oracle).norm(), 0.01 * oracle.norm()) << k;
+    EXPECT_LT((marginals[k] - oracle).norm(), 0.002 * oracle.norm()) << k;
   }
 }
+
+// With loose steps the poses are as unsure as a room is wide: nothing else may hold them.
+INSTANTIATE_TEST_SUITE_P(Sigmas, PoseMarginalsOfADrive, ::testing::Values(1.0, 50.0));
 
 TEST(PoseMarginals, AreHonestAllAlongADrive)
 {
@@ -225,9 +234,10 @@ TEST(PoseMarginals, AreHonestAllAlongADrive)
     FactorGraph graph = world.graph(gaussian());
     graph.optimise();
     const auto marginals = graph.poseMarginals();
+    // The other one knows of each object beforehand where it is, to 2 m.
     ASSERT_LT(
         (marginals.back() - graph.marginals(0, false).lastPose).norm(),
-        1e-9 * marginals.back().norm());
+        0.01 * marginals.back().norm());
     const Vector6 e = stepBetween(world.truth[12], graph.pose(12));
     middle += e.dot(marginals[12].llt().solve(e)) / kWorlds;
   }

@@ -13,6 +13,10 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 constexpr double kFreePositionSigma = 2.0;    // [m]
 constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
 
+/** Of poses all objects together must not seem to know anything that no measurement told; this much
+ * keeps what nothing holds away from zero. */
+constexpr double kLooseSigma = 100;  // [m], [rad]
+
 constexpr double kLeast = 1e-9;  // information of what nothing tells of, against zero pivots
 
 SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
@@ -36,7 +40,7 @@ Eigen::MatrixXd marginalBlock(
 
 }  // namespace
 
-GraphProblem::NormalMatrix GraphProblem::normalMatrix()
+GraphProblem::NormalMatrix GraphProblem::normalMatrix(double positionSigma, double angleSigma)
 {
   NormalMatrix normal;
   ceres::Problem::EvaluateOptions options;  // with the free blocks, objects last
@@ -69,7 +73,7 @@ GraphProblem::NormalMatrix GraphProblem::normalMatrix()
     const int angles = graph_.objects_.at(id).freedom == ObjectFreedom::Upright ? 1 : 3;
     for (Eigen::Index i = 0; i < 3 + angles; ++i)
     {
-      const double sigma = i < 3 ? kFreePositionSigma : kFreeAngleSigma;
+      const double sigma = i < 3 ? positionSigma : angleSigma;
       H.coeffRef(at + i, at + i) += 1 / (sigma * sigma);
     }
   }
@@ -79,7 +83,7 @@ GraphProblem::NormalMatrix GraphProblem::normalMatrix()
 FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
 {
   FactorGraph::Marginals result;
-  const NormalMatrix normal = normalMatrix();
+  const NormalMatrix normal = normalMatrix(kFreePositionSigma, kFreeAngleSigma);
   if (normal.H.rows() == 0) return result;
   const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
   const auto last = normal.poseAt.find(graph_.poses_.size() - 1);
@@ -94,7 +98,7 @@ std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
 {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   std::vector<Matrix6> marginals(graph_.poses_.size(), Matrix6::Zero());
-  const NormalMatrix normal = normalMatrix();
+  const NormalMatrix normal = normalMatrix(kLooseSigma, kLooseSigma);
   if (normal.poseAt.size() + 1 < marginals.size()) return {};  // nothing says where the others are
   if (normal.poseAt.empty()) return marginals;
   const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);

@@ -33,7 +33,8 @@ class GraphProblem
     std::map<std::size_t, Eigen::Index> poseAt;
     std::map<ObjectId, Eigen::Index> objectAt;
   };
-  NormalMatrix normalMatrix();
+  /** \param positionSigma, angleSigma Of each object from elsewhere [m], [rad]. */
+  NormalMatrix normalMatrix(double positionSigma, double angleSigma);
 
   void addFloor();
   void addStep(const FactorGraph::Step& step);
