@@ -51,11 +51,10 @@ struct Drive
       else
       {
         const CPose3D step = truth - poses.back();
+        const double dx = camera.gauss(kPosition), dy = camera.gauss(kPosition);
+        const double turn = camera.gauss(kAngle);
         odometry.push_back(
-            odometry.back() + CPose3D(
-                                  step.x() + camera.gauss(kPosition),
-                                  step.y() + camera.gauss(kPosition), 0,
-                                  step.yaw() + camera.gauss(kAngle), 0, 0));
+            odometry.back() + CPose3D(step.x() + dx, step.y() + dy, 0, step.yaw() + turn, 0, 0));
       }
       poses.push_back(truth);
       std::vector<TrueObject> near;

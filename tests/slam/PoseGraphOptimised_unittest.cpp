@@ -76,10 +76,12 @@ TEST_P(PoseGraphOptimised, AlsoFromFarAway)
   { return std::normal_distribution<double>(0, sigma)(random); };
   constexpr double kMove = 0.1, kTurn = 0.05;  // [m], [rad]
   for (auto& [id, pose] : graph_.nodes)
-    if (id != graph_.root)
-      pose = pose + CPose3D(
-                        gauss(kMove), gauss(kMove), gauss(kMove), gauss(kTurn), gauss(kTurn),
-                        gauss(kTurn));
+  {
+    if (id == graph_.root) continue;
+    double step[6];  // drawn in this order whatever the compiler
+    for (int i = 0; i < 6; ++i) step[i] = gauss(i < 3 ? kMove : kTurn);
+    pose = pose + CPose3D(step[0], step[1], step[2], step[3], step[4], step[5]);
+  }
   EXPECT_GT(farthestFromTrajectory(graph_), 0.2) << "[m], the start";
   EXPECT_LT(farthestFromTrajectory(optimised(graph_)), kSameTrajectory);
 }

@@ -22,6 +22,7 @@ using Graph = mrpt::graphs::CNetworkOfPoses3DInf;
 namespace
 {
 constexpr double kSameTime = 1e-3;  // [s]; of rounded time stamps, far less than between images
+constexpr double kSilent = 1e-15;   // variance; a planar edge says nothing, rounding aside
 
 struct NodeTime
 {
@@ -189,7 +190,8 @@ CPose3DPDFGaussian GraphOdometry::step(
     if (const auto& stated = poses_[i].stepCovariance)
       for (int r = 0; r < 6; ++r)
         for (int c = 0; c < 6; ++c)
-          if ((*stated)(r, r) > 0 && (*stated)(c, c) > 0) next.cov(r, c) = (*stated)(r, c);
+          if ((*stated)(r, r) > kSilent && (*stated)(c, c) > kSilent)
+            next.cov(r, c) = (*stated)(r, c);
     sum = sum ? *sum + next : next;
   }
   return *sum;

@@ -21,10 +21,11 @@ inline RobustRow huberRow(double r, double huber, double weight)
   return {root * std::copysign(value, r), root * huber / value};
 }
 
-/** Cauchy's cost, 1/2 scale^2 ln(1 + r^2 / scale^2). \param r Not 0. */
+/** Cauchy's cost, 1/2 scale^2 ln(1 + r^2 / scale^2). */
 inline RobustRow cauchyRow(double r, double scale, double weight)
 {
   const double root = std::sqrt(weight), u = r * r / (scale * scale);
+  if (u < 1e-20) return {root * r, root};  // 0 / 0 below
   const double value = scale * std::sqrt(std::log1p(u));
   return {root * value, root * r / ((1 + u) * value)};
 }
