@@ -146,16 +146,18 @@ TEST(ObjectEstimator, BoxEdgesAloneFixASizeWhenThereIsParallax)
 
 TEST(ObjectEstimator, WhatIsSeenThroughAnObjectDoesNotMoveIt)
 {
-  // A plant before a wall: every seed is taken from the wall, 0.6 m behind; only the boxes are
-  // right.
+  // A plant before a wall, seen from one side: every seed is taken from the wall, 0.6 m behind;
+  // only the boxes are right, as right as a weak detector's are.
   SyntheticCamera camera(4);
   camera.disturbances.partialProbability = 1;
-  std::vector<ObjectView> views;  // from the room's side of the wall
-  for (auto& v : viewsAround(camera, kCabinet, 60))
-    if (v.camera.x() < kCabinet.object.center().x()) views.push_back(v);
+  camera.disturbances.boxSigma = 4;
+  std::vector<ObjectView> views;
+  for (auto& v : viewsAround(camera, kCabinet, 90))
+    if ((kCabinet.object.center() - v.camera).x() > 1.8) views.push_back(v);
+  ASSERT_GE(views.size(), 10u);
   for (auto& v : views) v.center += 0.6 * (v.center - v.camera).normalized();
   const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
-  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.08);
+  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.15);
 }
 
 TEST(ObjectEstimator, OneWrongCuboidIsOutvotedByBoxes)
@@ -163,14 +165,15 @@ TEST(ObjectEstimator, OneWrongCuboidIsOutvotedByBoxes)
   // The chair before a plant was once measured in the plant's box.
   SyntheticCamera camera(4);
   camera.disturbances.partialProbability = 1;
-  auto views = viewsAround(camera, kCabinet, 20);
+  camera.disturbances.boxSigma = 4;
+  auto views = viewsAround(camera, kCabinet, 12);
   camera.disturbances.partialProbability = 0;
   ObjectView wrong = viewsAround(camera, kCabinet, 1).at(0);
   ASSERT_TRUE(wrong.complete);
-  wrong.center += Eigen::Vector3d(0.5, 0.5, 0);
+  wrong.center += Eigen::Vector3d(0.9, 0.9, 0);
   views.insert(views.begin() + 5, wrong);
   const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
-  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.05);
+  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.08);
 }
 
 TEST(ObjectEstimator, UnseenSidesAreLowerBounds)
