@@ -39,6 +39,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.flag("edgesOfComplete", o.estimator.edgesOfComplete);
   v.number("roundnessSigma", o.estimator.roundnessSigma, kSmall, 100);
   v.number("sizePriorSpread", o.estimator.sizePriorSpread, kSmall, 1000);
+  v.number("seedWeight", o.estimator.seedWeight, kSmall, 1);
   v.number("posePositionSigma", o.poseNoise.position, 0, 10);
   v.degrees("poseAngleSigma_deg", o.poseNoise.angle, 0, 90);
   v.number("detectionProbability", o.existence.detectionProbability, 0.001, 0.999);

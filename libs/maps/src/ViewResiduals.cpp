@@ -125,6 +125,12 @@ void NormalEquations::addCauchy(
   g.noalias() += w * residual * jacobian;
 }
 
+Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)
+{
+  return std::sqrt(options.seedWeight) *
+         covariance.llt().matrixL().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+}
+
 void addViewResiduals(
     const ObjectView& view,
     const UprightState& x,
@@ -148,9 +154,7 @@ void addViewResiduals(
   {
     // Where the depth says the object is: keeps it on the ray's right stretch until there is
     // parallax.
-    const Eigen::Matrix3d whitening =
-        std::sqrt(kSeedShare) *
-        view.centerCovariance.llt().matrixL().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+    const Eigen::Matrix3d whitening = seedWhitening(view.centerCovariance, options);
     const Eigen::Vector3d r = whitening * (x.head<3>() - view.center);
     for (Eigen::Index i = 0; i < 3; ++i)
     {

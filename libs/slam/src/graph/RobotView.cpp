@@ -36,9 +36,8 @@ RobotView robotViewOf(
   else
   {
     r.hasSeed = true;
-    const Eigen::Matrix3d S = R_robot_map * view.centerCovariance * R_robot_map.transpose();
-    r.seedWhitening = std::sqrt(kSeedShare) *
-                      S.llt().matrixL().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+    r.seedWhitening =
+        seedWhitening(R_robot_map * view.centerCovariance * R_robot_map.transpose(), options);
   }
   if (view.complete && (!options.edgesOfComplete || view.allSidesKnown())) return r;
   const double range = (view.center - view.camera).norm();

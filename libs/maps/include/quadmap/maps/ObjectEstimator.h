@@ -21,11 +21,10 @@ struct EstimatorOptions
       true;  //!< Use the box edges of complete measurements with unseen sides too
   double roundnessSigma = 0.1;   //!< Of ln(a/b) for labels without dominant direction [-], > 0
   double sizePriorSpread = 1.0;  //!< Factor on the label table's spread of sizes, > 0
+  /** Of the seed of a partial measurement, (0, 1]. What is behind a thin or sparse object is taken
+   * for it in most frames alike: ten seeds are worth one. */
+  double seedWeight = 0.1;
 };
-
-/** Weight of the seed of a partial measurement. What is behind a thin or sparse object is taken for
- * it in most frames alike: ten seeds are worth one. */
-constexpr double kSeedShare = 0.1;
 
 /** Quadratic knowledge about a state: cost = 1/2 x^T L x - xi^T x. */
 struct InformationPrior
@@ -61,6 +60,10 @@ void addViewResiduals(
     const EstimatorOptions& options,
     double weight,
     NormalEquations& eq);
+
+/** W such that W * (centre - seed) is in sigmas, [1/m]. \param covariance Of the seed [m^2]; W is
+ * for the frame it is given in. */
+Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options);
 
 /** How much a whole measurement is believed next to a reference state, in (0, 1]: near 1 when its
  * faces are where the reference has them, small for a wrong association or a bad cuboid. */
