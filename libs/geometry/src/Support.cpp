@@ -14,9 +14,10 @@ SupportWithDerivatives supportWithDerivatives(
   // h = S^(1/q), S = sum w_i^(q/2), w_i = v_i^2 + k^2, k^2 = smoothing^2 |s|^2.
   constexpr double smoothing2 = kSupportSmoothing * kSupportSmoothing;
   const Eigen::Array3d w = v.array().square() + smoothing2 * s.squaredNorm();
-  const double S = w.pow(0.5 * q).sum();
+  const Eigen::Array3d powers = w.pow(0.5 * q);
+  const double S = powers.sum();
   const double h = std::pow(S, 1.0 / q);
-  const Eigen::Array3d dh_dw = 0.5 * h / S * w.pow(0.5 * q - 1.0);
+  const Eigen::Array3d dh_dw = 0.5 * h / S * powers / w;
   const Eigen::Array3d dh_dv = dh_dw * 2.0 * v.array();
   const double dh_dk2 = dh_dw.sum();
   return {h, dh_dv * s.array(), dh_dv * n_obj.array() + dh_dk2 * 2.0 * smoothing2 * s.array()};
