@@ -86,6 +86,8 @@ TEST(MapArchive, RoundTripsAndContinues)
   SyntheticCamera camera(1), sameCamera(1);
   walkAround(map, camera, world, 6);
   walkAround(loaded, sameCamera, world, 6);
+  map.consolidate();
+  loaded.consolidate();
   ASSERT_EQ(map.objects().size(), loaded.objects().size());
   const auto* a = map.nearest({0, 0, 0.3}, "suitcase");
   const auto* b = loaded.nearest({0, 0, 0.3}, "suitcase");

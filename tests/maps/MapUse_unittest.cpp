@@ -28,6 +28,23 @@ std::filesystem::path temporaryFolder()
   return folder;
 }
 
+/** Shows one thing fifty times. \return How many of the insertions moved it. */
+int estimatesOfFifty(CQuadricObjectMap& map)
+{
+  const std::vector<TrueObject> world = {cuboid("suitcase", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4)};
+  SyntheticCamera camera(3);
+  int estimates = 0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 50; ++i)
+  {
+    walkAround(map, camera, world, 1);
+    const Eigen::Vector3d now = map.objects().at(1).object.center();
+    estimates += now != center ? 1 : 0;
+    center = now;
+  }
+  return estimates;
+}
+
 }  // namespace
 
 // Queries and editing --------------------------------------------------------------------------
@@ -322,4 +339,18 @@ TEST(MapFiles, RepresentationReadsBack)
   EXPECT_TRUE(scene.loadFromFile(prefix + ".3Dscene"));
   EXPECT_GT(std::filesystem::file_size(prefix + ".txt"), 20u);
   EXPECT_ANY_THROW(map.saveMetricMapRepresentationToFile("/nowhere/map"));
+}
+
+TEST(MapUse, ManyMeasurementsAreNotLookedAtForEachNewOne)
+{
+  CQuadricObjectMap eager, lazy;
+  eager.insertionOptions.estimateGrowth = 0;
+  lazy.insertionOptions.estimateGrowth = 0.25;
+  EXPECT_EQ(estimatesOfFifty(eager), 50);
+  EXPECT_EQ(estimatesOfFifty(lazy), 14) << "1, 2, 3, 4, 5, 7, 9, 12, 15, 19, 24, 30, 38, 48";
+  eager.consolidate();
+  lazy.consolidate();
+  const MapObject &a = eager.objects().at(1), &b = lazy.objects().at(1);
+  EXPECT_EQ(a.observations(), b.observations());
+  EXPECT_LT((a.object.center() - b.object.center()).norm(), 1e-3);
 }

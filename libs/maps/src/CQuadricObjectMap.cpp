@@ -93,6 +93,7 @@ void CQuadricObjectMap::internal_clear()
 {
   objects_.clear();
   estimators_.clear();
+  estimatedFrom_.clear();
   nextId_ = 1;
   waiting_.clear();
   pairing_.clear();
@@ -154,6 +155,7 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
     if (decision.object == absorbed) decision.object = kept;
   objects_.erase(absorbed);
   estimators_.erase(absorbed);
+  estimatedFrom_.erase(absorbed);
   estimate(a, true);
 }
 
@@ -170,6 +172,7 @@ void CQuadricObjectMap::remove(ObjectId id)
   require(id);
   objects_.erase(id);
   estimators_.erase(id);
+  estimatedFrom_.erase(id);
   for (auto it = objectOfInstance_.begin(); it != objectOfInstance_.end();)
     it = it->second == id ? objectOfInstance_.erase(it) : std::next(it);
 }

@@ -90,7 +90,14 @@ bool CQuadricObjectMap::insertObjects(
   std::set<ObjectId> touched;
   joinOrStart(frame, touched);
   countMisses(frame, touched);
-  for (const ObjectId id : touched) estimate(require(id), false);
+  for (const ObjectId id : touched)
+  {
+    MapObject& object = require(id);
+    if (isDue(object))
+      estimate(object, false);
+    else
+      object.confirmed = isConfirmed(object);
+  }
   mergeOverlapping(touched);
   return !touched.empty();
 }
@@ -275,6 +282,14 @@ void CQuadricObjectMap::estimate(MapObject& object, bool restart)
   object.covariance = result.covariance;
   object.orientationDefined = result.orientationDefined;
   object.confirmed = isConfirmed(object);
+  estimatedFrom_[object.id] = object.observations();
+}
+
+bool CQuadricObjectMap::isDue(const MapObject& object) const
+{
+  const auto from = estimatedFrom_.find(object.id);
+  return from == estimatedFrom_.end() ||
+         object.observations() >= (1 + insertionOptions.estimateGrowth) * from->second;
 }
 
 bool CQuadricObjectMap::isConfirmed(const MapObject& object) const

@@ -68,6 +68,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.integer("waitingMinViews", o.waiting.minViews, 2, 1000);
   v.degrees("waitingMinParallax_deg", o.waiting.minParallax, 0, 180);
   v.number("waitingGateShare", o.waiting.gateShare, kSmall, 100);
+  v.number("estimateGrowth", o.estimateGrowth, 0, 10);
   v.flag("useInstanceIds", o.useInstanceIds);
   v.number("minScore", o.minScore, 0, 1);
 }

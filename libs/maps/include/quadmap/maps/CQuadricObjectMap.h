@@ -90,8 +90,9 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void relabel(ObjectId id, const std::string& label);  //!< \exception std::out_of_range
   void remove(ObjectId id);                             //!< \exception std::out_of_range
 
-  /** Settles the map after a batch of insertions: merges overlapping compatible objects,
-   *  re-estimates, decides which objects are confirmed. Cheap to repeat. */
+  /** Settles the map after a batch of insertions: re-estimates all objects (while it grows, those
+   * with many measurements wait for some more; `estimateGrowth`), merges overlapping compatible
+   * ones, decides which are confirmed. Cheap to repeat. */
   void consolidate();
 
   /** The confirmed objects in the form of objects.json. */
@@ -137,6 +138,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
 
   Objects objects_;
   std::map<ObjectId, ObjectEstimator> estimators_;  // the measurements behind objects_
+  std::map<ObjectId, unsigned> estimatedFrom_;      // how many the latest estimates are from
   ObjectId nextId_ = 1;
   WaitingList waiting_;
   FramePairing pairing_;
@@ -166,6 +168,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void addView(MapObject& object, const WaitingList::Entry& entry);
   void mergeOverlapping(std::set<ObjectId> touched);
   void estimate(MapObject& object, bool restart);
+  bool isDue(const MapObject& object) const;  // for another estimate
   bool isConfirmed(const MapObject& object) const;
   MapObject& require(ObjectId id);
 

@@ -21,6 +21,8 @@ struct InsertionOptions : public mrpt::config::CLoadableOptions
   ExistenceOptions existence;
   MergeOptions merging;
   WaitingOptions waiting;
+  /** An object is estimated anew when its measurements are more by this share, >= 0. */
+  double estimateGrowth = 0.1;
   bool useInstanceIds = false;  //!< Believe DetectedObject::instanceId instead of associating
   double minScore = 0;          //!< Boxes the detector is less sure of are ignored, in [0, 1]
 
