@@ -2,15 +2,18 @@
 #include <mrpt/system/progress.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <cmath>
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "quadmap/obs/ConfigCheck.h"
 #include "quadmap/sensors/simulator/Simulator.h"
 
 namespace
 {
 using namespace quadmap;
+
+constexpr int kFewestFrames = 2, kMostFrames = 100000;
 
 /** The arguments of the program. */
 struct Cli
@@ -36,9 +39,38 @@ struct Cli
       "",         "noise", "Multiplies all errors of the sensors, 0 to 10; 0 = perfect sensors.",
       false,      "1",     "FACTOR",
       line.args()};
+  TCLAP::ValueArg<std::string> depthNoise{
+      "",       "depth-noise", "The same for the errors of depth, instead of --noise.", false, "",
+      "FACTOR", line.args()};
+  TCLAP::ValueArg<std::string> odometryNoise{
+      "",
+      "odometry-noise",
+      "The same for the drift of odometry, instead of --noise.",
+      false,
+      "",
+      "FACTOR",
+      line.args()};
+  TCLAP::ValueArg<std::string> detectorNoise{
+      "",
+      "detector-noise",
+      "The same for jitter, misses, wrong labels and false alarms of the detector, instead of "
+      "--noise.",
+      false,
+      "",
+      "FACTOR",
+      line.args()};
   TCLAP::ValueArg<std::string> frames{
       "",         "frames", "Images of each camera instead of the scene's, for the same walk.",
       false,      "",       "N",
+      line.args()};
+  TCLAP::ValueArg<std::string> rate{
+      "",
+      "rate",
+      "Images per second of each camera [Hz], for the same walk in the same time; instead of "
+      "--frames.",
+      false,
+      "",
+      "HZ",
       line.args()};
   TCLAP::ValueArg<std::string> resolution{
       "",    "resolution", "Image size instead of the scene's, same width of view.", false, "",
@@ -81,14 +113,41 @@ unsigned long long wholeNumber(
   return value;
 }
 
-double noiseFactor(const std::string& text)
+/** A number the user typed. \exception cli::UsageError */
+double number(const std::string& option, const std::string& text, double min, double max)
 {
-  double value = -1;
-  int used = 0;
-  const bool read = std::sscanf(text.c_str(), "%lf%n", &value, &used) == 1;
-  if (!read || used != static_cast<int>(text.size()) || !(value >= 0 && value <= 10))
-    throw cli::UsageError("--noise " + text + ": must be a number in [0, 10]");
-  return value;
+  const auto value = parseNumber(text);
+  if (!value || !(*value >= min && *value <= max))
+    throw cli::UsageError(mrpt::format(
+        "%s %s: must be a number in [%g, %g]", option.c_str(), text.c_str(), min, max));
+  return *value;
+}
+
+simulator::NoiseFactors noiseFactors(Cli& cli)
+{
+  const auto factorOf = [](TCLAP::ValueArg<std::string>& arg)
+  { return number("--" + arg.getName(), arg.getValue(), 0, 10); };
+  auto factors = simulator::NoiseFactors::all(factorOf(cli.noise));
+  if (cli.depthNoise.isSet()) factors.depth = factorOf(cli.depthNoise);
+  if (cli.odometryNoise.isSet()) factors.odometry = factorOf(cli.odometryNoise);
+  if (cli.detectorNoise.isSet()) factors.detector = factorOf(cli.detectorNoise);
+  return factors;
+}
+
+/** The way and its duration stay those of the scene; how many images are taken on it is said by
+ * their number or by their rate. */
+void setFrames(Cli& cli, simulator::TrajectoryOptions& trajectory)
+{
+  if (cli.frames.isSet() && cli.rate.isSet())
+    throw cli::UsageError("--rate: give either --rate or --frames, rate = frames / duration");
+  if (cli.frames.isSet())
+    trajectory.frames = static_cast<int>(
+        wholeNumber("--frames", cli.frames.getValue(), kFewestFrames, kMostFrames));
+  if (!cli.rate.isSet()) return;
+  const double rate = number(
+      "--rate", cli.rate.getValue(), kFewestFrames / trajectory.duration,
+      kMostFrames / trajectory.duration);
+  trajectory.frames = static_cast<int>(std::lround(rate * trajectory.duration));
 }
 
 void setResolution(const std::string& text, simulator::SimulatorOptions& options)
@@ -120,11 +179,9 @@ void report(const std::string& file, const simulator::SimulationSummary& summary
 void run(Cli& cli)
 {
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
-  const double noise = noiseFactor(cli.noise.getValue());
+  const simulator::NoiseFactors noise = noiseFactors(cli);
   simulator::Scene scene = simulator::readScene(simulator::findScene(cli.scene.getValue()));
-  if (cli.frames.isSet())
-    scene.options.trajectory.frames =
-        static_cast<int>(wholeNumber("--frames", cli.frames.getValue(), 2, 100000));
+  setFrames(cli, scene.options.trajectory);
   if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options);
   if (cli.detections.isSet())
     scene.options.detector.output = detectorOutput(cli.detections.getValue());

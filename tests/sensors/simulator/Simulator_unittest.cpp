@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "SceneFixture.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/sensors/RawlogSource.h"
@@ -175,77 +173,23 @@ TEST(Simulator, WritesNothingWhereItCannot)
   EXPECT_EQ(0U, folder.fileCount());
 }
 
-struct ProgramResult
+TEST(SimulatorOptions, NoiseOfEachPartHasItsOwnFactor)
 {
-  int status = 0;
-  std::string error;
-};
-
-/** Runs the program in `folder`. */
-ProgramResult runProgram(const TemporaryFolder& folder, const std::string& arguments)
-{
-  const std::string command = "cd '" + folder.folder().string() +
-                              "' && '" QUADMAP_BIN_DIR "/quadmap-simulate' " + arguments +
-                              " > out.txt 2> err.txt";
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), readFile(folder.path("err.txt"))};
-}
-
-TEST(SimulateProgram, MakesARawlogFromASceneOfTheUser)
-{
-  const TemporaryFolder folder;
-  folder.write(
-      "mine.ini", kRoomText +
-                      "[object x]\nlabel = cup\nposition = 1.5 0 1\n"
-                      "part1 = cylinder 0 0 0.1 0.2 0.2 0.2 grey\n");
-  const auto result = runProgram(
-      folder, "mine.ini -o b.rawlog --seed 9 --frames 4 --resolution 160x120 --noise 0.5");
-  EXPECT_EQ(0, result.status) << result.error;
-  EXPECT_EQ("", result.error) << "no progress bar when redirected";
-  EXPECT_NE(std::string::npos, readFile(folder.path("out.txt")).find("4 frames"));
-  EXPECT_EQ(4U, readTumTrajectory(folder.path("b.groundtruth.tum")).size());
-  const auto truth = readObjectsJson(folder.path("b.objects.gt.json"));
-  ASSERT_EQ(1U, truth.size());
-  EXPECT_EQ(4U, truth[0].framesVisible.value_or(0));
-}
-
-TEST(SimulateProgram, RejectsWrongCallsWithStatusTwo)
-{
-  const TemporaryFolder folder;
-  for (const auto* arguments :
-       {"", "home", "-o x.rawlog", "home -o", "home -o x.rawlog --seed -1",
-        "home extra -o x.rawlog", "home -o x.rawlog --seed 1.5", "home -o x.rawlog --seed",
-        "home -o x.rawlog --noise loud", "home -o x.rawlog --noise -1",
-        "home -o x.rawlog --noise 11", "home -o x.rawlog --noise nan",
-        "home -o x.rawlog --frames 1", "home -o x.rawlog --frames many",
-        "home -o x.rawlog --resolution 320", "home -o x.rawlog --resolution 10x10",
-        "home -o x.rawlog --resolution 320x", "home -o x.rawlog --detections faces",
-        "home -o x.rawlog --unknown"})
-  {
-    const auto result = runProgram(folder, arguments);
-    EXPECT_EQ(2, result.status) << arguments;
-    EXPECT_EQ(0U, result.error.find("quadmap-simulate: ")) << result.error;
-    EXPECT_EQ(result.error.size() - 1, result.error.find('\n')) << "one line: " << result.error;
-  }
-  EXPECT_EQ(2U, folder.fileCount()) << "only what the shell wrote";
-}
-
-TEST(SimulateProgram, NamesTheBadFileWithStatusOne)
-{
-  const TemporaryFolder folder;
-  folder.write("bad.ini", kRoomText + "[object x]\nlabel = cup\nposition = 1 0\n");
-  for (const auto& [arguments, part] : {
-           std::pair{            "bad.ini -o x.rawlog", "bad.ini: [object x] position"},
-           {            "nowhere -o x.rawlog",           "scenes/nowhere.ini"},
-           {         "./none.ini -o x.rawlog",                   "./none.ini"},
-           {"home -o no/such/folder/x.rawlog",      "no/such/folder/x.rawlog"}
-  })
-  {
-    const auto result = runProgram(folder, arguments);
-    EXPECT_EQ(1, result.status) << arguments;
-    EXPECT_NE(std::string::npos, result.error.find(part)) << result.error;
-    EXPECT_EQ(result.error.size() - 1, result.error.find('\n')) << "one line";
-  }
+  SimulatorOptions options;
+  options.rig = {CameraOptions()};
+  options.scaleNoise({2, 3, 4, 30});
+  const SimulatorOptions before;
+  EXPECT_EQ(2 * before.camera.colorNoise, options.camera.colorNoise);
+  EXPECT_EQ(2 * before.camera.colorNoise, options.rig[0].colorNoise);
+  EXPECT_EQ(3 * before.depthNoise.axialGrowth, options.depthNoise.axialGrowth);
+  EXPECT_EQ(3 * before.depthNoise.edgeHoles, options.depthNoise.edgeHoles);
+  EXPECT_EQ(before.depthNoise.maxRange, options.depthNoise.maxRange);
+  EXPECT_EQ(4 * before.odometry.translationPerMetre, options.odometry.translationPerMetre);
+  EXPECT_EQ(4 * before.odometry.scale, options.odometry.scale);
+  EXPECT_EQ(30 * before.detector.jitter, options.detector.jitter);
+  EXPECT_EQ(30 * before.detector.falseAlarms, options.detector.falseAlarms);
+  EXPECT_EQ(1, options.detector.occludedMissRate) << "a share";
+  EXPECT_EQ(before.detector.minSize, options.detector.minSize);
 }
 
 TEST(BundledRawlog, IsSmallAndFitsItsTruth)

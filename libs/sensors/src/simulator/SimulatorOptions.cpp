@@ -29,6 +29,14 @@ DetectorOutput outputOf(const Entry& e)
   return *output;
 }
 
+/** \param shares Stay below 1. */
+void scaleErrors(
+    double factor, const std::vector<double*>& sigmas, const std::vector<double*>& shares)
+{
+  for (double* sigma : sigmas) *sigma *= factor;
+  for (double* share : shares) *share = std::min(1.0, *share * factor);
+}
+
 }  // namespace
 
 std::optional<DetectorOutput> detectorOutputOf(const std::string& name)
@@ -183,20 +191,24 @@ void SimulatorOptions::resize(int width, int height)
   for (auto& one : rig) one.resize(width, height);
 }
 
-void SimulatorOptions::scaleNoise(double factor)
+void SimulatorOptions::scaleNoise(const NoiseFactors& factors)
 {
-  for (auto& one : rig) one.colorNoise *= factor;
-  for (double* sigma :
-       {&camera.colorNoise, &depthNoise.axialBase, &depthNoise.axialGrowth,
-        &depthNoise.disparityStep, &depthNoise.lateral, &odometry.translationPerMetre,
-        &odometry.rotationPerMetre_deg, &odometry.translationPerRadian,
-        &odometry.rotationPerRadian_deg, &odometry.scale, &detector.jitter, &detector.maskJitter,
-        &detector.relativeJitter, &detector.falseAlarms})
-    *sigma *= factor;
-  for (double* share :
-       {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts, &detector.missRate,
-        &detector.occludedMissRate, &detector.flipRate})
-    *share = std::min(1.0, *share * factor);
+  camera.colorNoise *= factors.color;
+  for (auto& one : rig) one.colorNoise *= factors.color;
+  scaleErrors(
+      factors.depth,
+      {&depthNoise.axialBase, &depthNoise.axialGrowth, &depthNoise.disparityStep,
+       &depthNoise.lateral},
+      {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts});
+  scaleErrors(
+      factors.odometry,
+      {&odometry.translationPerMetre, &odometry.rotationPerMetre_deg,
+       &odometry.translationPerRadian, &odometry.rotationPerRadian_deg, &odometry.scale},
+      {});
+  scaleErrors(
+      factors.detector,
+      {&detector.jitter, &detector.relativeJitter, &detector.maskJitter, &detector.falseAlarms},
+      {&detector.missRate, &detector.occludedMissRate, &detector.flipRate});
 }
 
 }  // namespace quadmap::simulator

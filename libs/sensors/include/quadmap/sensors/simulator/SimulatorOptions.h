@@ -138,6 +138,15 @@ struct DetectorOptions : public mrpt::config::CLoadableOptions
       const mrpt::config::CConfigFileBase& c, const std::string& section) override;
 };
 
+/** What the errors of each part are multiplied with, all in [0, 10]. */
+struct NoiseFactors
+{
+  double color = 1, depth = 1, odometry = 1, detector = 1;
+
+  /** The same for all parts. */
+  static NoiseFactors all(double factor) { return {factor, factor, factor, factor}; }
+};
+
 struct SimulatorOptions
 {
   CameraOptions camera;            //!< The only one, unless there is a rig
@@ -150,10 +159,11 @@ struct SimulatorOptions
   std::vector<CameraOptions> cameras() const;  //!< The rig, or the only camera
   void resize(int width, int height);          //!< All cameras; they keep their fields of view
 
-  /** Multiplies every random error (not the range limits, nor what cannot be seen) with a factor in
-   * [0, 10]; shares stay below 1. With 0 depth is exact to its storage unit, odometry is the truth
-   * and the boxes are those of the visible parts. */
-  void scaleNoise(double factor);
+  /** Multiplies every random error (not the range limits, nor what cannot be seen) with the factor
+   * of its part; shares stay below 1. With 0 depth is exact to its storage unit, odometry is the
+   * truth and the boxes are those of the visible parts. */
+  void scaleNoise(const NoiseFactors& factors);
+  void scaleNoise(double factor) { scaleNoise(NoiseFactors::all(factor)); }
 };
 
 }  // namespace quadmap::simulator
