@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mrpt/core/format.h>
 
 #include <algorithm>
 #include <set>
@@ -89,6 +90,24 @@ TEST(SceneOverTime, ObjectsComeMoveAndGo)
     // 0.4 m at 1.4 m, f = 131 px: 37 px to the side; the box shows its sides too.
     EXPECT_NEAR(column, visible[0].box.centerX(), 4) << time;
   }
+}
+
+TEST(SceneOverTime, MovesAreInTheOrderOfTheirNumbers)
+{
+  std::string text =
+      kRoomText + "[object cup]\nlabel = cup\nposition = 0 0 0\npart1 = box 0 0 0 1 1 1 grey\n";
+  for (int i = 1; i <= 11; ++i) text += mrpt::format("move%d = %d  %g 0 0  0\n", i, i, 0.1 * i);
+  const Scene scene = sceneFromText(text);
+  ASSERT_EQ(12U, scene.objects.size());
+  for (std::size_t i = 1; i < 12; ++i)
+  {
+    EXPECT_EQ(double(i), scene.objects[i].from);
+    EXPECT_NEAR(0.1 * double(i), scene.objects[i].T_world_obj.x(), 1e-9);
+  }
+  const auto error = [&](const std::string& key)
+  { return errorOf([&] { sceneFromText(text + key + " = 20  0 0 0  0\n"); }); };
+  EXPECT_NE(std::string::npos, error("move_on").find("moveNUMBER"));
+  EXPECT_NE(std::string::npos, error("move011").find("another one"));
 }
 
 TEST(SceneOverTime, TruthSaysWhenWhatStoodWhere)

@@ -212,16 +212,11 @@ class SceneReader
     if (const auto e = entryOf(file_, section, "model")) object.parts = modelOf(*e);
     const std::set<std::string> known{
         "label", "model", "position", "yaw_deg", "orientation_defined", "from", "to"};
-    std::vector<std::string> moves;
     for (const auto& key : keysOf(section, {"part", "move"}, known))
-      if (key.compare(0, 4, "move") == 0)
-        moves.push_back(key);
-      else
-        object.parts.push_back(partOf(required(section, key)));
+      if (key.compare(0, 4, "part") == 0) object.parts.push_back(partOf(required(section, key)));
     if (object.parts.empty())
       throw std::invalid_argument("[" + section + "] has neither a model nor a part");
-    std::sort(moves.begin(), moves.end());
-    for (const auto& key : moves) stayUntilMoved(object, required(section, key));
+    for (const auto& move : numberedEntries(file_, section, "move")) stayUntilMoved(object, move);
     scene_.objects.push_back(std::move(object));
   }
 

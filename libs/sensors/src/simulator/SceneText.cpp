@@ -3,6 +3,8 @@
 #include <mrpt/core/format.h>
 #include <mrpt/system/string_utils.h>
 
+#include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "quadmap/obs/ConfigCheck.h"
@@ -49,6 +51,28 @@ std::optional<Entry> entryOf(
 {
   if (!config.keyExists(section, key)) return std::nullopt;
   return Entry{section, key, mrpt::system::trim(config.read_string(section, key, ""))};
+}
+
+std::vector<Entry> numberedEntries(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& section,
+    const std::string& prefix)
+{
+  std::map<double, Entry> ordered;
+  std::vector<std::string> keys;
+  config.getAllKeys(section, keys);
+  for (const auto& key : keys)
+  {
+    if (key.compare(0, prefix.size(), prefix) != 0) continue;
+    const Entry e = *entryOf(config, section, key);
+    const auto number = parseNumber(key.substr(prefix.size()));
+    if (!number || !(*number >= 0 && *number < 1e6) || *number != std::floor(*number))
+      e.reject("the key must be " + prefix + "NUMBER");
+    if (!ordered.emplace(*number, e).second) e.reject("there is another one with this number");
+  }
+  std::vector<Entry> entries;
+  for (const auto& item : ordered) entries.push_back(item.second);
+  return entries;
 }
 
 }  // namespace quadmap::simulator

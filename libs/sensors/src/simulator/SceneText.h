@@ -36,4 +36,12 @@ std::optional<Entry> entryOf(
     const std::string& section,
     const std::string& key);
 
+/** The keys PREFIX1, PREFIX2, ... of a section, in the order of their numbers: 10 comes after 9.
+ * \exception std::invalid_argument For a key that begins with the prefix and does not end in a
+ * whole number, and for a number that is there twice, such as 1 and 01. */
+std::vector<Entry> numberedEntries(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& section,
+    const std::string& prefix);
+
 }  // namespace quadmap::simulator

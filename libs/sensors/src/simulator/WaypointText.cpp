@@ -4,35 +4,15 @@
 #include <mrpt/core/format.h>
 
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 #include "SceneText.h"
-#include "quadmap/obs/ConfigCheck.h"
 
 namespace quadmap::simulator
 {
 namespace
 {
 constexpr double kFar = 100;  // no coordinate of a room is larger [m]
-
-std::vector<Entry> entriesOf(const mrpt::config::CConfigFileBase& config)
-{
-  std::map<int, Entry> ordered;
-  std::vector<std::string> keys;
-  config.getAllKeys("trajectory", keys);
-  for (const auto& key : keys)
-  {
-    if (key.compare(0, 8, "waypoint") != 0) continue;
-    const Entry e = *entryOf(config, "trajectory", key);
-    const auto number = parseNumber(key.substr(8));
-    if (!number || !(*number >= 0 && *number < 1e6)) e.reject("the key must be waypointNUMBER");
-    ordered[static_cast<int>(*number)] = e;
-  }
-  std::vector<Entry> entries;
-  for (const auto& item : ordered) entries.push_back(item.second);
-  return entries;
-}
 
 Waypoint viewOf(const Entry& e)
 {
@@ -70,7 +50,7 @@ bool moves(const std::vector<Stop>& stops, std::size_t i)
 
 std::vector<Waypoint> readWaypoints(const mrpt::config::CConfigFileBase& config, Motion kind)
 {
-  const auto entries = entriesOf(config);
+  const auto entries = numberedEntries(config, "trajectory", "waypoint");
   const std::size_t fewest = kind == Motion::Walk ? 4 : 2;
   if (entries.size() < fewest)
     throw std::invalid_argument(
