@@ -2,7 +2,7 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "SceneFixture.h"
 #include "quadmap/sensors/simulator/Simulator.h"
@@ -43,13 +43,79 @@ INSTANTIATE_TEST_SUITE_P(
         "robot-home-four",
         "cluttered-desk",
         "corridor",
-        "lifelong"));
+        "lifelong",
+        "approach"));
 
 std::size_t labelledIn(const Scene& scene)
 {
   return static_cast<std::size_t>(std::count_if(
       scene.objects.begin(), scene.objects.end(),
       [](const SceneObject& o) { return !o.label.empty(); }));
+}
+
+/** How many objects have each label. */
+std::map<std::string, int> labelsIn(const std::string& scene)
+{
+  std::map<std::string, int> counts;
+  for (const auto& object : readScene(findScene(scene)).objects) ++counts[object.label];
+  return counts;
+}
+
+TEST(InstalledScenes, HaveTheFurnitureOfTheirKindOfRoom)
+{
+  using Counts = std::map<std::string, int>;
+  const Counts home{
+      {       "couch", 1},
+      {       "chair", 2},
+      {"dining table", 1},
+      {          "tv", 1},
+      {         "bed", 1},
+      {"potted plant", 2},
+      {        "vase", 1},
+      {         "cup", 2}
+  };
+  const Counts office{
+      {      "tv", 2},
+      {"keyboard", 2},
+      {    "book", 2},
+      {    "desk", 2},
+      { "cabinet", 1},
+      {   "chair", 2}
+  };
+  for (const auto& [scene, fewest] : {
+           std::pair{  "home",   home},
+           {"office", office}
+  })
+    for (const auto& [label, count] : fewest)
+      EXPECT_GE(labelsIn(scene)[label], count) << scene << ": " << label;
+}
+
+TEST(InstalledScenes, RobotsDriveOnTheFloorWithCamerasAtChestHeight)
+{
+  for (const auto* name : {"robot-home", "robot-home-four"})
+  {
+    const Simulator simulator(readScene(findScene(name)), LabelTable::installed(), 1);
+    for (std::size_t i = 0; i < simulator.frameCount(); ++i)
+    {
+      const auto& pose = simulator.truePoses()[i];
+      EXPECT_EQ(0, pose.z());
+      EXPECT_NEAR(0, std::abs(pose.pitch()) + std::abs(pose.roll()), 1e-12);
+      const double height = (pose + simulator.camera(i).T_robot_camera()).z();
+      EXPECT_TRUE(height >= 0.5 && height <= 1.0) << name << ": " << height;
+    }
+  }
+}
+
+TEST(InstalledScenes, ApproachComesFromFourMetresToOne)
+{
+  Scene scene = readScene(findScene("approach"));
+  EXPECT_EQ(Motion::Approach, scene.options.trajectory.kind);
+  EXPECT_GE(labelledIn(scene), 4U);
+  const Simulator simulator(scene, LabelTable::installed(), 1);
+  const auto distance = [&](const mrpt::poses::CPose3D& pose)
+  { return (transformed(pose, Eigen::Vector3d::Zero()) - scene.waypoints[0].target).norm(); };
+  EXPECT_NEAR(4, distance(simulator.truePoses().front()), 0.1);
+  EXPECT_NEAR(1, distance(simulator.truePoses().back()), 0.1);
 }
 
 TEST(InstalledScenes, AreWhatTheirNamesSay)
