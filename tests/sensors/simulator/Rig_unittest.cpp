@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
 
 #include <map>
 #include <set>
@@ -245,6 +246,21 @@ TEST(SceneInclude, TakesSectionsFromOtherFilesAndKeepsItsOwn)
   EXPECT_EQ(128, scene.materials[scene.room.floor].color.x()) << "its own grey";
 }
 
+TEST(SceneInclude, EarlierNumbersCountFirst)
+{
+  const TemporaryFolder folder;
+  std::string include = "[include]\n";
+  for (const int number : {10, 2})
+  {
+    const std::string name = mrpt::format("file%d.ini", number);
+    folder.write(name, mrpt::format("[material red]\ncolor = %d 0 0\n", number));
+    include += mrpt::format("file%d = %s\n", number, name.c_str());
+  }
+  const Scene scene = readScene(folder.write("scene.ini", include + kEmptyRoom + kDrive));
+  ASSERT_EQ("red", scene.materials.at(1).name);
+  EXPECT_EQ(2, scene.materials[1].color.x());
+}
+
 TEST(SceneInclude, MessagesNameTheFileWithTheMistake)
 {
   const TemporaryFolder folder;
@@ -258,11 +274,13 @@ TEST(SceneInclude, MessagesNameTheFileWithTheMistake)
   EXPECT_EQ("", error("", "file1 = models.ini"));
   for (const auto& [models, include, part] : {
            std::tuple{
-                      "[material x]\ncolor = 1 2\n",  "file1 = models.ini",                    "models.ini: [material x]"   },
-           {"[material x]\ncolour = 1 2 3\n",  "file1 = models.ini",                    "models.ini: [material x]"},
-           {                              "",    "file1 = none.ini",         "scene.ini: [include] file1=none.ini"},
-           {                              "", "models = models.ini", "scene.ini: [include] unknown key \"models\""},
-           {                      "nonsense",  "file1 = models.ini",                                "models.ini:1"}
+                      "[material x]\ncolor = 1 2\n",       "file1 = models.ini","models.ini: [material x]"                                                                                   },
+           {"[material x]\ncolour = 1 2 3\n",       "file1 = models.ini",                    "models.ini: [material x]"},
+           {                              "",         "file1 = none.ini",         "scene.ini: [include] file1=none.ini"},
+           {                              "", "file_models = models.ini",
+                      "scene.ini: [include] file_models=models.ini: the key must be"                                             },
+           {                              "",      "models = models.ini", "scene.ini: [include] unknown key \"models\""},
+           {                      "nonsense",       "file1 = models.ini",                                "models.ini:1"}
   })
     EXPECT_NE(std::string::npos, error(models, include).find(part)) << error(models, include);
 }

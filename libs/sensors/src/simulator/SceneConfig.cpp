@@ -1,12 +1,12 @@
 #include "SceneConfig.h"
 
 #include <mrpt/config/CConfigFile.h>
-#include <mrpt/system/string_utils.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
+#include "SceneText.h"
 #include "quadmap/obs/ConfigCheck.h"
 #include "quadmap/obs/LabelTable.h"
 
@@ -16,33 +16,38 @@ namespace
 {
 const std::string kInclude = "include";
 
-std::string includedFile(const std::string& name, const std::string& fromFile)
+std::string includedFile(const Entry& entry, const std::string& fromFile)
 {
-  const auto beside = std::filesystem::path(fromFile).parent_path() / name;
-  return std::filesystem::exists(beside) ? beside.string() : findShareFile("scenes/" + name);
+  const auto beside = std::filesystem::path(fromFile).parent_path() / entry.text;
+  if (std::filesystem::exists(beside)) return beside.string();
+  try
+  {
+    return findShareFile("scenes/" + entry.text);
+  }
+  catch (const std::exception& e)
+  {
+    entry.reject(e.what());
+  }
 }
 
-/** The files that a file includes, in the order of the keys. */
+/** The files that a file includes, in the order of their numbers. */
 std::vector<std::string> filesIncludedBy(
     const mrpt::config::CConfigFileBase& config, const std::string& path)
 {
   std::vector<std::string> keys, files;
   config.getAllKeys(kInclude, keys);
-  std::sort(keys.begin(), keys.end());
   for (const auto& key : keys)
-  {
     if (key.compare(0, 4, "file") != 0)
       throw std::runtime_error(
           path + ": [include] unknown key \"" + key + "\"; known: file1, file2, ...");
-    const auto name = mrpt::system::trim(config.read_string(kInclude, key, ""));
-    try
-    {
-      files.push_back(includedFile(name, path));
-    }
-    catch (const std::exception& e)
-    {
-      throw std::runtime_error(path + ": [include] " + key + "=" + name + ": " + e.what());
-    }
+  try
+  {
+    for (const auto& entry : numberedEntries(config, kInclude, "file"))
+      files.push_back(includedFile(entry, path));
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw std::runtime_error(path + ": " + e.what());
   }
   return files;
 }
