@@ -19,22 +19,6 @@ namespace
 {
 constexpr std::uint32_t kMaxObjects = 100000;  //!< In one image
 
-const char* nameOf(MeasurementKind kind)
-{
-  switch (kind)
-  {
-    case MeasurementKind::Complete:
-      return "complete";
-    case MeasurementKind::Partial:
-      return "partial";
-    case MeasurementKind::Rejected:
-      return "rejected";
-    case MeasurementKind::None:
-      break;
-  }
-  return "none";
-}
-
 /** One word for a column of text. */
 std::string word(std::string text)
 {
@@ -82,6 +66,22 @@ std::string textColumns(const DetectedObject& o)
 }
 
 }  // namespace
+
+const char* nameOf(MeasurementKind kind)
+{
+  switch (kind)
+  {
+    case MeasurementKind::Complete:
+      return "complete";
+    case MeasurementKind::Partial:
+      return "partial";
+    case MeasurementKind::Rejected:
+      return "rejected";
+    case MeasurementKind::None:
+      break;
+  }
+  return "none";
+}
 
 uint8_t CObservationObjects::serializeGetVersion() const { return 0; }
 

@@ -195,21 +195,6 @@ Json timingJson(const RunRecord& run)
   };
 }
 
-const char* nameOf(MeasurementKind kind)
-{
-  switch (kind)
-  {
-    case MeasurementKind::Complete:
-      return "complete";
-    case MeasurementKind::Partial:
-      return "partial";
-    case MeasurementKind::Rejected:
-      return "rejected";
-    default:
-      return "none";
-  }
-}
-
 /** One line per keyframe with boxes: they are many, so none is kept. */
 class AssociationLines
 {

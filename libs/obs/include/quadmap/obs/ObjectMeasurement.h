@@ -63,6 +63,8 @@ enum class MeasurementKind : std::uint8_t
   Rejected
 };
 
+const char* nameOf(MeasurementKind kind);  //!< One lower-case word
+
 /** What perception made of one detector box. */
 struct ObjectMeasurement
 {
