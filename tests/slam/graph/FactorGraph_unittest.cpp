@@ -182,6 +182,31 @@ TEST(FactorGraph, TheWindowFollowsTheRobotAndRevisitsReconnectIt)
   }
 }
 
+TEST(FactorGraph, ViewsOfAPoseThatStaysCountHoweverLateTheyCome)
+{
+  const auto drive = [](bool late)
+  {
+    GraphWorld world(6);
+    FactorGraph graph(plain());
+    graph.addPose(world.odometry[0]);
+    if (late) graph.optimiseWindow(1);
+    EXPECT_GT(world.addViews(graph, 0), 0u);
+    graph.optimiseWindow(1);
+    for (std::size_t k = 1; k < 8; ++k)
+    {
+      world.add(graph, k, graph.pose(k - 1) + (world.odometry[k] - world.odometry[k - 1]));
+      graph.optimiseWindow(1);
+    }
+    return graph;
+  };
+  const FactorGraph late = drive(true), inTime = drive(false);
+  for (std::size_t k = 0; k < late.poses(); ++k)
+    EXPECT_EQ(late.pose(k).distanceTo(inTime.pose(k)), 0) << k;
+  FactorGraph graph = late;
+  EXPECT_THROW(graph.removeViews(0), std::invalid_argument) << "they are in the objects";
+  EXPECT_NO_THROW(graph.removeViews(1));
+}
+
 TEST(FactorGraph, SameCallsGiveTheSameBytes)
 {
   const auto run = []

@@ -75,13 +75,19 @@ class GraphWorld
   {
     g.addPose(guess);
     if (k > 0) g.addStep(k - 1, k, stepDistribution(odometry[k] - odometry[k - 1]));
+    return addViews(g, k);
+  }
+
+  /** The views of a pose, as in add(). */
+  std::size_t addViews(FactorGraph& g, std::size_t k)
+  {
     std::size_t count = 0;
     for (std::size_t i = 0; i < objects.size(); ++i)
     {
       const auto id = static_cast<ObjectId>(i + 1);
       if (!visible(k, i)) continue;
       const RobotView v = view(k, i);
-      if (!g.hasObject(id)) g.setObject(id, placed(v, guess), label());
+      if (!g.hasObject(id)) g.setObject(id, placed(v, g.pose(k)), label());
       g.addView(k, id, v);
       ++count;
     }

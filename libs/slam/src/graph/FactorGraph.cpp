@@ -87,9 +87,16 @@ void FactorGraph::addView(std::size_t pose, ObjectId id, const RobotView& view)
 {
   if (!hasObject(id)) throw std::invalid_argument("FactorGraph: a view of an unknown object");
   viewsByPose_.at(pose).push_back({id, view});
+  if (pose < foldedUpTo_) fold(viewsByPose_[pose].back(), poses_[pose]);
 }
 
-void FactorGraph::removeViews(std::size_t pose) { viewsByPose_.at(pose).clear(); }
+void FactorGraph::removeViews(std::size_t pose)
+{
+  auto& views = viewsByPose_.at(pose);
+  if (pose < foldedUpTo_ && !views.empty())
+    throw std::invalid_argument("FactorGraph: these views are folded");
+  views.clear();
+}
 
 std::size_t FactorGraph::viewCount() const
 {

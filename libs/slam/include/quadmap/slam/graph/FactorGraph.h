@@ -61,7 +61,9 @@ class FactorGraph
   /** Forgets the object and its views; another one may take the views over. */
   void removeObject(ObjectId id, std::optional<ObjectId> heir = std::nullopt);
 
+  /** A view from a pose that optimiseWindow() frees no more is folded at once. */
   void addView(std::size_t pose, ObjectId id, const RobotView& view);
+  /** \exception std::invalid_argument If they are folded: that can not be undone. */
   void removeViews(std::size_t pose);
   std::size_t viewCount() const;
 
