@@ -207,6 +207,19 @@ TEST(FactorGraph, ViewsOfAPoseThatStaysCountHoweverLateTheyCome)
   EXPECT_NO_THROW(graph.removeViews(1));
 }
 
+TEST(FactorGraph, MarginalsOfAWindowKnowTheViewsBeforeIt)
+{
+  // Pose 0 is fixed either way; whether its views are folded yet is nothing to the covariance.
+  GraphWorld world(8);
+  FactorGraph graph(plain());
+  for (std::size_t k = 0; k < 3; ++k) world.add(graph, k, world.odometry[k]);
+  const auto all = graph.marginals(0, true), window = graph.marginals(1, true);
+  EXPECT_LT((window.lastPose - all.lastPose).norm(), 1e-9 * all.lastPose.norm());
+  ASSERT_EQ(window.objects.size(), all.objects.size());
+  for (const auto& [id, covariance] : all.objects)
+    EXPECT_LT((window.objects.at(id) - covariance).norm(), 1e-9 * covariance.norm()) << id;
+}
+
 TEST(FactorGraph, SameCallsGiveTheSameBytes)
 {
   const auto run = []

@@ -25,7 +25,7 @@ GraphProblem::GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folde
     freeManifold_(objectManifold(ObjectFreedom::Free)),
     problem_(problemOptions())
 {
-  const std::size_t firstView = folded ? firstFree : 0;
+  const std::size_t firstView = folded ? graph.foldedUpTo_ : 0;
   for (std::size_t k = firstView; k < graph.poses_.size(); ++k)
   {
     for (const auto& view : graph.viewsByPose_[k])

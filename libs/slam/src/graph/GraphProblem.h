@@ -17,7 +17,7 @@ namespace quadmap
 class GraphProblem
 {
  public:
-  /** \param folded Views before firstFree enter as what was folded of them, else as they are. */
+  /** \param folded What is folded of views enters as that, else they all enter as they are. */
   GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folded);
 
   FactorGraph::Summary solve();
