@@ -229,6 +229,24 @@ TEST_F(SeveralCameras, OneMomentNeedsNoPoses)
   EXPECT_EQ(summary.result.map.objects().size(), 1u);
 }
 
+TEST_F(SeveralCameras, OneMomentHasOneCorrectedPose)
+{
+  const auto cameras = fourCameras();
+  Records records = stopAndLook(cameras);
+  records.erase(records.begin());
+  records.resize(7);
+  const auto summary = run(records, true);
+  const auto& keyframes = summary.result.keyframes;
+  ASSERT_EQ(keyframes.size(), 4u);
+  EXPECT_FALSE(keyframes[0].odometryStep);
+  for (std::size_t k = 1; k < 4; ++k)
+  {
+    ASSERT_TRUE(keyframes[k].odometryStep) << k;
+    EXPECT_LT(keyframes[k].odometryStep->mean.norm(), 1e-12);
+    EXPECT_LT((keyframes[k].T_map_robot - keyframes[0].T_map_robot).norm(), 5e-4) << k;
+  }
+}
+
 TEST_F(SeveralCameras, ReportCountsEachSensor)
 {
   const auto cameras = fourCameras();

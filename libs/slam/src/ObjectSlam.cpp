@@ -248,7 +248,7 @@ void ObjectSlam::placeFramesWithoutPose()
   for (const auto& frame : frames)
   {
     result_.countsBySensor[frame.scan->sensorLabel].framesWithoutPose = 0;
-    addPosedFrame(frame, CPose3D());
+    addPosedFrame(frame, odometry_.poseOfMoment());
   }
 }
 

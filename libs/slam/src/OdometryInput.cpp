@@ -60,6 +60,12 @@ std::optional<CPose3D> OdometryInput::visualPoseOf(const RgbdFrame& frame)
   return std::nullopt;
 }
 
+CPose3D OdometryInput::poseOfMoment()
+{
+  latest_.emplace(CPose3D(), mrpt::math::CMatrixDouble66());
+  return latest_->mean;
+}
+
 std::optional<CPose3DPDFGaussian> OdometryInput::keyframeStep()
 {
   if (visual_) return visual_->takeStep();

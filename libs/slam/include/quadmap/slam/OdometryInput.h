@@ -38,9 +38,13 @@ class OdometryInput
    *  \exception std::runtime_error As GraphOdometry::poseAt(). */
   std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
 
-  /** To be called once for every keyframe, after poseOf() gave its pose: the motion of the robot
-   * since the keyframe before, with its covariance (x, y, z, yaw, pitch, roll), always positive
-   * definite. Nothing for the first keyframe. */
+  /** For a frame of a recording that has no poses because it is of a single moment, instead of
+   * poseOf(): the origin of the map. */
+  mrpt::poses::CPose3D poseOfMoment();
+
+  /** To be called once for every keyframe, after one of these gave its pose: the motion of the
+   * robot since the keyframe before, with its covariance (x, y, z, yaw, pitch, roll), always
+   * positive definite. Nothing for the first keyframe. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> keyframeStep();
 
   /** After the last frame. \exception std::runtime_error As GraphOdometry::requireAllUsed(). */
