@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "quadmap/slam/SingleMoment.h"
+
 namespace quadmap
 {
 using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
-constexpr double kSameMoment = 0.1;    //!< Longest time between the images of one node [s]
-constexpr double kSamePlace = 0.0005;  //!< [m]; far below what depth cameras can tell
+constexpr double kSamePlace = 0.0005;               //!< [m]; far below what depth cameras can tell
 const double kSameDirection = mrpt::DEG2RAD(0.02);  //!< A millimetre at 3 m [rad]
 
 bool isSamePose(const mrpt::poses::CPose3D& a, const mrpt::poses::CPose3D& b)
@@ -25,8 +26,7 @@ bool isSamePose(const mrpt::poses::CPose3D& a, const mrpt::poses::CPose3D& b)
 
 bool belongsTo(const PoseNode& node, const Keyframe& image, const std::vector<Keyframe>& all)
 {
-  return image.time - node.time <= kSameMoment &&
-         isSamePose(node.T_odom_robot, image.T_odom_robot) &&
+  return image.time - node.time <= kMoment && isSamePose(node.T_odom_robot, image.T_odom_robot) &&
          std::none_of(
              node.keyframes.begin(), node.keyframes.end(),
              [&](std::size_t k) { return all[k].sensor == image.sensor; });

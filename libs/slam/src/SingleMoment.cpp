@@ -7,7 +7,6 @@ namespace quadmap
 {
 void SingleMoment::add(const RgbdFrame& frame)
 {
-  constexpr double kMoment = 0.1;  // [s]
   const auto isAnother = [&](const RgbdFrame& other)
   {
     return other.scan->sensorLabel == frame.scan->sensorLabel ||

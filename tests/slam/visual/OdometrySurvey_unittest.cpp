@@ -59,6 +59,19 @@ TEST(OdometrySurvey, ASingleMomentNeedsNoOdometry)
   EXPECT_EQ(surveyOdometry(file, {}, {}).source, PoseSource::Auto);
 }
 
+TEST(OdometrySurvey, TwoImagesOfOneCameraAreMoreThanAMoment)
+{
+  const TemporaryFolder folder;
+  auto frames = homeFrames(2);
+  frames[1].scan->timestamp =
+      frames[0].scan->timestamp + std::chrono::milliseconds(33);  // a camera with 30 Hz
+  auto file = writeObjects(folder.path("x.rawlog"), {frames[0].scan, frames[1].scan});
+  EXPECT_EQ(surveyOdometry(file, {}, {}).source, PoseSource::Visual);
+  frames[1].scan->sensorLabel = "rear";
+  file = writeObjects(folder.path("y.rawlog"), {frames[0].scan, frames[1].scan});
+  EXPECT_EQ(surveyOdometry(file, {}, {}).source, PoseSource::Auto) << "of two it is one";
+}
+
 TEST(OdometrySurvey, LeavesErrorsToTheRun)
 {
   const TemporaryFolder folder;

@@ -5,13 +5,13 @@
 
 #include "RigidMotion.h"
 #include "quadmap/perception/FramePerception.h"
+#include "quadmap/slam/SingleMoment.h"
 #include "quadmap/slam/visual/VisualOdometry.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr double kMoment = 0.1;      // [s]; what cameras of one robot see within it
 constexpr std::size_t kFrames = 15;  // a floor shows at once or the camera does not look down
 
 /** Up in the robot's frame, from the plane the image's scene stands on. A wall that fills the image
@@ -142,22 +142,21 @@ OdometrySurvey surveyOdometry(
   {
     RawlogSource source(rawlog, options);
     source.logging_enable_console_output = false;
-    bool isOneMoment = true, hasOdometry = false;
-    std::optional<RgbdFrame> first;
+    bool hasOdometry = false;
+    SingleMoment moment;
     for (std::size_t i = 0; i < kFrames; ++i)
     {
       const auto frame = source.next();
       if (!frame) break;
       hasOdometry = hasOdometry || (usesOdometry && frame->T_odom_robot);
       if (hasOdometry) continue;  // the rest only tells of further kinds
-      if (!first) first = frame;
-      isOneMoment = isOneMoment && std::abs(frame->time() - first->time()) <= kMoment;
+      moment.add(*frame);
       if (wanted != PoseSource::Rawlog) votes.add(*frame);
     }
     if (usesOdometry) survey.odometryKind = bestKind(source.odometryKinds(), rawlog, options);
     hasOdometry = hasOdometry || !survey.odometryKind.empty();
     if (wanted == PoseSource::Rawlog || hasOdometry) return survey;
-    if (wanted == PoseSource::Auto && isOneMoment) return survey;
+    if (wanted == PoseSource::Auto && moment.isPossible()) return survey;
     survey.source = PoseSource::Visual;
   }
   catch (const std::exception&)

@@ -6,6 +6,8 @@
 
 namespace quadmap
 {
+constexpr double kMoment = 0.1;  //!< What the cameras of a robot see within it they see at once [s]
+
 /** A recording of one moment, an image of each sensor, needs no odometry. Keeps the images as long
  * as it may be one. */
 class SingleMoment
@@ -13,6 +15,9 @@ class SingleMoment
  public:
   /** The next frame of the recording; it has no pose. */
   void add(const RgbdFrame& frame);
+
+  /** False once the recording is known to be more; true of one without images. */
+  bool isPossible() const { return possible_; }
 
   void exclude();  //!< A frame had a pose: what came before is of no use
 
