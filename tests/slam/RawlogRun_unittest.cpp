@@ -282,6 +282,19 @@ TEST_F(RawlogRun, SingleImageWithNothingToSeeNeedsNoPoseEither)
   EXPECT_EQ(summary.result.keyframes.size(), 1u);
 }
 
+TEST_F(RawlogRun, VisualOdometryThatSeesNothingPointsToTheRawlogsOdometry)
+{
+  auto records = recordsOf({}, {});
+  for (auto& record : records)
+    if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(record.get()))
+      scan->rangeImage.setZero();
+  auto request = requestFor(writeObjects(folder_.path("dark.rawlog"), records));
+  request.configuration.slam.odometry = PoseSource::Visual;
+  expectFailure(
+      request,
+      "visual odometry finds too little texture or depth in the images: use --odometry rawlog");
+}
+
 TEST_F(RawlogRun, NoBoxesIsAnErrorUnlessToldToGoOn)
 {
   SyntheticRecording r;

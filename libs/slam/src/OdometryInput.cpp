@@ -101,6 +101,8 @@ void OdometryInput::requireAllUsed() const
 std::string OdometryInput::whyNoPoses() const
 {
   if (graph_) return "no image has the time of a pose of " + graph_->path();
+  if (source_ == PoseSource::Visual && sawOdometry_)
+    return "visual odometry finds too little texture or depth in the images: use --odometry rawlog";
   if (source_ == PoseSource::Visual)
     return "no odometry for any image, and visual odometry finds too little texture or depth in "
            "them";
