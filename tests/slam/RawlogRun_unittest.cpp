@@ -396,6 +396,19 @@ TEST_F(RawlogRun, FullDiskLeavesNothing)
   }
 }
 
+TEST_F(RawlogRun, FailureLeavesNoneOfTheFoldersItMade)
+{
+  SyntheticRecording r;
+  r.boxes = false;
+  std::filesystem::create_directory(folder_.path("mine"));
+  expectFailure(requestFor(recording(r), "mine/a/b/c"), "no object boxes");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path("mine")));
+
+  std::filesystem::create_symlink("nowhere", folder_.path("mine/link"));
+  EXPECT_THROW(runOnRawlog(requestFor(recording(), "mine/link")), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_.path("mine/link"))) << "not made by the run";
+}
+
 TEST_F(RawlogRun, OutputThatCannotBeMadeIsNamed)
 {
   auto request = requestFor(recording());

@@ -17,29 +17,34 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** The output directory; when it was made here and the run fails, it goes again. */
+/** The output directory; what was made of its path goes again when the run fails. */
 class OutputDirectory
 {
  public:
-  explicit OutputDirectory(const std::string& path) : path_(path)
+  explicit OutputDirectory(const std::string& path)
   {
     std::error_code error;
-    isNew_ = fs::create_directories(path_, error);
-    if (error || !fs::is_directory(path_))
-      throw std::runtime_error(
-          path + ": cannot be made: " + (error ? error.message() : "a file of that name exists"));
+    for (fs::path p = path; !p.empty() && !fs::exists(p, error); p = p.parent_path())
+      made_.push_back(p);
+    fs::create_directories(path, error);
+    if (!error && fs::is_directory(path)) return;
+    removeEmpty();
+    throw std::runtime_error(
+        path + ": cannot be made: " + (error ? error.message() : "a file of that name exists"));
   }
-  ~OutputDirectory()
-  {
-    std::error_code ignored;
-    if (isNew_ && fs::is_empty(path_, ignored)) fs::remove(path_, ignored);
-  }
+  ~OutputDirectory() { removeEmpty(); }
   OutputDirectory(const OutputDirectory&) = delete;
   OutputDirectory& operator=(const OutputDirectory&) = delete;
 
  private:
-  fs::path path_;
-  bool isNew_ = false;
+  void removeEmpty() const
+  {
+    std::error_code ignored;  // of one with files, and so of those it is in
+    for (const auto& path : made_)
+      if (fs::is_directory(path, ignored)) fs::remove(path, ignored);
+  }
+
+  std::vector<fs::path> made_;  //!< The deepest first
 };
 
 class RawlogRun
