@@ -76,7 +76,7 @@ struct CorrectionSummary
 /** Where the poses came from. */
 struct OdometrySummary
 {
-  PoseSource source = PoseSource::Auto;        //!< Auto: there was no frame
+  PoseSource source = PoseSource::Auto;        //!< Auto: the rawlog's, or a single moment
   std::string visualSensor;                    //!< The camera of visual odometry
   bool upFromFloor = false;                    //!< Else the first robot pose is taken for upright
   std::optional<VisualOdometryCounts> visual;  //!< When it was used
