@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "PlaceGuesses.h"
+
 using namespace quadmap;
 using mrpt::poses::CPose3D;
 
@@ -48,6 +50,22 @@ Room randomRoom(std::mt19937& rng)
         id++, name, CPose3D(px, py, z, angle, 0, 0), labels().properties(name).dominantDirection));
   }
   return room;
+}
+
+/** A hall of 12 x 9 m with so many chairs that all look alike, and three other things. */
+Room hallOfChairs(int chairs, std::mt19937& rng)
+{
+  std::uniform_real_distribution<double> x(-6, 6), y(-4.5, 4.5), yaw(-M_PI, M_PI);
+  Room hall;
+  const auto add = [&](const std::string& label)
+  {
+    const double px = x(rng), py = y(rng), angle = yaw(rng);
+    hall.push_back(objectAt(
+        static_cast<ObjectId>(hall.size() + 1), label, CPose3D(px, py, 0.45, angle, 0, 0)));
+  };
+  for (int i = 0; i < chairs; ++i) add("chair");
+  for (const auto* label : {"refrigerator", "couch", "tv"}) add(label);
+  return hall;
 }
 
 /** The room as another run has it: in its own frame, with errors, and ids from 100 on. */
@@ -190,6 +208,71 @@ TEST(ConstellationMatch, RefusesSymmetricRooms)
   ASSERT_TRUE(found);
   EXPECT_LT((-found->T_map_local + truth).norm(), 0.15);
   EXPECT_EQ(found->pairs.size(), 9u);
+}
+
+TEST(ConstellationMatch, FindsAHallOfAlikeChairs)
+{
+  for (unsigned seed = 0; seed < 5; ++seed)
+  {
+    std::mt19937 rng(4000 + seed);
+    const Room hall = hallOfChairs(30, rng);
+    const CPose3D truth = randomPlace(rng);
+    const auto found = match(seenFrom(truth, hall, 0.03, rng), hall);
+    ASSERT_TRUE(found) << seed;
+    EXPECT_LT(angleBetween(truth, found->T_map_local), mrpt::DEG2RAD(1.0)) << seed;
+    EXPECT_LT((-found->T_map_local + truth).norm(), 0.1) << seed;
+    EXPECT_GE(found->pairs.size(), 30u) << seed;
+  }
+}
+
+TEST(ConstellationMatch, FindsAHallWhereOnlyChairsAreLeft)
+{
+  std::mt19937 rng(5000);
+  const Room hall = hallOfChairs(40, rng);
+  const CPose3D truth = randomPlace(rng);
+  Room local = seenFrom(truth, hall, 0.03, rng);
+  std::shuffle(local.begin(), local.end(), rng);
+  local.erase(
+      std::remove_if(
+          local.begin(), local.end(), [](const MapObject& o) { return o.label() != "chair"; }),
+      local.end());
+  for (auto& chair : local) chair.orientationDefined = false;  // from distances alone
+  const auto found = match(local, hall);
+  ASSERT_TRUE(found);
+  EXPECT_LT((-found->T_map_local + truth).norm(), 0.1);
+}
+
+TEST(ConstellationMatch, GuessesAreBoundedAndDistinctivePairsAreAmongThem)
+{
+  constexpr std::size_t kChairs = 80;
+  std::mt19937 rng(6000);
+  const Room hall = hallOfChairs(kChairs, rng);
+  const CPose3D truth = randomPlace(rng);
+  Room local = seenFrom(truth, hall, 0.01, rng);
+  for (auto& object : local) object.orientationDefined = false;
+  std::vector<const MapObject*> a, b;
+  for (const auto& object : local) a.push_back(&object);
+  for (const auto& object : hall) b.push_back(&object);
+  Constellations both{a, b, std::vector<std::vector<std::size_t>>(a.size())};
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (areAlike(*a[i], *b[j], labels(), {})) both.alike[i].push_back(j);
+  ASSERT_GE(both.alike[0].size(), kChairs);
+  const auto hasTheTruth = [&](const std::vector<Place>& places)
+  {
+    const auto isTrue = [&](const Place& p)
+    {
+      const CPose3D place(p.t.x(), p.t.y(), p.t.z(), p.yaw, 0, 0);
+      return (-place + truth).norm() < 0.1 && angleBetween(place, truth) < mrpt::DEG2RAD(2.0);
+    };
+    return std::any_of(places.begin(), places.end(), isTrue);
+  };
+  const auto all = guessPlaces(both, {});
+  EXPECT_GT(all.size(), kMaxPairsOfPairs / 50);
+  EXPECT_LE(all.size(), kMaxPairsOfPairs);
+  EXPECT_TRUE(hasTheTruth(all));
+  for (std::size_t i = 0; i < kChairs; ++i) both.alike[i].clear();
+  EXPECT_TRUE(hasTheTruth(guessPlaces(both, {}))) << "three things that are unlike";
 }
 
 TEST(ConstellationMatch, OneObjectIsNotEnough)

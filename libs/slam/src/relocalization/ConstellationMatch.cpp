@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "PlaceGuesses.h"
 #include "quadmap/maps/Assignment.h"
 #include "quadmap/maps/ObjectRules.h"
 
@@ -13,6 +14,7 @@ namespace quadmap
 namespace
 {
 constexpr double kGate = 11.34;         // chi^2 of three degrees of freedom, 99 %
+constexpr double kYawGate = 6.63;       // of one
 constexpr double kCoarseFactor = 2;     // on sigmas, while a place is only guessed from a pair
 constexpr std::size_t kMaxPlaces = 60;  // guesses that are looked at closely
 constexpr int kRefinements = 6;         // of a guess: pairs and place in turn
@@ -21,18 +23,6 @@ const double kOtherYaw = mrpt::DEG2RAD(20.0);
 constexpr double kMargin = 0.5;        // around the objects of the map, for its area [m]
 constexpr double kMaxYawEvidence = 2;  // bound of what one heading says for or against a pair
 
-/** Shift and yaw of the local frame in the map. */
-struct Place
-{
-  Eigen::Vector3d t = Eigen::Vector3d::Zero();
-  double yaw = 0;
-
-  Eigen::Matrix3d R() const
-  {
-    return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  }
-};
-
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  //!< (local, map), indices
 
 struct Hypothesis
@@ -40,6 +30,24 @@ struct Hypothesis
   Place place;
   Pairs pairs;
   double logOdds = 0;
+};
+
+/** The local objects in the map's frame, from a place. */
+struct PlacedObjects
+{
+  PlacedObjects(const Constellations::Objects& local, const Place& at) : place(at)
+  {
+    const Eigen::Matrix3d R = at.R();
+    for (const MapObject* object : local)
+    {
+      centers.emplace_back(R * object->object.center() + at.t);
+      covariances.emplace_back(R * object->covariance.topLeftCorner<3, 3>() * R.transpose());
+    }
+  }
+
+  Place place;
+  std::vector<Eigen::Vector3d> centers;
+  std::vector<Eigen::Matrix3d> covariances;  // of the centres
 };
 
 /** Angle to the nearest multiple of a quarter turn: which axis of a cuboid is x is arbitrary. */
@@ -52,19 +60,20 @@ Eigen::Vector3d orderedSizes(const MapObject& object)
   return s;
 }
 
-double yawOf(const MapObject& object) { return uprightStateOf(object.object)[3]; }
-
 class Matcher
 {
  public:
-  using Objects = std::vector<const MapObject*>;
+  using Objects = Constellations::Objects;
 
   Matcher(
       const Objects& local,
       const Objects& map,
       const LabelTable& labels,
       const RelocalizationOptions& options) :
-      local_(local), map_(map), options_(options), alike_(local.size())
+      local_(local),
+      map_(map),
+      options_(options),
+      both_{local, map, std::vector<std::vector<std::size_t>>(local.size())}
   {
     std::vector<std::size_t> rivals(map.size());
     for (std::size_t j = 0; j < map.size(); ++j)
@@ -72,7 +81,7 @@ class Matcher
         rivals[j] += labelAgreement(*map[j], *other, labels) >= options.minLabelAgreement;
     for (std::size_t i = 0; i < local.size(); ++i)
       for (std::size_t j = 0; j < map.size(); ++j)
-        if (areAlike(*local[i], *map[j], labels, options)) alike_[i].push_back(j);
+        if (areAlike(*local[i], *map[j], labels, options)) both_.alike[i].push_back(j);
     for (const MapObject* object : map)
       for (const double margin : {-kMargin, kMargin})
         bounds_.extend((object->object.center().head<2>().array() + margin).matrix());
@@ -105,22 +114,16 @@ class Matcher
   }
 
  private:
-  bool bothHaveHeadings(std::size_t i, std::size_t j) const
+  Eigen::Vector3d offset(const PlacedObjects& placed, std::size_t i, std::size_t j) const
   {
-    return local_[i]->orientationDefined && map_[j]->orientationDefined;
+    return map_[j]->object.center() - placed.centers[i];
   }
 
-  Eigen::Vector3d offset(const Place& place, std::size_t i, std::size_t j) const
+  Eigen::Matrix3d covariance(const PlacedObjects& placed, std::size_t i, std::size_t j) const
   {
-    return map_[j]->object.center() - (place.R() * local_[i]->object.center() + place.t);
-  }
-
-  Eigen::Matrix3d covariance(const Place& place, std::size_t i, std::size_t j) const
-  {
-    const Eigen::Matrix3d R = place.R();
     const double variance = options_.positionSigma * options_.positionSigma;
-    return R * local_[i]->covariance.topLeftCorner<3, 3>() * R.transpose() +
-           map_[j]->covariance.topLeftCorner<3, 3>() + variance * Eigen::Matrix3d::Identity();
+    return placed.covariances[i] + map_[j]->covariance.topLeftCorner<3, 3>() +
+           variance * Eigen::Matrix3d::Identity();
   }
 
   double yawVariance(std::size_t i, std::size_t j) const
@@ -137,73 +140,36 @@ class Matcher
   /** ln of how much better "it is this one" explains where local object i is than "something like
    * it happens to be there"; 0 when it is too far off.
    * \param factor On the sigmas. */
-  double evidence(const Place& place, std::size_t i, std::size_t j, double factor) const
+  double evidence(const PlacedObjects& placed, std::size_t i, std::size_t j, double factor) const
   {
-    const Eigen::Matrix3d S = factor * factor * covariance(place, i, j);
-    const Eigen::Vector3d d = offset(place, i, j);
+    const Eigen::Matrix3d S = factor * factor * covariance(placed, i, j);
+    const Eigen::Vector3d d = offset(placed, i, j);
+    if (d.squaredNorm() > kGate * S.trace()) return 0;  // as most: d^t S^-1 d >= |d|^2 / trace
     const double distance = d.dot(S.ldlt().solve(d));
     if (distance > kGate) return 0;
     const double logNormal =
         -std::log(2 * M_PI) - 0.5 * std::log(S.topLeftCorner<2, 2>().determinant());
     double sum = logNormal - 0.5 * distance - logDensity_[j] +
                  std::log(options_.knownShare / (1 - options_.knownShare));
-    if (bothHaveHeadings(i, j))
+    if (both_.bothHaveHeadings(i, j))
     {
-      const double variance = factor * factor * yawVariance(i, j), a = yawOffset(place, i, j);
+      const double variance = factor * factor * yawVariance(i, j),
+                   a = yawOffset(placed.place, i, j);
       const double logRatio = std::log(M_PI / 2) - 0.5 * std::log(2 * M_PI * variance);
       sum += std::clamp(logRatio - 0.5 * a * a / variance, -kMaxYawEvidence, kMaxYawEvidence);
     }
     return std::max(0.0, sum);
   }
 
-  /** Where two local objects are two of the map, or nothing when their distances differ. */
-  std::optional<Place> placeOfTwo(
-      std::size_t i1, std::size_t i2, std::size_t j1, std::size_t j2) const
-  {
-    const Eigen::Vector3d a1 = local_[i1]->object.center(), a2 = local_[i2]->object.center();
-    const Eigen::Vector3d b1 = map_[j1]->object.center(), b2 = map_[j2]->object.center();
-    const Eigen::Vector2d a = (a2 - a1).head<2>(), b = (b2 - b1).head<2>();
-    const double sigma = std::sqrt(
-        covariance({}, i1, j1).topLeftCorner<2, 2>().trace() / 2 +
-        covariance({}, i2, j2).topLeftCorner<2, 2>().trace() / 2);
-    if (std::abs(a.norm() - b.norm()) > 3 * sigma) return std::nullopt;
-    if (std::min(a.norm(), b.norm()) < 3 * sigma) return std::nullopt;  // no direction
-    Place place;
-    place.yaw = mrpt::math::wrapToPi(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()));
-    place.t = (b1 + b2) / 2 - place.R() * (a1 + a2) / 2;
-    return place;
-  }
-
-  std::vector<Place> guesses() const
-  {
-    std::vector<Place> places;
-    for (std::size_t i = 0; i < local_.size(); ++i)
-      for (const std::size_t j : alike_[i])
-      {
-        if (bothHaveHeadings(i, j))
-          for (int turn = 0; turn < 4; ++turn)
-          {
-            Place place;
-            place.yaw = mrpt::math::wrapToPi(yawOf(*map_[j]) - yawOf(*local_[i]) + turn * M_PI / 2);
-            place.t = map_[j]->object.center() - place.R() * local_[i]->object.center();
-            places.push_back(place);
-          }
-        for (std::size_t i2 = i + 1; i2 < local_.size(); ++i2)
-          for (const std::size_t j2 : alike_[i2])
-            if (const auto place = j2 == j ? std::nullopt : placeOfTwo(i, i2, j, j2))
-              places.push_back(*place);
-      }
-    return places;
-  }
-
   double coarseEvidence(const Place& place) const
   {
+    const PlacedObjects placed(local_, place);
     double sum = 0;
     for (std::size_t i = 0; i < local_.size(); ++i)
     {
       double best = 0;
-      for (const std::size_t j : alike_[i])
-        best = std::max(best, evidence(place, i, j, kCoarseFactor));
+      for (const std::size_t j : both_.alike[i])
+        best = std::max(best, evidence(placed, i, j, kCoarseFactor));
       sum += best;
     }
     return sum;
@@ -221,7 +187,8 @@ class Matcher
   {
     constexpr int kOfOnePlace = 2;
     std::vector<std::pair<double, Place>> scored;
-    for (const Place& place : guesses()) scored.emplace_back(coarseEvidence(place), place);
+    for (const Place& place : guessPlaces(both_, options_))
+      scored.emplace_back(coarseEvidence(place), place);
     std::stable_sort(
         scored.begin(), scored.end(), [](auto& a, auto& b) { return a.first > b.first; });
     std::vector<Place> best;
@@ -237,15 +204,15 @@ class Matcher
   }
 
   /** The pairing with the most evidence, each object once. */
-  Pairs pairsAt(const Place& place, double factor) const
+  Pairs pairsAt(const PlacedObjects& placed, double factor) const
   {
     const auto rows = static_cast<Eigen::Index>(local_.size());
     const auto columns = static_cast<Eigen::Index>(map_.size());
     Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(rows, columns + rows);  // or none
     for (std::size_t i = 0; i < local_.size(); ++i)
-      for (const std::size_t j : alike_[i])
+      for (const std::size_t j : both_.alike[i])
         cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            -evidence(place, i, j, factor);
+            -evidence(placed, i, j, factor);
     Pairs pairs;
     const auto columnOf = optimalAssignment(cost);
     for (std::size_t i = 0; i < columnOf.size(); ++i)
@@ -262,20 +229,20 @@ class Matcher
   };
 
   /** Weighted least squares of (shift, yaw) over the pairs, linearised at a place. */
-  Normal normalEquations(const Place& place, const Pairs& pairs) const
+  Normal normalEquations(const PlacedObjects& placed, const Pairs& pairs) const
   {
     Normal normal;
     for (const auto& [i, j] : pairs)
     {
-      const Eigen::Vector3d q = place.R() * local_[i]->object.center();
+      const Eigen::Vector3d q = placed.centers[i] - placed.place.t;
       Eigen::Matrix<double, 3, 4> J;  // of R p + t
       J << Eigen::Matrix3d::Identity(), Eigen::Vector3d(-q.y(), q.x(), 0);
-      const Eigen::Matrix3d W = covariance(place, i, j).inverse();
+      const Eigen::Matrix3d W = covariance(placed, i, j).inverse();
       normal.H += J.transpose() * W * J;
-      normal.g += J.transpose() * W * offset(place, i, j);
-      if (!bothHaveHeadings(i, j)) continue;
-      const double variance = yawVariance(i, j), a = yawOffset(place, i, j);
-      if (a * a > kGate * variance) continue;  // turned since
+      normal.g += J.transpose() * W * offset(placed, i, j);
+      if (!both_.bothHaveHeadings(i, j)) continue;
+      const double variance = yawVariance(i, j), a = yawOffset(placed.place, i, j);
+      if (a * a > kYawGate * variance) continue;  // turned since
       normal.H(3, 3) += 1 / variance;
       normal.g[3] += a / variance;
     }
@@ -284,7 +251,7 @@ class Matcher
 
   void improve(Place& place, const Pairs& pairs) const
   {
-    const Normal normal = normalEquations(place, pairs);
+    const Normal normal = normalEquations(PlacedObjects(local_, place), pairs);
     const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
     if (!lu.isInvertible()) return;  // one object without heading
     const Eigen::Vector4d step = lu.solve(normal.g);
@@ -298,35 +265,33 @@ class Matcher
     h.place = guess;
     for (int k = 0; k < kRefinements; ++k)
     {
-      h.pairs = pairsAt(h.place, k == 0 ? kCoarseFactor : 1);
+      h.pairs = pairsAt(PlacedObjects(local_, h.place), k == 0 ? kCoarseFactor : 1);
       improve(h.place, h.pairs);
     }
-    h.pairs = pairsAt(h.place, 1);
-    for (const auto& [i, j] : h.pairs) h.logOdds += evidence(h.place, i, j, 1);
-    h.logOdds += logUnknown(h) - logPlaces(h);
+    const PlacedObjects placed(local_, h.place);
+    h.pairs = pairsAt(placed, 1);
+    for (const auto& [i, j] : h.pairs) h.logOdds += evidence(placed, i, j, 1);
+    h.logOdds += logUnknown(placed, h.pairs) - logPlaces(placed, h.pairs);
     return h;
   }
 
   /** ln of how likely the map lacks all local objects of its area, against which pairs are counted:
    * many strangers among the local objects speak against a place. */
-  double logUnknown(const Hypothesis& h) const
+  double logUnknown(const PlacedObjects& placed, const Pairs& pairs) const
   {
     std::vector<bool> counts(local_.size());
     for (std::size_t i = 0; i < local_.size(); ++i)
-    {
-      const Eigen::Vector3d p = h.place.R() * local_[i]->object.center() + h.place.t;
-      counts[i] = bounds_.contains(p.head<2>());
-    }
-    for (const auto& [i, j] : h.pairs) counts[i] = true;
+      counts[i] = bounds_.contains(placed.centers[i].head<2>());
+    for (const auto& [i, j] : pairs) counts[i] = true;
     const auto n = std::count(counts.begin(), counts.end(), true);
     return static_cast<double>(n) * std::log(1 - options_.knownShare);
   }
 
   /** ln of the number of places that can be told apart, as finely as the pairs fix this one: so
    * many chances some objects had to fit by accident. */
-  double logPlaces(const Hypothesis& h) const
+  double logPlaces(const PlacedObjects& placed, const Pairs& pairs) const
   {
-    const Normal normal = normalEquations(h.place, h.pairs);
+    const Normal normal = normalEquations(placed, pairs);
     Eigen::Matrix3d H;  // x, y, yaw
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) H(r, c) = normal.H(r == 2 ? 3 : r, c == 2 ? 3 : c);
@@ -345,16 +310,17 @@ class Matcher
   bool isEnough(const Pairs& pairs) const
   {
     const bool heading = std::any_of(
-        pairs.begin(), pairs.end(), [&](auto& p) { return bothHaveHeadings(p.first, p.second); });
+        pairs.begin(), pairs.end(),
+        [&](auto& p) { return both_.bothHaveHeadings(p.first, p.second); });
     return pairs.size() >= 2 &&
            pairs.size() + (heading ? 1 : 0) >= static_cast<std::size_t>(options_.minPairs);
   }
 
   const Objects &local_, &map_;
   const RelocalizationOptions& options_;
-  std::vector<std::vector<std::size_t>> alike_;  //!< Objects of the map, for each local one
-  Eigen::AlignedBox2d bounds_;                   //!< Of the map
-  double area_ = 0;                              //!< Of the map [m^2]
+  Constellations both_;
+  Eigen::AlignedBox2d bounds_;      //!< Of the map
+  double area_ = 0;                 //!< Of the map [m^2]
   std::vector<double> logDensity_;  //!< Of objects with its label, for each of the map [ln 1/m^2]
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  //!< Of the local objects
 };
