@@ -33,6 +33,15 @@ class BenchmarkScripts : public testing::Test
       echo '{"objects": []}' >objects.json
       echo "1 0 0 0 0 0 0 1" | tee trajectory.tum >trajectory_odometry.tum
       [[ ! -e $calls.fail ]] || { echo "no such luck" >&2; exit 1; }
+      if [[ -e $calls.kill && $(grep -c quadmap-slam "$calls") == 3 ]]; then
+        of=$$ processes=()  # those above this one, up to the script `run`
+        until ((${#processes[@]})) && grep -qa benchmark/run /proc/${processes[0]}/cmdline; do
+          of=$(awk '/^PPid/ {print $2}' /proc/$of/status)
+          processes=($of "${processes[@]}")
+        done
+        kill -KILL "${processes[@]}"
+        exit 1
+      fi
       echo '{"objects": 0}' >report.json)");
     addProgram("quadmap-evaluate", R"(
       while [[ $1 != --json ]]; do shift; done
@@ -136,6 +145,24 @@ TEST_F(BenchmarkScripts, GoOnAfterAFailureAndTryItAgain)
   EXPECT_EQ(calls("quadmap-slam"), 2u);
   EXPECT_EQ(calls("observation_tables"), 0u);
   EXPECT_EQ(calls("quadmap-simulate"), 0u) << "the recording is still there";
+}
+
+TEST_F(BenchmarkScripts, GoOnAfterTheyWereKilled)
+{
+  const std::string plan = "--scenes home --observed '' --seeds 1,2,3 --methods rgbd --jobs 1";
+  const std::string page = readFile(folder_.path("page.md"));
+  folder_.write("calls.kill", "");
+  EXPECT_NE(run(plan).status, 0);
+  EXPECT_EQ(calls("quadmap-slam"), 3u);
+  EXPECT_EQ(folders(), 3u) << "two results, and what the third job was at";
+  EXPECT_EQ(readFile(folder_.path("page.md")), page);
+
+  std::filesystem::remove(folder_.path("calls.kill"));
+  const auto again = run(plan);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(calls("quadmap-slam"), 6u - 2u) << "what was done is not done again";
+  EXPECT_EQ(folders(), 6u) << "nothing is left of what was killed";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("results/recordings")));
 }
 
 TEST_F(BenchmarkScripts, ListTheJobsForAnotherScheduler)
