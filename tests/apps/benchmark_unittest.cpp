@@ -185,6 +185,49 @@ TEST_F(BenchmarkScripts, ListTheJobsForAnotherScheduler)
   EXPECT_TRUE(isDone("simulated.home.3.rgbd.ground-truth"));
 }
 
+TEST_F(BenchmarkScripts, AJobNeedsNothingButTheFolderOfItsResults)
+{
+  const SampleRecording recording;
+  recording.files.write("rgb.txt", "");
+  std::filesystem::create_directory(folder_.path("data"));
+  std::filesystem::create_symlink(recording.folder(), folder_.path("data/sample"));
+  addProgram("quadmap-import", "while [[ $1 != -o ]]; do shift; done; touch \"$2\"");
+  testData_ = folder_.path("data");
+  ASSERT_EQ(run("--scenes home --seeds 1 --methods rgbd --resolution 640x480 --list").status, 0);
+
+  const auto doesIt = [&](const std::string& job)
+  {
+    const auto result = runCommand(
+        "env -i PATH='" + folder_.path("bin") + "':\"$PATH\" QUADMAP_BENCHMARK_RESULTS='" +
+        folder_.path("results") + "' " QUADMAP_SOURCE_DIR "/share/quadmap/benchmark/job '" + job +
+        "'");
+    EXPECT_EQ(result.status, 0) << job << ": " << result.err;
+  };
+  doesIt("simulated home 1 rgbd rawlog");
+  doesIt("observed home 1 edges ground-truth");
+  doesIt("recorded sample 0 rgbd rawlog");
+  EXPECT_EQ(folders(), 3u);
+  const std::string done = readFile(folder_.path("calls"));
+  EXPECT_NE(done.find("quadmap-simulate home --seed 1 --resolution 640x480"), kNotFound) << done;
+  EXPECT_NE(done.find("--resolution 640x480 --json"), kNotFound) << done;
+  EXPECT_NE(done.find("quadmap-import tum " + testData_ + "/sample"), kNotFound) << done;
+}
+
+TEST_F(BenchmarkScripts, RefuseAFolderOfAnotherResolutionAndMissingData)
+{
+  const std::string plan = "--scenes home --observed '' --seeds 1 --methods rgbd --list ";
+  ASSERT_EQ(run(plan).status, 0);
+  const auto other = run(plan + "--resolution 640x480");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.err.find(" at 320x240, and this is "), kNotFound) << other.err;
+  EXPECT_EQ(run(plan).status, 0);
+
+  testData_ = folder_.path("nowhere");
+  const auto missing = run(plan);
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.err.find("no folder " + testData_), kNotFound) << missing.err;
+}
+
 TEST_F(BenchmarkScripts, MergeKeepsThePicturesOfThePageUnlessItMakesNew)
 {
   const std::string pictures =
