@@ -279,6 +279,9 @@ TEST_F(BenchmarkScripts, MapRecordingsWithWhatTruthThereIs)
 class BenchmarkOfATree : public BenchmarkScripts
 {
  protected:
+  static constexpr const char* kEmptyPage =
+      "<!-- generated: trajectory -->\n<!-- end of trajectory -->\n";
+
   void SetUp() override
   {
     if (runCommand("git --version").status != 0) GTEST_SKIP() << "no git";
@@ -291,8 +294,7 @@ class BenchmarkOfATree : public BenchmarkScripts
     folder_.write("tree/CMakePresets.json", "{}");
     folder_.write("tree/.gitignore", "/build/\n");
     folder_.write("tree/code", "first");
-    folder_.write(
-        "tree/doc/benchmarks.md", "<!-- generated: trajectory -->\n<!-- end of trajectory -->\n");
+    folder_.write("tree/doc/benchmarks.md", kEmptyPage);
     git("init -q");
     git("add -A");
     git("-c user.name=n -c user.email=n@n commit -qm first");
@@ -302,13 +304,17 @@ class BenchmarkOfATree : public BenchmarkScripts
     const auto result = runCommand("git -C '" + folder_.path("tree") + "' " + arguments);
     ASSERT_EQ(result.status, 0) << result.err;
   }
-  ProgramResult runTree(const std::string& more = "")
+  static constexpr const char* kPart = "--scenes home --observed '' --seeds 1 --methods rgbd";
+
+  /** \param more Further arguments. */
+  ProgramResult runTree(const std::string& more)
   {
     std::filesystem::remove(folder_.path("calls"));
     return runCommand(
         "QUADMAP_TEST_DATA= '" + folder_.path("tree/share/quadmap/benchmark/run") + "' --bin '" +
-        folder_.path("bin") + "' --scenes home --observed '' --seeds 1 --methods rgbd " + more);
+        folder_.path("bin") + "' " + more);
   }
+  std::string page() const { return folder_.path("tree/doc/benchmarks.md"); }
   std::size_t resultFolders() const
   {
     const std::filesystem::directory_iterator kept(folder_.path("tree/build/benchmark"));
@@ -318,29 +324,49 @@ class BenchmarkOfATree : public BenchmarkScripts
 
 TEST_F(BenchmarkOfATree, KeepsTheResultsOfEveryStateApart)
 {
-  const auto first = runTree();
+  const std::string part = std::string(kPart) + " --page '" + page() + "'";
+  const auto first = runTree(part);
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(calls("quadmap-slam"), 2u);
   const std::string folder =
       std::filesystem::directory_iterator(folder_.path("tree/build/benchmark"))->path().string();
   EXPECT_EQ(folder.find("dirty"), kNotFound);
 
-  ASSERT_EQ(runTree().status, 0);
+  ASSERT_NE(readFile(page()), kEmptyPage);
+  ASSERT_EQ(runTree(part).status, 0);
   EXPECT_EQ(calls("quadmap-slam"), 0u) << "the page it wrote is no change";
   EXPECT_EQ(resultFolders(), 1u);
 
   for (const char* code : {"second", "third"})
   {
     folder_.write("tree/code", code);
-    ASSERT_EQ(runTree().status, 0);
+    ASSERT_EQ(runTree(part).status, 0);
     EXPECT_EQ(calls("quadmap-slam"), 2u) << code;
   }
   EXPECT_EQ(resultFolders(), 3u);
 
-  const auto mixed = runTree("--results '" + folder + "'");
+  const auto mixed = runTree(part + " --results '" + folder + "'");
   EXPECT_EQ(mixed.status, 1);
   EXPECT_NE(mixed.err.find("has results of"), kNotFound) << mixed.err;
   EXPECT_EQ(std::count(mixed.err.begin(), mixed.err.end(), '\n'), 1);
+}
+
+TEST_F(BenchmarkOfATree, WritesItsPageWhenEverythingWasRun)
+{
+  const auto part = runTree(kPart);
+  ASSERT_EQ(part.status, 0) << part.err;
+  EXPECT_EQ(readFile(page()), kEmptyPage);
+  EXPECT_NE(part.out.find("| home | drifting odometry |"), kNotFound) << "printed: " << part.out;
+
+  // One job of all is done indeed, the others come out as missing.
+  const auto job = folder_.write(
+      "tree/share/quadmap/benchmark/job",
+      "#!/bin/bash\n[[ $1 != 'simulated home 1 rgbd rawlog' ]] || exec " QUADMAP_SOURCE_DIR
+      "/share/quadmap/benchmark/job \"$1\"\n");
+  std::filesystem::permissions(job, std::filesystem::perms::owner_all);
+  const auto whole = runTree("");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_NE(readFile(page()).find("| home | drifting odometry |"), kNotFound) << readFile(page());
 }
 
 TEST_F(BenchmarkScripts, AnswerWrongUsageWithStatus2)
