@@ -250,6 +250,16 @@ TEST_F(Results, NameTheFileThatIsBroken)
   EXPECT_TRUE(contains(error(), "report.json")) << error();
 }
 
+TEST_F(Results, OfDifferentCommitsAreNotMixed)
+{
+  addRun("simulated home 1 rgbd rawlog", 0.010, 0.02);
+  addRun("simulated home 2 rgbd rawlog", 0.010, 0.02);
+  folder_.write("runs/simulated.home.2.rgbd.rawlog/machine.json", R"({"commit": "decade"})");
+  const auto error = errorOf([&] { readBenchmarkResults(folder_.folder().string()); });
+  EXPECT_TRUE(contains(error, "different commits (c0ffee, decade)")) << error;
+  EXPECT_FALSE(contains(error, "\n")) << error;
+}
+
 TEST(BenchmarkPlots, ErrorOverTimeIsThatAfterAlignment)
 {
   // Right but for the world and one pose of twenty: its error is the only one that stands out.

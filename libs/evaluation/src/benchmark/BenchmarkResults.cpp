@@ -53,6 +53,20 @@ std::string firstLine(const fs::path& path)
   return line;
 }
 
+/** \exception std::runtime_error For figures of different programs. */
+void requireOneCommit(const std::string& folder, const std::vector<BenchmarkResult>& results)
+{
+  std::set<std::string> commits;
+  for (const auto& result : results)
+    if (const auto found = result.machine.find("commit"); found != result.machine.end())
+      commits.insert(found->second);
+  if (commits.size() < 2) return;
+  std::string list;
+  for (const auto& commit : commits) list += (list.empty() ? "" : ", ") + commit;
+  throw std::runtime_error(
+      folder + ": results of different commits (" + list + "); each needs a folder of its own");
+}
+
 void readRun(const fs::path& folder, BenchmarkResult& result)
 {
   const Json evaluation = readJson(folder / "evaluation.json");
@@ -126,6 +140,7 @@ BenchmarkResults readBenchmarkResults(const std::string& folder)
     }
     lines.insert(results.done.back().job.line());
   }
+  requireOneCommit(folder, results.done);
   std::ifstream list(fs::path(folder) / "jobs.txt");
   for (std::string line; std::getline(list, line);)
     if (!line.empty() && lines.count(line) == 0) results.missing.push_back(line);

@@ -49,7 +49,8 @@ struct BenchmarkResults
 };
 
 /** Reads RESULTS/jobs.txt and RESULTS/runs/: all results that are there, in the list or not.
- * \exception std::runtime_error For a folder without results, and for broken files, by name. */
+ * \exception std::runtime_error For a folder without results, for results of different commits, and
+ * for broken files, by name. */
 BenchmarkResults readBenchmarkResults(const std::string& folder);
 
 }  // namespace quadmap
