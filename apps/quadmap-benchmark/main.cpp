@@ -112,6 +112,12 @@ std::string entryOf(const char* file, const std::string& key, char separator)
   return "unknown";
 }
 
+/** "6.18.44" of "6.18.44-amd64": what a builder calls its kernel says nothing. */
+std::string releaseNumbers(const std::string& release)
+{
+  return release.substr(0, release.find_first_not_of("0123456789."));
+}
+
 /** machine: prints what the figures depend on beside the code. */
 void machineCommand(int argc, char** argv)
 {
@@ -130,8 +136,8 @@ void machineCommand(int argc, char** argv)
   json["processor"] = entryOf("/proc/cpuinfo", "model name", ':');
   json["cores"] = std::to_string(sysconf(_SC_NPROCESSORS_ONLN));
   json["memory"] = std::to_string(std::lround(memory)) + " GB";
-  json["system"] =
-      entryOf("/etc/os-release", "PRETTY_NAME", '=') + ", " + kernel.sysname + " " + kernel.release;
+  json["system"] = entryOf("/etc/os-release", "PRETTY_NAME", '=') + ", " + kernel.sysname + " " +
+                   releaseNumbers(kernel.release);
 #ifdef __clang__
   json["compiler"] = "Clang " __clang_version__;
 #else
@@ -142,14 +148,14 @@ void machineCommand(int argc, char** argv)
   std::cout << json.dump(2) << "\n";
 }
 
-/** "pictures": every plot as an image of the page. */
+/** "pictures": every plot as an image of the page, with what it shows in words. */
 std::string pictureSection(
-    const std::map<std::string, std::string>& plots, const fs::path& folder, const fs::path& page)
+    const std::map<std::string, Picture>& plots, const fs::path& folder, const fs::path& page)
 {
   std::string text;
   const fs::path from = fs::absolute(page).parent_path();
-  for (const auto& [name, svg] : plots)
-    text += "![" + fs::path(name).stem().string() + "](" +
+  for (const auto& [name, picture] : plots)
+    text += "![" + picture.title + "](" +
             fs::absolute(folder / name).lexically_relative(from).generic_string() + ")\n";
   return text;
 }
@@ -180,13 +186,13 @@ void mergeCommand(int argc, char** argv)
 
   const BenchmarkResults found = readBenchmarkResults(results.getValue());
   auto sections = benchmarkTables(found);
-  std::map<std::string, std::string> pictures;
+  std::map<std::string, Picture> pictures;
   if (plots.isSet())
   {
     pictures = benchmarkPlots(found);
     fs::create_directories(plots.getValue());
-    for (const auto& [name, svg] : pictures)
-      writeTextFile((fs::path(plots.getValue()) / name).string(), svg);
+    for (const auto& [name, picture] : pictures)
+      writeTextFile((fs::path(plots.getValue()) / name).string(), picture.svg);
   }
   if (!page.isSet())
     for (const auto& [name, text] : sections) std::cout << "## " << name << "\n\n" << text << "\n";

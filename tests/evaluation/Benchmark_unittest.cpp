@@ -54,6 +54,7 @@ class Results : public testing::Test
               "matches": [{"truth_id": 1, "id": 2, "label": "chair", "trans_m": 0.1, "rot_deg": 3.0}]})"                    },
             { "report.json", R"({"objects": 2, "timing": {"cpu_total_s": 4.0, "peak_memory_mb": 99.0,
             "modules": {"map": {"calls": 7, "cpu_mean_ms": 2.5, "cpu_p95_ms": 5.0},
+                        "odometry": {"calls": 7, "cpu_mean_ms": 0.004, "cpu_p95_ms": 0.04},
                         "write x": {"calls": 1, "cpu_mean_ms": 1.0, "cpu_p95_ms": 1.0}}}})"},
             { "objects.quadmap",                                                         std::string(3000,                                                                     'x')},
             { "objects.json",                                                         std::string(1000,                                                                     'x')}
@@ -185,10 +186,23 @@ TEST_F(Results, AreMeansAndSpreadsOverSeeds)
       << t.at("instantiation");
   EXPECT_TRUE(contains(t.at("time"), "2.5 +- 0.0, 5.0 +- 0.0")) << t.at("time");
   EXPECT_FALSE(contains(t.at("time"), "write x"));
+  EXPECT_FALSE(contains(t.at("time"), "| odometry |")) << "would be zero throughout";
   EXPECT_TRUE(contains(t.at("size"), "| home | 2.0 +- 0.0 | 1.50 +- 0.00 | 0.50 +- 0.00 |"))
       << t.at("size");
   EXPECT_TRUE(contains(t.at("machine"), "| processor | abacus |"));
   EXPECT_TRUE(contains(t.at("machine"), "| seeds | 1; 2 |"));
+}
+
+TEST_F(Results, TellTheTimeOfVisualOdometry)
+{
+  addRun("recorded kitchen_a 0 rgbd rawlog", 0.010, 0.02);
+  addRun("recorded kitchen_a 0 rgbd visual", 0.010, 0.02);
+  folder_.write("runs/recorded.kitchen_a.0.rgbd.visual/report.json", R"({"objects": 2, "timing":
+    {"modules": {"odometry": {"calls": 7, "cpu_mean_ms": 21.5, "cpu_p95_ms": 30.0}}}})");
+  const std::string time = tables().at("time");
+  EXPECT_TRUE(contains(time, "| poses | map | odometry |")) << time;
+  EXPECT_TRUE(contains(time, "| kitchen_a | recorded, corrected | 2.5, 5.0 | 0.0, 0.0 |")) << time;
+  EXPECT_TRUE(contains(time, "| kitchen_a | from the images | -, - | 21.5, 30.0 |")) << time;
 }
 
 TEST_F(Results, OfObservationsAreAddedUp)
@@ -203,9 +217,11 @@ TEST_F(Results, OfObservationsAreAddedUp)
             {"observation.json",
              R"({"rows": {"both": {"trans_m": )" + std::to_string(trans) + R"(, "f1": 1.0}}})"}
     });
+    const std::string usable = seed == std::string("1") ? "8" : "10";
     add(line("edges"), {
                            {"observation.json", R"({"rows": {"all / both":
-        {"good": 10, "invalid": 5, "usable_good": 9, "usable_invalid": 1}}})"}
+        {"good": 10, "invalid": 5, "usable_invalid": 0, "usable_good": )" +
+ usable + "}}}"}
     });
     // Two residuals of +1 and -1 sigma within three: variance 1 / 0.9733.
     add(line("residuals"), {
@@ -221,7 +237,8 @@ TEST_F(Results, OfObservationsAreAddedUp)
   const auto t = tables();
   EXPECT_TRUE(contains(t.at("ablation"), "| home, 2 seeds |"));
   EXPECT_TRUE(contains(t.at("ablation"), "| both | 0.020 +- 0.014 | - |")) << t.at("ablation");
-  EXPECT_TRUE(contains(t.at("edges"), "| home | all | both | 20 | 10 | 0.900 | 0.900 |"))
+  EXPECT_TRUE(
+      contains(t.at("edges"), "| home | all | both | 20 | 10 | 1.000 +- 0.000 | 0.900 +- 0.141 |"))
       << t.at("edges");
   EXPECT_TRUE(contains(t.at("residuals"), "| yaw | 0.00, 1.03, 50 % (8) |")) << t.at("residuals");
   EXPECT_TRUE(contains(t.at("residuals"), "| at least: side | violated 25 % (8) |"));
@@ -271,10 +288,11 @@ TEST(BenchmarkPlots, ErrorOverTimeIsThatAfterAlignment)
   }
   estimated[7].pose.z_incr(0.5);
   const std::string svg = errorOverTimePlot(
-      "t", truth,
-      {
-          {"odometry", estimated}
-  });
+                              "t", truth,
+                              {
+                                  {"odometry", estimated}
+  })
+                              .svg;
   const auto at = svg.find("<polyline points=\"") + 18;
   std::vector<double> heights;
   double x = 0, y = 0;

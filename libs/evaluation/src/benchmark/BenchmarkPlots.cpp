@@ -92,7 +92,7 @@ std::map<std::string, std::vector<const BenchmarkResult*>> shownRuns(
   return shown;
 }
 
-std::string errorPlotOf(
+Picture errorPlotOf(
     const std::vector<const BenchmarkResult*>& runs, const std::vector<std::string>& methods)
 {
   std::vector<NamedTrajectory> trajectories;
@@ -107,7 +107,7 @@ std::string errorPlotOf(
       trajectories);
 }
 
-std::string mapPlotOf(const BenchmarkResult& run)
+Picture mapPlotOf(const BenchmarkResult& run)
 {
   EvaluationInput input;
   input.estimate = run.folder;
@@ -133,13 +133,13 @@ std::map<std::string, MeanAndSpread> byClass(
 }
 }  // namespace
 
-std::string errorOverTimePlot(
+Picture errorOverTimePlot(
     const std::string& title,
     const Trajectory& truth,
     const std::vector<NamedTrajectory>& trajectories)
 {
-  SvgPlot plot(
-      {title + ": error of the position", "time [s]", "distance to the true position [m]"});
+  const std::string shown = title + ": error of the position";
+  SvgPlot plot({shown, "time [s]", "distance to the true position [m]"});
   for (std::size_t i = 0; i < trajectories.size(); ++i)
   {
     const auto pairs = pairByTime(truth, trajectories[i].estimated, kMaxTimeDifference);
@@ -152,13 +152,14 @@ std::string errorOverTimePlot(
           (T + pair.T_estimated_body).distanceTo(pair.T_truth_body));
     plot.addLine(thinned(points), {colorOf(i), 1.5, false, 0}, trajectories[i].name);
   }
-  return plot.toSvg();
+  return {shown, plot.toSvg()};
 }
 
-std::string mapPlot(
+Picture mapPlot(
     const std::string& title, const EvaluationReport& report, const Trajectory& estimated)
 {
-  SvgPlot plot({title + ": the map from above", "x [m]", "y [m]"}, true);
+  const std::string shown = title + ": the map from above";
+  SvgPlot plot({shown, "x [m]", "y [m]"}, true);
   const mrpt::poses::CPose3D T_map_truth = -report.T_truth_estimated;
   const auto draw =
       [&](const ObjectRecord& record, const SvgPlot::Style& style, const std::string& legend)
@@ -179,10 +180,10 @@ std::string mapPlot(
   for (const auto& match : report.objects->matches)
     plot.addText(
         match.estimated.object.transformed(T_map_truth).center().head<2>(), match.truth.label);
-  return plot.toSvg();
+  return {shown, plot.toSvg()};
 }
 
-std::string classesPlot(
+Picture classesPlot(
     const BenchmarkResults& results,
     const std::string& figure,
     const std::string& title,
@@ -208,12 +209,12 @@ std::string classesPlot(
         plot.addBar(
             static_cast<double>(c) - kGroup / 2 + (static_cast<double>(m) + 0.5) * width,
             0.9 * width, *mean, {colorOf(m + 1), 1, false, 0.7}, methods[m]);
-  return plot.toSvg();
+  return {title, plot.toSvg()};
 }
 
-std::map<std::string, std::string> benchmarkPlots(const BenchmarkResults& results)
+std::map<std::string, Picture> benchmarkPlots(const BenchmarkResults& results)
 {
-  std::map<std::string, std::string> plots;
+  std::map<std::string, Picture> plots;
   for (const auto& [subject, runs] : shownRuns(results))
   {
     if (runs.front()->fileSizes.count("truth.tum") == 0) continue;

@@ -53,15 +53,21 @@ Rows summed(const std::vector<const BenchmarkResult*>& results)
   return rows;
 }
 
+/** The figures of one row, seed by seed. */
+std::vector<const Figures*> ofEachSeed(
+    const std::vector<const BenchmarkResult*>& results, const std::string& row)
+{
+  std::vector<const Figures*> out;
+  for (const auto* result : results)
+    for (const auto& [name, figures] : result->rows)
+      if (name == row) out.push_back(&figures);
+  return out;
+}
+
 double numberOf(const Figures& figures, const std::string& name)
 {
   const auto found = figures.find(name);
   return found == figures.end() ? 0 : found->second;
-}
-
-std::string ratioText(double part, double whole)
-{
-  return whole > 0 ? mrpt::format("%.3f", part / whole) : "-";
 }
 
 std::string seedsOf(const std::vector<const BenchmarkResult*>& results)
@@ -82,6 +88,20 @@ std::string residualText(const Figures& sums)
   return mrpt::format("%.2f, %.2f, ", mean, variance / kVarianceWithin3Sigma) + beyond;
 }
 
+/** "precision of the usable" and "recall of the good" edges of one row. */
+std::pair<std::string, std::string> edgeQuality(const std::vector<const Figures*>& seeds)
+{
+  MeanAndSpread precision, recall;
+  for (const auto* figures : seeds)
+  {
+    const double usableGood = numberOf(*figures, "usable_good");
+    const double usable = usableGood + numberOf(*figures, "usable_invalid");
+    const double good = numberOf(*figures, "good");
+    if (usable > 0) precision.add(usableGood / usable);
+    if (good > 0) recall.add(usableGood / good);
+  }
+  return {precision.text(3), recall.text(3)};
+}
 /** Mean of the maps' errors in orientation of one class over the scenes that were observed too. */
 std::string mappedRotation(
     const BenchmarkResults& results,
@@ -150,9 +170,8 @@ std::string ablationTable(const BenchmarkResults& results)
       for (const auto& [column, decimals] : columns)
       {
         MeanAndSpread values;
-        for (const auto* result : found)
-          for (const auto& [name, figures] : result->rows)
-            if (name == setting && figures.count(column)) values.add(figures.at(column));
+        for (const auto* figures : ofEachSeed(found, setting))
+          if (figures->count(column)) values.add(figures->at(column));
         row.push_back(values.text(decimals));
       }
       table.add(row);
@@ -167,17 +186,18 @@ std::string edgesTable(const BenchmarkResults& results)
   MarkdownTable table(
       {"", "edges", "rule", "good", "invalid", "precision of the usable", "recall of the good"});
   for (const auto& scene : scenesOf(results, "edges"))
-    for (const auto& [name, sums] : summed(observations(results, "edges", scene)))
+  {
+    const auto found = observations(results, "edges", scene);
+    for (const auto& [name, sums] : summed(found))
     {
       const auto slash = name.find(" / ");
-      const double usableGood = numberOf(sums, "usable_good");
+      const auto [precision, recall] = edgeQuality(ofEachSeed(found, name));
       table.add(
           {scene, name.substr(0, slash), name.substr(slash + 3),
            mrpt::format("%.0f", numberOf(sums, "good")),
-           mrpt::format("%.0f", numberOf(sums, "invalid")),
-           ratioText(usableGood, usableGood + numberOf(sums, "usable_invalid")),
-           ratioText(usableGood, numberOf(sums, "good"))});
+           mrpt::format("%.0f", numberOf(sums, "invalid")), precision, recall});
     }
+  }
   return table.text();
 }
 

@@ -94,29 +94,52 @@ std::string figuresTable(const std::vector<Group>& groups, const std::vector<Col
   return table.text();
 }
 
-bool isShownInTimeTable(const Group& group)
+/** Maps as users make them, from one of these sources of poses. */
+std::vector<Group> rgbdGroups(const BenchmarkResults& results, const std::set<std::string>& poses)
 {
-  return group.job().method == "rgbd" && group.job().poses == "rawlog";
+  std::vector<Group> groups;
+  for (auto& group : groupsOf(results))
+    if (group.job().method == "rgbd" && poses.count(group.job().poses))
+      groups.push_back(std::move(group));
+  return groups;
 }
 
-/** The modules that work on every frame. */
+/** CPU time of a module on a frame [ms]. */
+struct ModuleTime
+{
+  MeanAndSpread mean, p95;
+
+  ModuleTime(const Group& group, const std::string& module) :
+      mean(group.reported("timing.modules." + module + ".cpu_mean_ms")),
+      p95(group.reported("timing.modules." + module + ".cpu_p95_ms"))
+  {
+  }
+  std::string text() const { return mean.text(kDecimals) + ", " + p95.text(kDecimals); }
+  bool isShownAsZero() const
+  {
+    constexpr double kHalfOfTheLastDigit = 0.05;
+    return p95.mean().value_or(0) < kHalfOfTheLastDigit &&
+           mean.mean().value_or(0) < kHalfOfTheLastDigit;
+  }
+
+  static constexpr int kDecimals = 1;
+};
+
+/** The modules that work on every frame and take time somewhere. */
 std::set<std::string> modulesOf(const std::vector<Group>& groups)
 {
   const std::string prefix = "timing.modules.", suffix = ".calls";
   std::set<std::string> modules;
   for (const auto& group : groups)
     for (const auto& [name, calls] : group.runs.front()->report)
-      if (name.rfind(prefix, 0) == 0 && name.size() > suffix.size() &&
-          name.substr(name.size() - suffix.size()) == suffix && calls > 1)
-        modules.insert(name.substr(prefix.size(), name.size() - prefix.size() - suffix.size()));
+    {
+      if (name.rfind(prefix, 0) != 0 || name.size() <= prefix.size() + suffix.size() ||
+          name.substr(name.size() - suffix.size()) != suffix || calls <= 1)
+        continue;
+      const auto module = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+      if (!ModuleTime(group, module).isShownAsZero()) modules.insert(module);
+    }
   return modules;
-}
-
-std::string meanAndP95(const Group& group, const std::string& module)
-{
-  const std::string name = "timing.modules." + module;
-  return group.reported(name + ".cpu_mean_ms").text(1) + ", " +
-         group.reported(name + ".cpu_p95_ms").text(1);
 }
 }  // namespace
 
@@ -182,18 +205,16 @@ std::string instantiationTable(const BenchmarkResults& results)
 
 std::string timeTable(const BenchmarkResults& results)
 {
-  std::vector<Group> groups;
-  for (auto& group : groupsOf(results))
-    if (isShownInTimeTable(group)) groups.push_back(std::move(group));
+  const auto groups = rgbdGroups(results, {"rawlog", "visual"});
   const auto modules = modulesOf(groups);
-  std::vector<std::string> heading{"CPU [ms], mean and p95"};
+  std::vector<std::string> heading{"CPU [ms], mean and p95", "poses"};
   heading.insert(heading.end(), modules.begin(), modules.end());
   heading.insert(heading.end(), {"last optimisation", "whole run [s]", "peak memory [MB]"});
   MarkdownTable table(heading);
   for (const auto& group : groups)
   {
-    std::vector<std::string> row{group.job().subject};
-    for (const auto& module : modules) row.push_back(meanAndP95(group, module));
+    std::vector<std::string> row{group.job().subject, posesText(group.job())};
+    for (const auto& module : modules) row.push_back(ModuleTime(group, module).text());
     row.push_back(group.reported("timing.modules.consolidation.cpu_mean_ms").text(0));
     row.push_back(group.reported("timing.cpu_total_s").text(1));
     row.push_back(group.reported("timing.peak_memory_mb").text(0));
@@ -207,9 +228,8 @@ std::string sizeTable(const BenchmarkResults& results)
   constexpr double kKilobyte = 1000;
   MarkdownTable table(
       {"", "objects", "objects.quadmap [kB per object]", "objects.json [kB per object]"});
-  for (const auto& group : groupsOf(results))
+  for (const auto& group : rgbdGroups(results, {"rawlog"}))
   {
-    if (!isShownInTimeTable(group)) continue;
     MeanAndSpread count, map, json;
     for (const auto* run : group.runs)
     {
