@@ -101,7 +101,7 @@ class EdgeTable
     return out;
   }
 
-  void print(std::ostream& out) const
+  void print(bool perLabel, std::ostream& out) const
   {
     out << mrpt::format(
         "%-20s %-10s %6s %7s %8s %16s %12s\n", "edges", "rule", "good", "invalid", "usable",
@@ -109,7 +109,7 @@ class EdgeTable
     printRow("all", out);
     for (const auto& edge : kEdges) printRow(edge, out);
     for (const auto& [row, byRule] : counts_)
-      if (row != "all" && std::find(kEdges.begin(), kEdges.end(), row) == kEdges.end())
+      if (perLabel && row != "all" && std::find(kEdges.begin(), kEdges.end(), row) == kEdges.end())
         printRow(row, out);
     out << "\nall edges, invalid when the outline ends beyond them by more than\n";
     for (std::size_t k = 0; k < kSigmas.size(); ++k)
@@ -150,7 +150,8 @@ class EdgeTable
 
 }  // namespace
 
-Rows printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::ostream& out)
+Rows printEdgeTable(
+    const RunOptions& run, const EdgeTruthOptions& truth, bool perLabel, std::ostream& out)
 {
   const auto labels = LabelTable::installed();
   EdgeTable table(truth);
@@ -175,7 +176,7 @@ Rows printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::o
         seed = frame.seed;
         for (auto& [rule, measurer] : measurers) table.add(rule, frame, measurer.measure(frame));
       });
-  table.print(out);
+  table.print(perLabel, out);
   return table.rows();
 }
 

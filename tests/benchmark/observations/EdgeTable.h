@@ -17,8 +17,9 @@ struct EdgeTruthOptions
 };
 
 /** Prints how well the usable edges are told from those that the object goes on beyond: for each
- * rule alone and for both, in total, per kind of edge and per label (doc/benchmarks.md, "Box
- * edges"). */
-Rows printEdgeTable(const RunOptions& run, const EdgeTruthOptions& truth, std::ostream& out);
+ * rule alone and for both, in total and per kind of edge (doc/benchmarks.md, "Box edges").
+ * \param perLabel Rows for each label too. */
+Rows printEdgeTable(
+    const RunOptions& run, const EdgeTruthOptions& truth, bool perLabel, std::ostream& out);
 
 }  // namespace quadmap::observations

@@ -49,7 +49,8 @@ struct Cli
       3,
       "N",
       line.args()};
-  TCLAP::SwitchArg perLabel{"", "per-label", "Rows for each label too.", line.args()};
+  TCLAP::SwitchArg perLabel{
+      "", "per-label", "residuals, edges: rows for each label too.", line.args()};
   TCLAP::ValueArg<std::string> json{
       "", "json", "Write the table to this file too.", false, "", "FILE", line.args()};
   TCLAP::ValueArg<std::string> raw{
@@ -87,7 +88,8 @@ Rows printTable(Cli& cli)
 {
   const RunOptions run = runOptions(cli);
   const std::string& table = cli.table.getValue();
-  if (table == "edges") return printEdgeTable(run, {cli.invalidSigmas.getValue()}, std::cout);
+  if (table == "edges")
+    return printEdgeTable(run, {cli.invalidSigmas.getValue()}, cli.perLabel.getValue(), std::cout);
   if (table == "ablation") return printAblationTable(run, std::cout);
   if (table == "orientation") return printOrientationTable(run, std::cout);
   std::ofstream raw;
