@@ -86,6 +86,17 @@ TEST_F(QuadmapEvaluate, ComparesATrajectoryAlone)
   EXPECT_NEAR(json["trajectory"]["ate_rmse_m"].get<double>(), 0, 1e-9);
 }
 
+TEST_F(QuadmapEvaluate, WritesTheAteWithAllItsDigits)
+{
+  const std::string given = QUADMAP_SOURCE_DIR "/tests/evaluation/trajectories/loop_";
+  const auto result = run(
+      "'" + given + "estimate.tum' --trajectory '" + given + "truth.tum' --json DIR/figures.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(readFile(folder_.path("figures.json")));
+  EXPECT_NEAR(json["trajectory"]["ate_rmse_m"].get<double>(), 0.024371786, 1e-6)
+      << "as in EvoAgreement_unittest.cpp";
+}
+
 TEST_F(QuadmapEvaluate, TellsTheAlignmentWhenDebugging)
 {
   const auto result = run("DIR --trajectory DIR/gt.tum -v debug");
