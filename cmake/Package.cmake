@@ -44,7 +44,10 @@ configure_package_config_file(cmake/quadmapConfig.cmake.in quadmapConfig.cmake
 write_basic_package_version_file(quadmapConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfigVersion.cmake DESTINATION ${configDir})
+# The pages in the places in which they point to each other.
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES rawlogs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/rawlogs)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "quadmap contributors <quadmap@localhost>")
