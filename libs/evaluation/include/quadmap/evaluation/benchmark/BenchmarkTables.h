@@ -9,7 +9,7 @@ namespace quadmap
 {
 /** All tables as Markdown by the name of their section: machine, trajectory, mapping,
  * instantiation, orientation, ablation, edges, residuals, time, size. Each figure is the mean over
- * the seeds and its standard deviation. */
+ * the seeds and its standard deviation; orientation and residuals take all seeds as one sample. */
 std::map<std::string, std::string> benchmarkTables(const BenchmarkResults& results);
 
 }  // namespace quadmap
