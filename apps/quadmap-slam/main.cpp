@@ -16,14 +16,12 @@ namespace
 {
 using namespace quadmap;
 
-constexpr int kInterruptedStatus = 128 + SIGINT;  //!< What a shell reports for Ctrl-C
+volatile std::sig_atomic_t stopSignal = 0;  //!< That asked to stop; 0: none
 
-volatile std::sig_atomic_t stopRequested = 0;
-
-/** Ctrl-C ends the run after the current frame; a second one ends the program at once. */
+/** Ctrl-C or SIGTERM ends the run after the current frame; a second one ends it at once. */
 void requestStop(int signal)
 {
-  stopRequested = 1;
+  stopSignal = signal;
   std::signal(signal, SIG_DFL);
 }
 
@@ -34,7 +32,7 @@ struct Cli
       "quadmap-slam",
       "Makes the trajectory and the object map of an RGB-D rawlog. Boxes come from the rawlog or "
       "from NAME.objects.rawlog beside it. Ctrl-C stops early: the files then hold what was done, "
-      "and the exit status is 130.",
+      "and the exit status is 130 (143 after SIGTERM).",
       QUADMAP_VERSION};
   std::vector<std::string> methodNames{"rgbd", "quadric", "point", "odometry"};
   std::vector<std::string> associationNames{"estimated", "given"};
@@ -230,7 +228,7 @@ int run(Cli& cli)
                 << "\n";
   };
   request.onProgress = showProgress;
-  request.shouldStop = [] { return stopRequested != 0; };
+  request.shouldStop = [] { return stopSignal != 0; };
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
 
@@ -241,7 +239,7 @@ int run(Cli& cli)
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;
   std::cerr << "quadmap-slam: interrupted, the files hold what was done\n";
-  return kInterruptedStatus;
+  return 128 + stopSignal;  // as a shell reports it
 }
 
 }  // namespace

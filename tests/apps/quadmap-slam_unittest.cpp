@@ -352,7 +352,15 @@ TEST_F(QuadmapSlam, MemoryDoesNotGrowWithTheRecording)
   EXPECT_LT(peak_mb(250), ofShort + 4.0);
 }
 
-TEST_F(QuadmapSlam, CtrlCLeavesValidFilesOfWhatWasDone)
+class QuadmapSlamStopped :
+    public QuadmapSlam,
+    public testing::WithParamInterface<std::pair<int, int>>
+{
+};
+INSTANTIATE_TEST_SUITE_P(
+    Signals, QuadmapSlamStopped, testing::Values(std::pair(SIGINT, 130), std::pair(SIGTERM, 143)));
+
+TEST_P(QuadmapSlamStopped, LeavesValidFilesOfWhatWasDone)
 {
   constexpr int kFrames = 300;  // some seconds of work
   writeLong(kFrames);
@@ -381,11 +389,11 @@ TEST_F(QuadmapSlam, CtrlCLeavesValidFilesOfWhatWasDone)
   };
   for (int i = 0; i < 3000 && !spoolHasData(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  ::kill(pid, SIGINT);
+  ::kill(pid, GetParam().first);
   int status = 0;
   ASSERT_EQ(::waitpid(pid, &status, 0), pid);
   ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(WEXITSTATUS(status), GetParam().second);
   const auto keyframes = readTumTrajectory(out + "/trajectory.tum").size();
   EXPECT_GE(keyframes, 1u);
   EXPECT_LT(keyframes, static_cast<std::size_t>(kFrames));
