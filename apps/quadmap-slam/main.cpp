@@ -146,18 +146,25 @@ void showProgress(double share)
             << std::flush;
 }
 
-/** scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time. */
-std::string writeSceneOf(const SlamResult& result, const std::string& directory)
+/** Coarser than the defaults, which take twice as long: every run writes a scene, few are looked at
+ * closely. */
+CloudOptions sceneCloud()
 {
   CloudOptions cloud;
   cloud.cellSize = 0.02;
   cloud.maxPoints = 300000;
   cloud.maxKeyframes = 60;
+  return cloud;
+}
+
+/** scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time. */
+std::string writeSceneOf(const SlamResult& result, const std::string& directory)
+{
   SceneContent content;
   content.objects = result.map.toRecords();
   for (const auto& node : poseNodesOf(result.keyframes))
     content.trajectory.push_back(node.T_map_robot);
-  addKeyframes(directory + "/map.simplemap", cloud, content);
+  addKeyframes(directory + "/map.simplemap", sceneCloud(), content);
   const std::string path = directory + "/scene.3Dscene";
   writeScene(*SceneBuilder().scene(content), path);
   return path;
