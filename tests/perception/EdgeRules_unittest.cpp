@@ -107,6 +107,25 @@ TEST(EdgeRules, TheDarkSideOfADepthEdgeSaysNothing)
   EXPECT_EQ(edgesOf(boxes.objects[0].measurement), "uuuu");
 }
 
+TEST(EdgeRules, AnotherBoxOfTheSameThingHidesNothing)
+{
+  SyntheticFrame frame;
+  frame.add(2.2, 0.0, 0.0, 0.6, {0.4, 1.2, 0.6});  // its far end is half a metre farther away
+  const auto detection = frame.detect(0, "couch");
+  auto twin = frame.detect(0, "bed");
+  twin.box = {twin.box.x1 - 8, twin.box.y1 - 8, twin.box.x2 + 8, twin.box.y2 + 8};
+  CObservation3DRangeScan scan = frame.scan();
+  for (int v = 0; v < 480; ++v)  // no depth beside it
+    for (int du = 1; du <= 12; ++du)
+    {
+      scan.rangeImage(v, static_cast<int>(detection.box.x1) - du) = 0;
+      scan.rangeImage(v, static_cast<int>(detection.box.x2) + du) = 0;
+    }
+  CObservationObjects boxes = frame.observation({detection, twin});
+  FramePerception(PerceptionOptions(), labels()).measure(scan, boxes, frame.up_sensor());
+  EXPECT_EQ(edgesOf(boxes.objects[0].measurement), "uuuu");
+}
+
 TEST(EdgeRules, AnObjectDoesNotHideItself)
 {
   SyntheticFrame frame;

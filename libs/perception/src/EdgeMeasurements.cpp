@@ -67,7 +67,8 @@ class EdgeJudge
       cloud_(cloud), box_(box), context_(context), options_(options), inside_(cloud.cellsOf(box))
   {
     for (const auto& other : context.boxes)
-      if (other.depth > 0) others_.push_back({cloud.cellsOf(other.box), other.depth});
+      if (other.depth > 0 && !showOneThing(other.box, box))
+        others_.push_back({cloud.cellsOf(other.box), other.depth});
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto edge = static_cast<BoxEdge>(i);
@@ -233,7 +234,8 @@ class EdgeJudge
   bool isNearBorder(BoxEdge edge, double depth) const
   {
     const double distance = distanceToBorder(cloud_.camera(), box_, edge);
-    if (distance >= options_.borderMarginIn(cloud_.camera().width)) return false;
+    const double margin = options_.borderMarginIn(cloud_.camera().width);
+    if (margin == 0 || distance >= margin) return false;
     return depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px) ||
            !endsBefore(edge, distance, depth);
   }

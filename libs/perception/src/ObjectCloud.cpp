@@ -103,10 +103,9 @@ class Segmenter
       cloud_(cloud), planes_(planes), tasks_(tasks), options_(options), candidates_(tasks.size())
   {
     owner_.assign(static_cast<std::size_t>(cloud.columns() * cloud.rows()), kNobody);
-    constexpr double kMinIoU = 0.55;
     for (std::size_t i = 0; i < tasks.size(); ++i)
       for (std::size_t j = 0; j < tasks.size(); ++j)
-        isSameThing_.push_back(i == j || imageBoxIoU(boxOf(i), boxOf(j)) > kMinIoU);
+        isSameThing_.push_back(i == j || showOneThing(boxOf(i), boxOf(j)));
   }
 
   /** Small boxes first: what stands alone in one of them is no part of the larger ones around it.

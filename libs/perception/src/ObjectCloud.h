@@ -70,8 +70,8 @@ struct ObjectCloud
   {
     int c, r;
   };
-  /** In the depth cloud: all those along its rim, and inside of it every step-th of every step-th
-   * row. */
+  /** In the depth cloud: every step-th of every step-th row, and of those along the rim, which
+   * `mask` has all, every step-th. */
   std::vector<Cell> cells;
   int step = 1;
   std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
@@ -82,6 +82,9 @@ struct ObjectCloud
 
   bool empty() const { return points.empty(); }
 };
+
+/** Do two boxes of one frame show the same thing, perhaps under two labels? */
+inline bool showOneThing(const ImageBox& a, const ImageBox& b) { return imageBoxIoU(a, b) > 0.55; }
 
 /** Coordinates of some points [m], enough of them for a quantile of the middle.
  * \param axis 0 to 2. */

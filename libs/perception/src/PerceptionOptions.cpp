@@ -28,7 +28,7 @@ constexpr NumberOption kNumbers[] = {
     {          "planeMinArea",           &PerceptionOptions::planeMinArea, 1e-5,    1},
     {        "planeTolerance",         &PerceptionOptions::planeTolerance, 1e-4,    1},
     {             "boxMargin",              &PerceptionOptions::boxMargin,    0,    1},
-    { "clusterToleranceShare",  &PerceptionOptions::clusterToleranceShare,    0,    1},
+    { "clusterToleranceShare",  &PerceptionOptions::clusterToleranceShare, 1e-3,    1},
     {      "clusterTolerance",       &PerceptionOptions::clusterTolerance, 1e-3,    1},
     {"clusterToleranceGrowth", &PerceptionOptions::clusterToleranceGrowth,    0,    1},
     {       "yawMinDominance",        &PerceptionOptions::yawMinDominance,    0,    1},
