@@ -53,7 +53,7 @@ TEST(BoxEdges, AreUsableAwayFromTheBorder)
 TEST(BoxEdges, ArePlanesThroughCameraAndEdge)
 {
   auto image = imageWith({
-      {100, 80, 180, 160}
+      {100, 80, 180, 140}
   });
   measureWithoutDepth(image, PerceptionOptions());
   const auto& edges = *image.objects[0].measurement.edges;
@@ -64,13 +64,15 @@ TEST(BoxEdges, ArePlanesThroughCameraAndEdge)
     return Eigen::Vector3d(p.z(), -p.x(), -p.y());
   };
   const Eigen::Vector3d points[] = {
-      inSensor(100, 130), inSensor(130, 80), inSensor(180, 90), inSensor(120, 160)};
+      inSensor(100, 130), inSensor(130, 80), inSensor(180, 90), inSensor(120, 140)};
   for (std::size_t e = 0; e < 4; ++e)
   {
     EXPECT_NEAR(edges[e].plane_sensor.signedDistance(points[e]), 0, 1e-9) << e;
     EXPECT_NEAR(edges[e].plane_sensor.d, 0, 1e-12) << e;
     EXPECT_GT(edges[e].plane_sensor.signedDistance(inSensor(140, 120)), 0) << "inwards, " << e;
-    EXPECT_NEAR(edges[e].sigmaAngle, 3.0 / (e % 2 == 0 ? 260 : 250), 1e-12) << e;
+    // 2 px of 640 are one of 320; 1.5 % of the width or of the height.
+    const double sigma = e % 2 == 0 ? (1 + 0.015 * 80) / 260 : (1 + 0.015 * 60) / 250;
+    EXPECT_NEAR(edges[e].sigmaAngle, sigma, 1e-12) << e;
   }
 }
 
@@ -88,6 +90,19 @@ TEST(BoxEdges, RejectsWhatShowsNoEdge)
     EXPECT_FALSE(object.measurement.reason.empty());
     EXPECT_FALSE(object.measurement.edges);
   }
+}
+
+TEST(BoxEdges, WithoutTheBorderRuleThoseAtTheBorderCountToo)
+{
+  auto image = imageWith({
+      {200, 100, 320, 160}
+  });
+  PerceptionOptions options;
+  measureWithoutDepth(image, options);
+  EXPECT_EQ((*image.objects[0].measurement.edges)[2].state, EdgeState::NearImageBorder);
+  options.borderMargin = 0;
+  measureWithoutDepth(image, options);
+  EXPECT_EQ((*image.objects[0].measurement.edges)[2].state, EdgeState::Usable);
 }
 
 TEST(BoxEdges, NeedACalibration)

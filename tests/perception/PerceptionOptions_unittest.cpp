@@ -34,7 +34,9 @@ TEST(PerceptionOptions, ReadsEveryKey)
   EXPECT_EQ(read("borderMargin = 20").borderMargin, 20.0);
   EXPECT_EQ(read("occlusionStrip = 10").occlusionStrip, 10.0);
   EXPECT_EQ(read("maxHiddenProbability = 0.4").maxHiddenProbability, 0.4);
+  EXPECT_EQ(read("edgeTolerance = 5").edgeTolerance, 5.0);
   EXPECT_EQ(read("edgeSigma = 3").edgeSigma, 3.0);
+  EXPECT_EQ(read("edgeSigmaShare = 0.02").edgeSigmaShare, 0.02);
   EXPECT_EQ(read("models = both").models, ObservationModels::Both);
   EXPECT_EQ(read("models = complete").models, ObservationModels::Complete);
   EXPECT_EQ(read("models = partial").models, ObservationModels::Partial);

@@ -36,6 +36,7 @@ void visitInsertion(Visitor& v, Options& o)
   v.integer("maxIterations", o.estimator.maxIterations, 1, 1000);
   v.number("huber", o.estimator.huber, kSmall, 1000);
   v.number("edgeFloor", o.estimator.edgeFloor, 0, 10);
+  v.number("edgeShapeShare", o.estimator.edgeShapeShare, 0, 1);
   v.flag("edgesOfComplete", o.estimator.edgesOfComplete);
   v.number("roundnessSigma", o.estimator.roundnessSigma, kSmall, 100);
   v.number("sizePriorSpread", o.estimator.sizePriorSpread, kSmall, 1000);

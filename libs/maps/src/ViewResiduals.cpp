@@ -82,7 +82,7 @@ void addFaces(
   }
 }
 
-/** r = (n.t + d) - h_q(n), sigma = range * angle + floor. */
+/** r = (n.t + d) - h_q(n). */
 void addEdges(
     const ObjectView& view,
     const UprightShape& object,
@@ -91,11 +91,10 @@ void addEdges(
     double weight,
     NormalEquations& eq)
 {
-  const double range = (view.center - view.camera).norm();
   for (const auto& edge : view.edges)
   {
     const HalfWidth width = halfWidth(object, edge.plane.n, shapeExponent);
-    const double sigma = range * edge.angle + view.positionSigma + options.edgeFloor;
+    const double sigma = edgeSigma(view, edge, options);
     UprightState J;
     J << edge.plane.n, -width.d;
     const double gap = edge.plane.signedDistance(object.center) - width.h;
@@ -123,6 +122,13 @@ void NormalEquations::addCauchy(
   const double w = weight / (1 + u);
   H.noalias() += w * jacobian * jacobian.transpose();
   g.noalias() += w * residual * jacobian;
+}
+
+double edgeSigma(
+    const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options)
+{
+  return (view.center - view.camera).norm() * edge.angle + view.positionSigma + options.edgeFloor +
+         options.edgeShapeShare * view.halfSizes.mean();
 }
 
 Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)

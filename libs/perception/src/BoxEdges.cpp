@@ -24,7 +24,6 @@ double distanceToBorder(const PinholeCamera& camera, const ImageBox& box, BoxEdg
 std::array<EdgeMeasurement, 4> edgesWithoutDepth(
     const PinholeCamera& camera, const ImageBox& box, const PerceptionOptions& options)
 {
-  const double sigma = options.edgeSigmaIn(camera.width);
   const double margin = options.borderMarginIn(camera.width);
   const auto planes = boxEdgePlanes(camera, box);
   std::array<EdgeMeasurement, 4> out;
@@ -33,8 +32,11 @@ std::array<EdgeMeasurement, 4> edgesWithoutDepth(
     const auto edge = static_cast<BoxEdge>(i);
     const bool upright = edge == BoxEdge::Left || edge == BoxEdge::Right;
     out[i].plane_sensor = planes[i].transformed(T_sensor_optical());
+    const double size = upright ? box.width() : box.height();
+    const double sigma = options.edgeSigmaIn(camera.width, size);
     out[i].sigmaAngle = sigma / std::abs(upright ? camera.fx : camera.fy);
-    if (distanceToBorder(camera, box, edge) < margin) out[i].state = EdgeState::NearImageBorder;
+    if (margin > 0 && distanceToBorder(camera, box, edge) < margin)
+      out[i].state = EdgeState::NearImageBorder;
   }
   return out;
 }

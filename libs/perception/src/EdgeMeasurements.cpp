@@ -197,10 +197,10 @@ class EdgeJudge
       last = std::max(last, outwards * (upright ? c : r));
       end = std::max(end, last);
     }
-    const double sigma = options_.edgeSigmaIn(cloud_.camera().width) / cloud_.stride();
+    const double tolerance = options_.edgeToleranceIn(cloud_.camera().width) / cloud_.stride();
     int cells = 0, touched = 0;
     for (std::size_t line = 0; line < ends.size(); ++line)
-      if (ends[line] != kNone && end - ends[line] <= sigma)
+      if (ends[line] != kNone && end - ends[line] <= tolerance)
       {
         ++cells;
         touched += isNearerBeyond(upright, static_cast<int>(line), ends[line], outwards) ? 1 : 0;

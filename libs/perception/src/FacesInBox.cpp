@@ -8,16 +8,16 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kLooksOut = 0.25;  // cosine between a face's normal and the outside of an edge
-constexpr double kMaxSigmas = 3.0;  // that an edge may lie outside the cuboid
-constexpr double kMaxShare = 0.05;  // ... of the box's size, besides
+constexpr double kLooksOut = 0.25;      // cosine between a face's normal and the outside of an edge
+constexpr double kMaxTolerances = 3.0;  // that an edge may lie outside the cuboid
+constexpr double kMaxShare = 0.05;      // ... of the box's size, besides
 
 }  // namespace
 
 void weakenFacesInsideBox(
     const PinholeCamera& camera,
     const ImageBox& box,
-    double edgeSigma,
+    double edgeTolerance,
     CompleteMeasurement& complete)
 {
   const auto unclipped = projectCuboidBox(camera, complete.object_sensor);
@@ -30,7 +30,7 @@ void weakenFacesInsideBox(
   for (std::size_t e = 0; e < 4; ++e)
   {
     const double size = e % 2 == 0 ? box.width() : box.height();
-    if (gaps[e] < kMaxSigmas * edgeSigma + kMaxShare * size) continue;
+    if (gaps[e] < kMaxTolerances * edgeTolerance + kMaxShare * size) continue;
     for (std::size_t f = 0; f < kFaces; ++f)
     {
       const Eigen::Vector3d n = (f % 2 == 0 ? 1.0 : -1.0) * R.col(static_cast<Eigen::Index>(f / 2));

@@ -97,9 +97,9 @@ void FramePerception::Impl::tryComplete(
 {
   CompleteMeasurement complete = fitCuboid(cloud, planes, object, task.label, options);
   const ImageBox& box = task.detection->box;
-  const double edgeSigma = options.edgeSigmaIn(cloud.camera().width);
-  weakenFacesInsideBox(cloud.camera(), box, edgeSigma, complete);
-  const BoxFit fit = bestFit(cloud, complete.object_sensor, object, box, edgeSigma);
+  const double tolerance = options.edgeToleranceIn(cloud.camera().width);
+  weakenFacesInsideBox(cloud.camera(), box, tolerance, complete);
+  const BoxFit fit = bestFit(cloud, complete.object_sensor, object, box, tolerance);
   out.projectedIoU = fit.iou;
   if (fit.tolerantIoU < options.minCompleteIoU)
     out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);

@@ -27,12 +27,15 @@ Ellipsoid visiblePart(const Ellipsoid& cuboid, const ObjectCloud& object)
 }
 
 BoxFit fitToBox(
-    const PinholeCamera& camera, const ImageBox& unclipped, const ImageBox& box, double edgeSigma)
+    const PinholeCamera& camera,
+    const ImageBox& unclipped,
+    const ImageBox& box,
+    double edgeTolerance)
 {
   const ImageBox projected = unclipped.clipped(camera.width, camera.height);
   const ImageBox detected = box.clipped(camera.width, camera.height);
   const auto towards = [&](double from, double to)
-  { return from + std::clamp(to - from, -edgeSigma, edgeSigma); };
+  { return from + std::clamp(to - from, -edgeTolerance, edgeTolerance); };
   const ImageBox moved = {
       towards(detected.x1, projected.x1), towards(detected.y1, projected.y1),
       towards(detected.x2, projected.x2), towards(detected.y2, projected.y2)};
@@ -58,7 +61,7 @@ BoxFit bestFit(
     const Ellipsoid& cuboid,
     const ObjectCloud& object,
     const ImageBox& box,
-    double edgeSigma)
+    double edgeTolerance)
 {
   constexpr double kMinCuboidIoU = 0.5, kMalus = 0.1;
   const auto& camera = cloud.camera();
@@ -66,10 +69,10 @@ BoxFit bestFit(
   for (const Ellipsoid& view : {cuboid, visiblePart(cuboid, object)})
     if (const auto projected = projectCuboidBox(camera, view))
     {
-      const BoxFit fit = fitToBox(camera, *projected, box, edgeSigma);
+      const BoxFit fit = fitToBox(camera, *projected, box, edgeTolerance);
       if (fit.tolerantIoU > best.tolerantIoU) best = fit;
     }
-  const BoxFit outline = fitToBox(camera, boundsOf(cloud, object), box, edgeSigma);
+  const BoxFit outline = fitToBox(camera, boundsOf(cloud, object), box, edgeTolerance);
   if (best.tolerantIoU > kMinCuboidIoU)
     best.tolerantIoU = std::max(best.tolerantIoU, outline.tolerantIoU - kMalus);
   return best;

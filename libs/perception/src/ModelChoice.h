@@ -20,6 +20,6 @@ BoxFit bestFit(
     const Ellipsoid& cuboid,
     const ObjectCloud& object,
     const ImageBox& box,
-    double edgeSigma);
+    double edgeTolerance);
 
 }  // namespace quadmap

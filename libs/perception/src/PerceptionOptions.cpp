@@ -37,7 +37,9 @@ constexpr NumberOption kNumbers[] = {
     {          "borderMargin",           &PerceptionOptions::borderMargin,    0, 1000},
     {        "occlusionStrip",         &PerceptionOptions::occlusionStrip,    1,  200},
     {  "maxHiddenProbability",   &PerceptionOptions::maxHiddenProbability,    0,    1},
+    {         "edgeTolerance",          &PerceptionOptions::edgeTolerance, 1e-3, 1000},
     {             "edgeSigma",              &PerceptionOptions::edgeSigma, 1e-3, 1000},
+    {        "edgeSigmaShare",         &PerceptionOptions::edgeSigmaShare,    0,    1},
 };
 
 constexpr std::pair<const char*, ObservationModels> kModels[] = {

@@ -60,20 +60,23 @@ class EdgeTable
       if (!frame.truth[b]) continue;
       const DetectedObject& object = measured.objects[b];
       const auto& seen = frame.truth[b]->visible;
-      const auto sigma = PerceptionOptions().edgeSigmaIn(measured.cameraParams.ncols);
       const auto beyond = pixelsBeyond(object.box, seen.outline);
       const auto hidden = pixelsBeyond(seen.box, seen.outline);
       for (std::size_t e = 0; e < 4; ++e)
       {
         const auto& edges = object.measurement.edges;
+        const double across = e % 2 == 0 ? object.box.width() : object.box.height();
+        const auto sigma = PerceptionOptions().edgeSigmaIn(measured.cameraParams.ncols, across);
         const bool isUsable = edges && (*edges)[e].state == EdgeState::Usable;
-        const bool isInvalid = beyond[e] > truth_.sigmas * sigma;
+        const bool isInvalid =
+            beyond[e] > PerceptionOptions::scaledPixels(truth_.beyond, measured.cameraParams.ncols);
         for (const std::string& row : {std::string("all"), kEdges[e], frame.truth[b]->label})
           counts_[row][rule].add(isInvalid, isUsable);
         for (std::size_t k = 0; k < kSigmas.size(); ++k)
           bySigmas_[rule][k].add(beyond[e] > kSigmas[k] * sigma, isUsable);
         const double size = e % 2 == 0 ? seen.box.width() : seen.box.height();
-        byVisible_[rule].add(hidden[e] > 0.5 * sigma + 0.03 * size, isUsable);
+        byVisible_[rule].add(
+            hidden[e] > 3.0 * measured.cameraParams.ncols / 640 + 0.03 * size, isUsable);
       }
     }
   }

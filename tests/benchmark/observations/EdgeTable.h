@@ -8,12 +8,12 @@
 namespace quadmap::observations
 {
 /** When an edge of a box is invalid: the object goes on beyond it, so that the plane through it is
- * not tangent to the object within what its own sigma allows. */
+ * not tangent to the object. */
 struct EdgeTruthOptions
 {
-  /** From the measured edge outwards to the edge of the object's whole outline, in sigmas stored
-   * with the edge. */
-  double sigmas = 3;
+  /** From the measured edge outwards to the edge of the object's whole outline [px of an image 640
+   * px wide]: what a bad detector errs by is less, what something hides is usually more. */
+  double beyond = 18;
 };
 
 /** Prints how well the usable edges are told from those that the object goes on beyond: for each

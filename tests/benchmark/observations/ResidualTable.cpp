@@ -198,11 +198,10 @@ void addSeed(const ObjectView& view, const Ellipsoid& object, Residuals& out)
 void addEdges(const ObjectView& view, const Ellipsoid& object, double q, Residuals& out)
 {
   const EstimatorOptions estimator;
-  const double range = (view.center - view.camera).norm();
   for (const auto& edge : view.edges)
     out.add(
         view.complete ? "box edge of a complete one" : "box edge of a partial one",
-        -tangencyResidual(edge.plane, object, q), range * edge.angle + estimator.edgeFloor);
+        -tangencyResidual(edge.plane, object, q), edgeSigma(view, edge, estimator));
 }
 
 void addFrame(const ObservedFrame& frame, const LabelTable& labels, Residuals& out)

@@ -41,13 +41,13 @@ struct Cli
       "", "resolution", "Image size, same width of view.", false, "320x240", "WxH", line.args()};
   TCLAP::ValueArg<int> framesStep{"",  "frames-step", "Every n-th frame only.", false, 1,
                                   "N", line.args()};
-  TCLAP::ValueArg<double> invalidSigmas{
+  TCLAP::ValueArg<double> invalidBeyond{
       "",
-      "invalid-sigmas",
-      "edges: one is invalid when the object's outline ends beyond it by more sigmas of its own.",
+      "invalid-beyond",
+      "edges: one is invalid when the object's outline ends further beyond it [px of 640].",
       false,
-      3,
-      "N",
+      18,
+      "PX",
       line.args()};
   TCLAP::SwitchArg perLabel{
       "", "per-label", "residuals, edges: rows for each label too.", line.args()};
@@ -89,7 +89,7 @@ Rows printTable(Cli& cli)
   const RunOptions run = runOptions(cli);
   const std::string& table = cli.table.getValue();
   if (table == "edges")
-    return printEdgeTable(run, {cli.invalidSigmas.getValue()}, cli.perLabel.getValue(), std::cout);
+    return printEdgeTable(run, {cli.invalidBeyond.getValue()}, cli.perLabel.getValue(), std::cout);
   if (table == "ablation") return printAblationTable(run, std::cout);
   if (table == "orientation") return printOrientationTable(run, std::cout);
   std::ofstream raw;

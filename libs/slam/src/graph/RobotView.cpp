@@ -40,10 +40,8 @@ RobotView robotViewOf(
         seedWhitening(R_robot_map * view.centerCovariance * R_robot_map.transpose(), options);
   }
   if (view.complete && (!options.edgesOfComplete || view.allSidesKnown())) return r;
-  const double range = (view.center - view.camera).norm();
   for (const auto& edge : view.edges)
-    r.edges.push_back(
-        {R_robot_map * edge.plane.n, range * edge.angle + view.positionSigma + options.edgeFloor});
+    r.edges.push_back({R_robot_map * edge.plane.n, edgeSigma(view, edge, options)});
   return r;
 }
 

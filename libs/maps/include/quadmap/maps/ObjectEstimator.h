@@ -16,7 +16,10 @@ struct EstimatorOptions
   int maxIterations = 25;     //!< Of the optimiser, >= 1
   /** Residuals beyond this many sigmas lose weight, lower bounds of sizes most of it, > 0. */
   double huber = 1.5;
-  double edgeFloor = 0.01;  //!< Added to the sigma of every box edge [m], >= 0
+  /** Added to the sigma of every box edge: this [m], >= 0, and that share of the mean half size,
+   * >= 0, which the outline of a real thing is off that of an h_q. */
+  double edgeFloor = 0.002;
+  double edgeShapeShare = 0.03;
   bool edgesOfComplete =
       true;  //!< Use the box edges of complete measurements with unseen sides too
   double roundnessSigma = 0.1;   //!< Of ln(a/b) for labels without dominant direction [-], > 0
@@ -60,6 +63,10 @@ void addViewResiduals(
     const EstimatorOptions& options,
     double weight,
     NormalEquations& eq);
+
+/** Standard deviation of how far an object is from touching a box edge [m]. */
+double edgeSigma(
+    const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options);
 
 /** W such that W * (centre - seed) is in sigmas, [1/m]. \param covariance Of the seed [m^2]; W is
  * for the frame it is given in. */

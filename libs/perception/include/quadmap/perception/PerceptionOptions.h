@@ -38,7 +38,7 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double clusterToleranceShare = 0.06;    //!< Of the object's size, from its box and range [-]
   double clusterTolerance = 0.05;         //!< [m], > 0
   double clusterToleranceGrowth = 0.012;  //!< [-], >= 0
-  int minPoints = 60;  //!< Fewest points (of every second pixel) worth a fit, >= 10
+  int minPoints = 60;  //!< Fewest points (of an image 320 px wide) worth a fit, >= 10
 
   ObservationModels models = ObservationModels::Both;  //!< INI: both, complete, partial
   double yawMinDominance = 0.40;   //!< Peak mass that makes a direction; even spread gives 0.22
@@ -52,9 +52,14 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
    * rule is off. 0.1: below 1 % of the edges in use are wrong on simulated homes
    * (doc/benchmarks.md). */
   double maxHiddenProbability = 0.10;
-  /** Standard deviation of a detector's box edge [px of an image 640 px wide], > 0: detectors look
-   * at images of one size, whatever the camera's. */
-  double edgeSigma = 6.0;
+  /** What a detector's box edge may be off by when boxes are compared with what the depth shows [px
+   * of an image 640 px wide], > 0: detectors look at images of one size, whatever the camera's. */
+  double edgeTolerance = 6.0;
+  /** Standard deviation of a box edge: this [px of an image 640 px wide], > 0, and that share of
+   * the box's size across the edge, >= 0. A real detector's edges jitter by about two thirds of it
+   * (doc/guide/write-a-scene.md); the rest is for what it gets wrong alike in all images. */
+  double edgeSigma = 2.0;
+  double edgeSigmaShare = 0.015;
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& config, const std::string& section) override;
@@ -66,7 +71,15 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   {
     return pixels * imageWidth / 640.0;
   }
-  double edgeSigmaIn(unsigned imageWidth) const { return scaledPixels(edgeSigma, imageWidth); }
+  double edgeToleranceIn(unsigned imageWidth) const
+  {
+    return scaledPixels(edgeTolerance, imageWidth);
+  }
+  /** \param size Of the box, across the edge [px]. \return [px] */
+  double edgeSigmaIn(unsigned imageWidth, double size) const
+  {
+    return scaledPixels(edgeSigma, imageWidth) + edgeSigmaShare * size;
+  }
   double borderMarginIn(unsigned imageWidth) const
   {
     return scaledPixels(borderMargin, imageWidth);
