@@ -75,7 +75,7 @@ void jobsCommand(int argc, char** argv)
   };
   const auto scenes = list(
       "scenes", "Scenes to map.",
-      "home,office,robot-home,robot-home-four,cluttered-desk,corridor,lifelong");
+      "home,office,robot-home,robot-home-four,cluttered-desk,corridor,lifelong,approach");
   const auto observed = list(
       "observed", "Scenes whose single frames are measured (default: these, if mapped).",
       "home,office,cluttered-desk");
