@@ -25,11 +25,6 @@ ImageBox enlarged(const ImageBox& box, double share)
   return {box.x1 - dx, box.y1 - dy, box.x2 + dx, box.y2 + dy};
 }
 
-double planeTolerance(double z, const PerceptionOptions& options)
-{
-  return 0.5 * options.planeTolerance + 2.0 * options.depthSigma(z);
-}
-
 /** Points around a box, a regular sample, without floors and table tops. */
 std::vector<Eigen::Vector3d> surroundings(
     const DepthCloud& cloud,
@@ -41,9 +36,8 @@ std::vector<Eigen::Vector3d> surroundings(
   {
     return std::any_of(
         planes.horizontal.begin(), planes.horizontal.end(),
-        [&](int i) {
-          return std::abs(planes.plane(i).plane.signedDistance(p)) < planeTolerance(p.z(), options);
-        });
+        [&](int i)
+        { return std::abs(planes.plane(i).plane.signedDistance(p)) < options.onPlane(p.z()); });
   };
   constexpr double kRing = 0.15;  // width, of the box's size
   constexpr int kStep = 3;        // cells
@@ -69,8 +63,7 @@ int countOn(
 {
   return static_cast<int>(std::count_if(
       points.begin(), points.end(),
-      [&](const auto& p)
-      { return std::abs(plane.signedDistance(p)) < planeTolerance(p.z(), options); }));
+      [&](const auto& p) { return std::abs(plane.signedDistance(p)) < options.onPlane(p.z()); }));
 }
 
 /** Share of the surroundings on a plane that makes it the wall behind the box; less may be a thing
@@ -139,7 +132,7 @@ bool goesOnBehind(
   {
     Eigen::AlignedBox1d range;
     for (const auto& p : cloud)
-      if (std::abs(wall.signedDistance(p)) < planeTolerance(p.z(), options))
+      if (std::abs(wall.signedDistance(p)) < options.onPlane(p.z()))
         range.extend(Eigen::Matrix<double, 1, 1>(along.dot(p)));
     return range;
   };
@@ -156,7 +149,7 @@ bool isOwnSide(
   const auto all = static_cast<double>(points.size());
   const auto behind = std::count_if(
       points.begin(), points.end(),
-      [&](const auto& p) { return wall.signedDistance(p) < -planeTolerance(p.z(), options); });
+      [&](const auto& p) { return wall.signedDistance(p) < -options.onPlane(p.z()); });
   return countOn(wall, points, options) > kMaxOn * all ||
          static_cast<double>(behind) > kMaxBehind * all;
 }
@@ -178,7 +171,7 @@ void dropWalls(
         [&](std::size_t i)
         {
           const auto& p = candidates.points[i];
-          return std::abs(wall.signedDistance(p)) >= planeTolerance(p.z(), options);
+          return std::abs(wall.signedDistance(p)) >= options.onPlane(p.z());
         });
   };
   for (const auto& wall : walls)
@@ -226,7 +219,7 @@ bool CandidateRule::isBackground(int c, int r, const Eigen::Vector3d& p) const
 {
   if (support_ && support_->signedDistance(p) < supportTolerance(p.z(), task_.label, options_))
     return true;
-  const double tolerance = planeTolerance(p.z(), options_);
+  const double tolerance = options_.onPlane(p.z());
   const int plane = planes_.all.planeAt(cloud_, c, r, tolerance);
   if (plane >= 0 && reachesBeyond(plane)) return true;
   return std::any_of(

@@ -120,11 +120,11 @@ class EdgeJudge
   }
 
   /** Of a point at a depth that may lie on a supporting surface [m]. */
-  double supportTolerance(double depth) const { return 0.03 + 2.0 * options_.depthSigma(depth); }
+  double onSupport(double depth) const { return 0.03 + 2.0 * options_.depthSigma(depth); }
 
   bool isOnSupport(int c, int r) const
   {
-    const double tolerance = supportTolerance(cloud_.depth(c, r));
+    const double tolerance = onSupport(cloud_.depth(c, r));
     const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
     return std::any_of(
         context_.surfaces.begin(), context_.surfaces.end(),
@@ -298,7 +298,7 @@ class EdgeJudge
       heights.push_back(support.signedDistance(points[i]));
     const double top = quantile(heights, 0.98), low = quantile(std::move(heights), 0.02);
     // As much above the support was cut away with it.
-    const double gap = low - supportTolerance(context_.depth);
+    const double gap = low - onSupport(context_.depth);
     return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;
   }
 

@@ -18,7 +18,10 @@ class CellMask
 {
  public:
   CellMask() = default;
-  explicit CellMask(const DepthCloud::CellRange& range);
+  explicit CellMask(const DepthCloud::CellRange& range) :
+      range_(range), own_(static_cast<std::size_t>(range.cells()), 0)
+  {
+  }
 
   bool contains(int c, int r) const { return range_.contains(c, r) && own_[index(c, r)] != 0; }
   /** Does it contain the eight cells around one, at a distance of `step`? */

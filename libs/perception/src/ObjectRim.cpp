@@ -5,11 +5,6 @@
 
 namespace quadmap
 {
-CellMask::CellMask(const DepthCloud::CellRange& range) : range_(range)
-{
-  own_.assign(static_cast<std::size_t>(range.cells()), 0);
-}
-
 void addRim(
     const BoxCandidates& candidates,
     double gap,

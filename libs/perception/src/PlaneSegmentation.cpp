@@ -139,7 +139,7 @@ void PlaneSegmentation::findRims(const DepthCloud& cloud, const PerceptionOption
          ++i, c += dc, r += dr)
     {
       const Eigen::Vector3d p = cloud.point(c + dc, r + dr).cast<double>();
-      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+      const double tolerance = options.onPlane(p.z());
       if (std::abs(plane.plane.signedDistance(p)) > tolerance) break;
     }
     if (cloud.valid(c, r)) plane.rim.push_back(cloud.point(c, r).cast<double>());

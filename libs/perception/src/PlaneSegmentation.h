@@ -13,7 +13,7 @@ namespace quadmap
 struct ScenePlane
 {
   Plane plane;
-  double share = 0;  //!< Share of the image's cells, in [0, 1]; 0: known from other frames only
+  double share = 0;  //!< Of the image's cells, in [0, 1]; 0: known from other frames, or a top
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> samples;  //!< Some of its points
   std::vector<Eigen::Vector3d> rim;      //!< Its outermost points
@@ -24,7 +24,7 @@ struct ScenePlane
 class PlaneSegmentation
 {
  public:
-  std::vector<ScenePlane> planes;  //!< The largest first; those known from elsewhere last
+  std::vector<ScenePlane> planes;  //!< The largest first; then those from elsewhere, then tops
 
   /** Index into `planes` of the plane that a cell of the cloud, or one near it, belongs to and
    * that its point is within the tolerance [m] of; -1 for none. */

@@ -36,10 +36,7 @@ void setLevel(ScenePlane& plane, const PlaneLevel& level, const PerceptionOption
       std::remove_if(
           plane.rim.begin(), plane.rim.end(),
           [&](const auto& p)
-          {
-            return std::abs(level.plane.signedDistance(p)) >
-                   0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
-          }),
+          { return std::abs(level.plane.signedDistance(p)) > options.onPlane(p.z()); }),
       plane.rim.end());
   if (plane.rim.empty()) plane.rim = plane.samples;
 }

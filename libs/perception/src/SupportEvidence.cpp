@@ -11,7 +11,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kMaxCells = 400;  // of a box that are looked at
+constexpr double kMaxCells = 400;  // of a box that are looked at, up to four times as many
 constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
 constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
 
@@ -162,7 +162,7 @@ RoughObject roughObject(
           !detection.mask->contains(static_cast<unsigned>(u), static_cast<unsigned>(v)))
         continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+      const double tolerance = options.onPlane(p.z());
       const int plane = planes.all.planeAt(cloud, c, r, tolerance);
       if (plane >= 0 && out.planeShares[static_cast<std::size_t>(plane)] < kMinOwnShare) continue;
       const double du = (u - box.centerX()) / (kCentrality * box.width());
@@ -254,7 +254,7 @@ std::optional<ScenePlane> topOf(
       const auto normal = cloud.normal(c, r);
       if (!normal || normal->cast<double>().dot(planes.up) < kFacesUp) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      const double tolerance = 0.5 * options.planeTolerance + 2.0 * options.depthSigma(p.z());
+      const double tolerance = options.onPlane(p.z());
       const int plane = planes.all.planeAt(cloud, c, r, tolerance);
       if (plane >= 0 && object.planeShares[static_cast<std::size_t>(plane)] < kOwnShare) continue;
       points.push_back(p);

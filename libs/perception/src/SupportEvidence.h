@@ -15,7 +15,7 @@ namespace quadmap
  * beyond the box, from the depth where most of them lie. */
 struct RoughObject
 {
-  std::vector<Eigen::Vector3d> points;  //!< A few hundred at most, from the lowest up, optical [m]
+  std::vector<Eigen::Vector3d> points;  //!< Some hundred, from the lowest up, optical frame [m]
   std::vector<double> planeShares;      //!< Of each plane of the scene the share inside the box
 
   bool empty() const { return points.empty(); }

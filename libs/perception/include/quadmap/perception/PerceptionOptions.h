@@ -85,6 +85,9 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
     return scaledPixels(borderMargin, imageWidth);
   }
 
+  /** Of a point at a depth that may lie on a known plane [m]. */
+  double onPlane(double z) const { return 0.5 * planeTolerance + 2.0 * depthSigma(z); }
+
   /** Standard deviation of a depth [m]. */
   double depthSigma(double z) const
   {
