@@ -11,7 +11,7 @@ void JointOptions::loadFromConfigFile(
   rejectUnknownKeys(
       config, section,
       {"correctPoses", "window", "rounds", "smallMove", "maxIterations", "tiltSigma_deg",
-       "floorSigma"});
+       "upSigma_deg", "floorSigma"});
   readFlag(config, section, "correctPoses", correctPoses);
   readNumber(config, section, "window", window, 2, 10000);
   readNumber(config, section, "rounds", rounds, 0, 100);
@@ -21,6 +21,9 @@ void JointOptions::loadFromConfigFile(
   double tilt_deg = mrpt::RAD2DEG(tiltSigma);
   readNumber(config, section, "tiltSigma_deg", tilt_deg, 0.0, 90.0);
   tiltSigma = mrpt::DEG2RAD(tilt_deg);
+  double up_deg = mrpt::RAD2DEG(upSigma);
+  readNumber(config, section, "upSigma_deg", up_deg, 0.0, 90.0);
+  upSigma = mrpt::DEG2RAD(up_deg);
 }
 
 void JointOptions::saveToConfigFile(
@@ -32,6 +35,7 @@ void JointOptions::saveToConfigFile(
   config.write(section, "smallMove", optionText(smallMove));
   config.write(section, "maxIterations", maxIterations);
   config.write(section, "tiltSigma_deg", optionText(mrpt::RAD2DEG(tiltSigma)));
+  config.write(section, "upSigma_deg", optionText(mrpt::RAD2DEG(upSigma)));
   config.write(section, "floorSigma", optionText(floorSigma));
 }
 

@@ -40,6 +40,15 @@ PoseNoise sum(const PoseNoise& a, const PoseNoise& b)
   return noise;
 }
 
+/** A pose of which everything is known but what is up. \param sigma Of pitch and roll [rad]. */
+CPose3DPDFGaussian freeToTilt(const CPose3D& pose, double sigma)
+{
+  constexpr double kFixed = 1e-4;  // [m], [rad]
+  CPose3DPDFGaussian prior(pose);
+  for (int i = 0; i < 6; ++i) prior.cov(i, i) = i < 4 ? kFixed * kFixed : sigma * sigma;
+  return prior;
+}
+
 Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
 
 }  // namespace
@@ -149,7 +158,10 @@ void JointBackEnd::forgetMerged(const CQuadricObjectMap& map)
 }
 
 FactorGraph JointBackEnd::globalGraph(
-    const BoxesOf& boxesOf, const SlamResult& result, const Priors& priors) const
+    const BoxesOf& boxesOf,
+    const SlamResult& result,
+    const Priors& priors,
+    FirstPose firstPose) const
 {
   struct Seen
   {
@@ -158,13 +170,17 @@ FactorGraph JointBackEnd::globalGraph(
     RobotView view;
   };
   FactorGraph graph(graphOptions(options_, estimator_));
-  if (!priors.empty()) graph.addPose(CPose3D());
+  const bool mayTilt = priors.empty() && firstPose == FirstPose::FreeToTilt &&
+                       options_.upSigma > 0 && result.odometry.source == PoseSource::Visual;
+  if (!priors.empty() || mayTilt) graph.addPose(CPose3D());
   const std::size_t first = graph.poses();
   std::map<ObjectId, std::vector<Seen>> seenOf;
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
     const Keyframe& keyframe = result.keyframes[k];
     const std::size_t pose = graph.addPose(keyframe.T_map_robot);
+    if (pose == first && mayTilt)
+      graph.addPosePrior(pose, freeToTilt(keyframe.T_map_robot, options_.upSigma));
     if (pose > first && keyframe.odometryStep)
       graph.addStep(pose - 1, pose, stiffAtRest(*keyframe.odometryStep));
     const auto boxes = boxesOf(k);
@@ -217,7 +233,7 @@ void JointBackEnd::estimate(
   for (; summary.rounds < options_.rounds && !summary.converged; ++summary.rounds)
   {
     const Priors priors = knownObjects(result.map);
-    FactorGraph graph = globalGraph(boxesOf, result, priors);
+    FactorGraph graph = globalGraph(boxesOf, result, priors, FirstPose::FreeToTilt);
     graph.optimise();
     summary.lastMove = takePoses(graph, priors, result);
     rebuildMap(boxesOf, result);
@@ -225,7 +241,8 @@ void JointBackEnd::estimate(
   }
   result.correction = summary;
   const Priors priors = knownObjects(result.map);
-  FactorGraph graph = globalGraph(boxesOf, result, priors);  // with the objects of the final map
+  // With the objects of the final map, and covariances relative to the first pose.
+  FactorGraph graph = globalGraph(boxesOf, result, priors, FirstPose::Fixed);
   result.edges = graph.poseEdges();
   for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);

@@ -15,7 +15,11 @@ struct JointOptions : public mrpt::config::CLoadableOptions
   int maxIterations = 30;    //!< Of one optimisation, >= 1
 
   double tiltSigma =
-      mrpt::DEG2RAD(1.0);    //!< Of a support's normal [rad]; INI in degrees; 0: unused
+      mrpt::DEG2RAD(1.0);  //!< Of a support's normal [rad]; INI in degrees; 0: unused
+  /** How far off the first pose of visual odometry may be in what is up [rad], >= 0; the normals of
+   * what objects stand on then correct it instead of bending the trajectory. INI in degrees; 0: it
+   * is right. */
+  double upSigma = mrpt::DEG2RAD(2.0);
   double floorSigma = 0.02;  //!< Bottom of things that stand on the floor [m]; 0: unused
 
   void loadFromConfigFile(

@@ -61,9 +61,18 @@ class JointBackEnd : public BackEnd
   void forgetMerged(const CQuadricObjectMap& map);
   using Priors = std::map<ObjectId, ObjectPrior>;
 
-  /** All poses and objects. With priors pose 0 is the map, and pose k + 1 that of keyframe k. */
+  enum class FirstPose
+  {
+    Fixed,
+    FreeToTilt  // by upSigma, on visual odometry
+  };
+  /** All poses and objects. With priors, or when the first pose is not fixed, pose 0 is the map,
+   * and pose k + 1 that of keyframe k. */
   FactorGraph globalGraph(
-      const BoxesOf& boxesOf, const SlamResult& result, const Priors& priors) const;
+      const BoxesOf& boxesOf,
+      const SlamResult& result,
+      const Priors& priors,
+      FirstPose firstPose) const;
   /** Moves the keyframes to where a graph has them. \return The longest move [m]. */
   static double takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result);
   /** Rounds of association and estimation. */
