@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,20 @@
 
 namespace quadmap::testing
 {
+/** One of several poses on a circle, from where a camera looks at its centre. */
+inline mrpt::poses::CPose3D poseAround(
+    int i,
+    int frames,
+    const Eigen::Vector3d& center = {0, 0, 0.5},
+    double radius = 2.6,
+    double height = 1.5)
+{
+  const double angle = 2 * M_PI * i / frames;
+  const Eigen::Vector3d eye(
+      center.x() + radius * std::cos(angle), center.y() + radius * std::sin(angle), height);
+  return SyntheticCamera::lookAt(eye, center);
+}
+
 /** Walks around a scene, looking at its centre, and inserts what the camera sees. */
 inline void walkAround(
     CQuadricObjectMap& map,
@@ -22,10 +37,7 @@ inline void walkAround(
 {
   for (int i = 0; i < frames; ++i)
   {
-    const double angle = 2 * M_PI * i / frames;
-    const Eigen::Vector3d eye(
-        center.x() + radius * std::cos(angle), center.y() + radius * std::sin(angle), height);
-    const auto T_map_sensor = SyntheticCamera::lookAt(eye, center);
+    const auto T_map_sensor = poseAround(i, frames, center, radius, height);
     map.insertObservation(camera.observe(T_map_sensor, world), camera.disturbed(T_map_sensor));
   }
 }

@@ -13,7 +13,7 @@ namespace
 {
 /** Once around a room, with odometry that is exact but for what it thinks is up.
  * \return The farthest that a pose is from where it is to the first one [m]. */
-double bending(PoseSource source, double wrongUp)
+double bending(PoseSource source, double wrongUp, const CPose3D& T_robot_camera = {})
 {
   constexpr int kFrames = 36;
   const std::vector<TrueObject> world = {
@@ -32,10 +32,10 @@ double bending(PoseSource source, double wrongUp)
   std::vector<CObservationObjects::Ptr> boxes;
   for (int i = 0; i < kFrames; ++i)
   {
-    const double angle = 2 * M_PI * i / kFrames;
-    const Eigen::Vector3d eye(2.6 * std::cos(angle), 2.6 * std::sin(angle), 1.5);
-    truth.push_back(SyntheticCamera::lookAt(eye, {0, 0, 0.5}));
-    boxes.push_back(CObservationObjects::Create(camera.observe(truth.back(), world)));
+    const CPose3D T_world_camera = poseAround(i, kFrames);
+    truth.push_back(T_world_camera + (-T_robot_camera));
+    boxes.push_back(CObservationObjects::Create(camera.observe(T_world_camera, world)));
+    boxes.back()->sensorPose = T_robot_camera;
     Keyframe keyframe;
     keyframe.T_odom_robot = T_odom_world + truth.back();
     if (i > 0) keyframe.odometryStep = {truth.back() - truth[truth.size() - 2], covariance};
@@ -60,4 +60,14 @@ TEST(FirstPose, AWrongUpOfVisualOdometryBendsNothing)
                free = bending(PoseSource::Visual, wrong);
   EXPECT_LT(free, 0.5 * fixed) << fixed;
   EXPECT_LT(free, 1.5 * bending(PoseSource::Rawlog, 0.0));
+}
+
+TEST(FirstPose, MayLookStraightDown)
+{
+  const double cameraPitch = poseAround(0, 36).pitch();
+  const CPose3D T_robot_camera(0, 0, 0, 0, cameraPitch - M_PI / 2, 0);
+  const double wrong = mrpt::DEG2RAD(2.0);
+  EXPECT_LT(
+      bending(PoseSource::Visual, wrong, T_robot_camera),
+      1.5 * bending(PoseSource::Rawlog, 0.0, T_robot_camera));
 }

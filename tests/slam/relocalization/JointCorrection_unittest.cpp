@@ -51,9 +51,7 @@ struct DriftingRun
     SyntheticCamera camera(seed);
     for (int i = 0; i < kFrames; ++i)
     {
-      const double angle = 2 * M_PI * i / kFrames;
-      const Eigen::Vector3d eye(2.6 * std::cos(angle), 2.6 * std::sin(angle), 1.5);
-      truth.push_back(SyntheticCamera::lookAt(eye, {0, 0, 0.5}));
+      truth.push_back(poseAround(i, kFrames));
       boxes.push_back(CObservationObjects::Create(camera.observe(truth.back(), world)));
       Keyframe keyframe;
       if (i == 0)

@@ -40,13 +40,22 @@ PoseNoise sum(const PoseNoise& a, const PoseNoise& b)
   return noise;
 }
 
-/** A pose of which everything is known but what is up. \param sigma Of pitch and roll [rad]. */
-CPose3DPDFGaussian freeToTilt(const CPose3D& pose, double sigma)
+/** A step from a pose to where it is if only what it takes for up is wrong.
+ * \param sigma Of turns about the map's x and y axes [rad]. */
+CPose3DPDFGaussian tiltOf(const CPose3D& pose, double sigma)
 {
   constexpr double kFixed = 1e-4;  // [m], [rad]
-  CPose3DPDFGaussian prior(pose);
-  for (int i = 0; i < 6; ++i) prior.cov(i, i) = i < 4 ? kFixed * kFixed : sigma * sigma;
-  return prior;
+  const Eigen::Matrix3d R = pose.getRotationMatrix().asEigen();
+  const Eigen::Vector3d variances(sigma * sigma, sigma * sigma, kFixed * kFixed);
+  const Eigen::Matrix3d turns = R.transpose() * variances.asDiagonal() * R;
+  CPose3DPDFGaussian step;
+  for (int r = 0; r < 3; ++r)
+  {
+    step.cov(r, r) = kFixed * kFixed;
+    // Of small angles yaw, pitch and roll are turns about z, y and x.
+    for (int c = 0; c < 3; ++c) step.cov(3 + r, 3 + c) = turns(2 - r, 2 - c);
+  }
+  return step;
 }
 
 Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
@@ -171,8 +180,10 @@ FactorGraph JointBackEnd::globalGraph(
   };
   FactorGraph graph(graphOptions(options_, estimator_));
   const bool mayTilt = priors.empty() && firstPose == FirstPose::FreeToTilt &&
-                       options_.upSigma > 0 && result.odometry.source == PoseSource::Visual;
-  if (!priors.empty() || mayTilt) graph.addPose(CPose3D());
+                       options_.upSigma > 0 && result.odometry.source == PoseSource::Visual &&
+                       !result.keyframes.empty();
+  if (!priors.empty()) graph.addPose(CPose3D());
+  if (mayTilt) graph.addPose(result.keyframes.front().T_map_robot);
   const std::size_t first = graph.poses();
   std::map<ObjectId, std::vector<Seen>> seenOf;
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
@@ -180,7 +191,7 @@ FactorGraph JointBackEnd::globalGraph(
     const Keyframe& keyframe = result.keyframes[k];
     const std::size_t pose = graph.addPose(keyframe.T_map_robot);
     if (pose == first && mayTilt)
-      graph.addPosePrior(pose, freeToTilt(keyframe.T_map_robot, options_.upSigma));
+      graph.addStep(0, pose, tiltOf(keyframe.T_map_robot, options_.upSigma));
     if (pose > first && keyframe.odometryStep)
       graph.addStep(pose - 1, pose, stiffAtRest(*keyframe.odometryStep));
     const auto boxes = boxesOf(k);

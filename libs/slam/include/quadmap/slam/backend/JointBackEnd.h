@@ -66,8 +66,8 @@ class JointBackEnd : public BackEnd
     Fixed,
     FreeToTilt  // by upSigma, on visual odometry
   };
-  /** All poses and objects. With priors, or when the first pose is not fixed, pose 0 is the map,
-   * and pose k + 1 that of keyframe k. */
+  /** All poses and objects. With priors pose 0 is the map, and when the first pose is not fixed
+   * where that was so far; either makes pose k + 1 that of keyframe k. */
   FactorGraph globalGraph(
       const BoxesOf& boxesOf,
       const SlamResult& result,
