@@ -115,19 +115,34 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
       FaceKind::Measured,
       face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
 
-  // What stands out of the top (a handle) belongs to the object.
-  if (face != kTop) return out;
+  if (face == kTop) raiseTop(std::move(shell), out);
+  return out;
+}
+
+/** Tops are round, or have rims and handles: what lies above the noise is their end.
+ * \param shell Heights of the points that face up. */
+void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
+{
+  const double depthSigma = options_.depthSigma(range_);
+  const double count = static_cast<double>(shell.size());
+  const double noise = std::max(madSigma(shell), depthSigma);
+  constexpr double kMost = 0.95, kMostSigmas = 1.64;
+  const double high =
+      quantile(std::move(shell), kMost) - kMostSigmas * std::abs(facingAway(kTop)) * depthSigma;
+  if (high > top.position)
+  {
+    top.worth.sigma = std::hypot(top.worth.sigma, 0.5 * (high - top.position));
+    top.position = high;
+  }
   constexpr double kMinOut = 0.01, kMinShare = 0.01;  // [m], of the surface
-  const double noise = std::max(madSigma(shell), options_.depthSigma(range_));
   std::vector<double> beyond;
-  for (const double x : points_[face / 2])
-    if (x > out.position + std::max(kMinOut, 3.5 * noise)) beyond.push_back(x);
+  for (const double x : points_[kTop / 2])
+    if (x > top.position + std::max(kMinOut, 3.5 * noise)) beyond.push_back(x);
   if (static_cast<double>(beyond.size()) > std::max(6.0, kMinShare * count))
   {
-    out.position = quantile(std::move(beyond), 0.9);
-    out.worth.sigma = std::hypot(out.worth.sigma, protrusionSigma(cell()));
+    top.position = quantile(std::move(beyond), 0.9);
+    top.worth.sigma = std::hypot(top.worth.sigma, protrusionSigma(cell()));
   }
-  return out;
 }
 
 std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, double radius) const
@@ -140,8 +155,10 @@ std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, dou
   if (static_cast<double>(outermost.size()) < kMinPoints) return {};
   FaceEstimate out;
   out.source = FaceSource::Surface;
-  out.position = median(std::move(outermost));
-  out.worth = {FaceKind::Measured, roundSurfaceSigma(range_, radius, options_)};
+  // Leaves lie at all depths, a vase's wall at one.
+  const double ragged = std::max(0.0, madSigma(outermost) - options_.depthSigma(range_));
+  out.position = median(std::move(outermost)) + ragged;
+  out.worth = {FaceKind::Measured, std::hypot(ragged, roundSurfaceSigma(range_, radius, options_))};
   return out;
 }
 

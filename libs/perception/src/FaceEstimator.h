@@ -90,6 +90,7 @@ class FaceEstimator
   Outline outlineTowards(std::size_t face) const;
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
+  void raiseTop(std::vector<double> shell, FaceEstimate& top) const;
   FaceEstimate outline(std::size_t face, const Outline& lines) const;
   bool leadsUp(std::size_t face, double position) const;
   bool isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const;

@@ -44,7 +44,7 @@ inline double surfaceSigma(double range, const PerceptionOptions& options)
 /** The same of the top, which no heading moves. */
 inline double topSurfaceSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0018, 0.28 * options.depthSigma(range));
+  return std::hypot(0.0011, 0.17 * options.depthSigma(range));
 }
 
 /** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
@@ -79,7 +79,7 @@ inline double topEdgeSigma(double perCell, double range, const PerceptionOptions
 /** A plane of many points, below the object. */
 inline double supportSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0006, 0.06 * options.depthSigma(range));
+  return std::hypot(0.00048, 0.05 * options.depthSigma(range));
 }
 
 }  // namespace quadmap
