@@ -157,6 +157,9 @@ TEST(LabelTable, ValuesAreSensibleForARoboticist)
     EXPECT_GE(table.properties(round).shapeExponent, 1.3) << round;
     EXPECT_FALSE(table.properties(round).dominantDirection) << round;
   }
+  EXPECT_TRUE(table.properties("dining table").levelTop);
+  for (const char* withBack : {"chair", "couch", "bed", "bench", "laptop", "bookshelf"})
+    EXPECT_FALSE(table.properties(withBack).levelTop) << withBack;
   EXPECT_EQ(table.properties("chair").support, UsualSupport::Floor);
   EXPECT_EQ(table.properties("cup").support, UsualSupport::Object);
   EXPECT_EQ(table.properties("clock").support, UsualSupport::Wall);
@@ -227,12 +230,14 @@ TEST(LabelTable, ReadsEveryKey)
 {
   const auto table = tableOf(
       "[tea cup]\naliases = mug, Cha Wan\nshapeExponent = 1.75\ndominantDirection = no\n"
-      "support = object\ntypicalSize = 0.1 0.2, 0.3\nsizeSpread = 0.4\nconfusedWith = pot\n"
+      "levelTop = yes\nsupport = object\ntypicalSize = 0.1 0.2, 0.3\nsizeSpread = "
+      "0.4\nconfusedWith = pot\n"
       "[pot]\ntypicalSize = 1 1 1\n");
   const auto p = table.properties("chawan");
   EXPECT_EQ(p.name, "tea cup");
   EXPECT_EQ(p.shapeExponent, 1.75);
   EXPECT_FALSE(p.dominantDirection);
+  EXPECT_TRUE(p.levelTop);
   EXPECT_EQ(p.support, UsualSupport::Object);
   EXPECT_EQ(p.typicalSize, Eigen::Vector3d(0.1, 0.2, 0.3));
   EXPECT_EQ(p.sizeSpread, 0.4);
@@ -253,6 +258,7 @@ TEST(LabelTable, ErrorsNameFileSectionAndKey)
       {                    good + "shapeExponent = 2.5\n",   "[cup] shapeExponent=2.5"},
       {                  good + "shapeExponent = round\n", "[cup] shapeExponent=round"},
       {              good + "dominantDirection = maybe\n",   "[cup] dominantDirection"},
+      {                         good + "levelTop = 2 m\n",            "[cup] levelTop"},
       {                      good + "support = ceiling\n",     "[cup] support=ceiling"},
       {                        good + "sizeSpread = -1\n",       "[cup] sizeSpread=-1"},
       {                       good + "shapeExponnt = 1\n",         "[cup] unknown key"},

@@ -74,13 +74,14 @@ LabelProperties readProperties(const CConfigFile& config, const std::string& sec
 {
   rejectUnknownKeys(
       config, section,
-      {"aliases", "shapeExponent", "dominantDirection", "support", "typicalSize", "sizeSpread",
+      {"aliases", "shapeExponent", "dominantDirection", "levelTop", "support", "typicalSize", "sizeSpread",
        "confusedWith"});
   LabelProperties p;
   p.name = section;
   p.known = true;
   readNumber(config, section, "shapeExponent", p.shapeExponent, 1.0, 2.0);
   readFlag(config, section, "dominantDirection", p.dominantDirection);
+  readFlag(config, section, "levelTop", p.levelTop);
   p.support = readSupport(config, section);
   p.typicalSize = readSize(config, section);
   readNumber(config, section, "sizeSpread", p.sizeSpread, 0.01, 3.0);

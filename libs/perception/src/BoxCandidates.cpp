@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "LevelTop.h"
+
 namespace quadmap
 {
 namespace
@@ -215,11 +217,20 @@ bool CandidateRule::isMaskedOut(int c, int r) const
          !mask->contains(static_cast<unsigned>(c) * stride, static_cast<unsigned>(r) * stride);
 }
 
+bool CandidateRule::isAboveTop(const Eigen::Vector3d& p) const
+{
+  if (!top_) return false;
+  constexpr double kUneven = 0.01;  // [m]
+  const double perDepth = std::abs(top_->n.dot(p)) / p.z();
+  return top_->signedDistance(p) > kUneven + 2.5 * perDepth * options_.depthSigma(p.z());
+}
+
 bool CandidateRule::isBackground(int c, int r, const Eigen::Vector3d& p) const
 {
   if (support_ && support_->signedDistance(p) < supportTolerance(p.z(), task_.label, options_))
     return true;
   const double tolerance = options_.onPlane(p.z());
+  if (isAboveTop(p)) return true;
   const int plane = planes_.all.planeAt(cloud_, c, r, tolerance);
   if (plane >= 0 && reachesBeyond(plane)) return true;
   return std::any_of(
@@ -252,6 +263,13 @@ BoxCandidates candidatesIn(
         out.points.push_back(*p);
       }
   dropWalls(walls, around, planes, options, out);
+  if (task.label.levelTop && task.support)
+    if (const auto top = levelTop(
+            cloud, out.points, out.step, planes.plane(*task.support).plane, task.label, options))
+    {
+      out.rule.setTop(*top);
+      keepOnly(out, [&](std::size_t i) { return !out.rule.isAboveTop(out.points[i]); });
+    }
   return out;
 }
 

@@ -9,7 +9,8 @@
 namespace quadmap
 {
 /** Which cells of a box may belong to its object: those with depth (and in the mask), without the
- * supporting plane, without planes that reach far beyond the box and without the wall behind it. */
+ * supporting plane, what stands on its level top, planes that reach far beyond the box and the wall
+ * behind it. */
 class CandidateRule
 {
  public:
@@ -36,6 +37,9 @@ class CandidateRule
   /** Vertical planes of the scene that reach beyond the box. */
   bool reachesBeyond(int plane) const { return reachesBeyond_[static_cast<std::size_t>(plane)]; }
 
+  const std::optional<Plane>& top() const { return top_; }
+  void setTop(const Plane& top) { top_ = top; }
+  bool isAboveTop(const Eigen::Vector3d& p) const;
   void addWall(const Plane& wall) { walls_.push_back(wall); }
 
  private:
@@ -47,6 +51,7 @@ class CandidateRule
   const ObjectTask& task_;
   const PerceptionOptions& options_;
   const Plane* support_ = nullptr;
+  std::optional<Plane> top_;
   std::vector<bool> reachesBeyond_;  // of each plane of the scene
   std::vector<Plane> walls_;         // behind the box
 };

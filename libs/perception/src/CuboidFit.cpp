@@ -114,6 +114,11 @@ CompleteMeasurement fitCuboid(
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
     doubtHiddenPart(faces, estimator);
   }
+  if (object.top)
+  {
+    faces[kTop].position = -object.top->d;
+    faces[kTop].worth = {FaceKind::Measured, topSurfaceSigma(estimator.range(), options)};
+  }
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);
   else

@@ -200,6 +200,7 @@ class Segmenter
     if (!candidates_[index])
       candidates_[index].emplace(candidatesIn(cloud_, planes_, task, options_));
     BoxCandidates& candidates = *candidates_[index];
+    out.object.top = candidates.rule.top();
     keepOnly(
         candidates, [&](std::size_t i) { return !belongsToOther(index, candidates.cells[i]); });
     const int cellsPerPoint = candidates.step * candidates.step;

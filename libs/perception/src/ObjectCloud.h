@@ -80,6 +80,7 @@ struct ObjectCloud
   std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
   CellMask mask;                        //!< All its cells
   std::optional<int> support;           //!< Plane it stands on, index in ScenePlanes
+  std::optional<Plane> top;             //!< Where its kind ends in a level surface; normal up
   double coverage = 0;                  //!< Share of the box's cells with valid depth
   double leak = 0;  //!< Share of the box's outline across which the surface goes on outside
 

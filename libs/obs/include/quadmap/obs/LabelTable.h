@@ -27,6 +27,8 @@ struct LabelProperties
   std::string name;               //!< Canonical spelling (COCO's)
   double shapeExponent = 1.5;     //!< q of h_q: 1 cuboid ... 2 ellipsoid
   bool dominantDirection = true;  //!< False: round or shapeless, its yaw means nothing
+  /** Tables, cabinets: its top is a level surface, and what is above stands on it. */
+  bool levelTop = false;
   UsualSupport support = UsualSupport::Any;
   Eigen::Vector3d typicalSize = Eigen::Vector3d(0.5, 0.5, 0.5);  //!< Full sizes (x, y, z up) [m]
   double sizeSpread = 1.0;                //!< Standard deviation of the logarithm of a size [-]
