@@ -202,6 +202,57 @@ TEST(SupportChoice, PutsACupOnTheBookItStandsOn)
   }
 }
 
+/** A table top at a height as other frames knew it, `x` and `y` its middle in the world. */
+SurfacePatch knownTop(double x, double y, double height, double depth, double width)
+{
+  constexpr double kCell = 0.05;  // [m]
+  SurfacePatch out = {
+      SurfaceKind::Horizontal, {Eigen::Vector3d::UnitZ(), -height},
+       {         }
+  };
+  for (double dx = kCell / 2 - depth / 2; dx < depth / 2; dx += kCell)
+    for (double dy = kCell / 2 - width / 2; dy < width / 2; dy += kCell)
+      out.samples.push_back(Eigen::Vector3d(x + dx, y + dy, height).cast<float>());
+  return out;
+}
+
+TEST(SupportChoice, PutsWhatStandsBehindABookOnTheTable)
+{
+  // The book hides its foot: the cover might go on under it, but not outside the book's own box.
+  for (const auto& view : kViewpoints)
+    for (const double gap : {0.06, 0.10, 0.16})
+    {
+      SyntheticFrame frame = frameFrom(view.y, view.height, view.pitch);
+      addTable(frame, 1.6, 0.0, 0.74, 0.8, 1.4);
+      const std::size_t book = frame.boxes.size();
+      frame.add(1.45, 0.0, 0.74, 0.0, {0.24, 0.32, 0.08});
+      frame.add(1.57 + gap + 0.075, 0.0, 0.74, 0.0, {0.15, 0.15, 0.28});
+      const auto chosen =
+          chosenIn(frame, {frame.detect(book, "book"), frame.detect(book + 1, "vase")});
+      EXPECT_SUPPORT(chosen[1], 0.74, std::to_string(gap) + " behind, from " + view.text());
+    }
+}
+
+TEST(SupportChoice, TakesTheHeightOfAClutteredTableFromTheFrame)
+{
+  // Between the clutter no part of the table is large enough for a plane; other frames knew it, but
+  // their poses erred.
+  for (const double poseError : {-0.02, 0.02})
+  {
+    SyntheticFrame frame = frameFrom(0.0, 1.4, 0.6);
+    frame.add(1.4, 0.0, 0.70, 0.0, {0.8, 1.4, 0.04});
+    for (int i = 0; i < 6; ++i)
+      for (int j = -5; j <= 5; ++j)
+        if (i != 3 || j != 0) frame.add(1.05 + 0.13 * i, 0.13 * j, 0.74, 0.0, {0.03, 0.03, 0.1});
+    const std::size_t apple = frame.boxes.size();
+    frame.add(1.44, 0.0, 0.74, 0.0, {0.08, 0.08, 0.08});
+    const auto known = knownTop(1.4, 0.0, 0.74 + poseError, 0.8, 1.4);
+    const auto chosen = chosenFor(frame, apple, "apple", {known});
+    ASSERT_TRUE(chosen.height) << "pose error " << poseError;
+    EXPECT_NEAR(*chosen.height, 0.74, 0.005) << "pose error " << poseError;
+  }
+}
+
 TEST(SupportChoice, PutsABookOnABook)
 {
   for (const auto& view : kViewpoints)

@@ -93,15 +93,63 @@ CheckedPatch check(const DepthCloud& cloud, const SurfacePatch& patch)
   return out;
 }
 
-/** Adds a surface known from other frames: to the plane of this frame that shows it, else as a
- * plane of its own. \param candidates Planes of this frame with that orientation. */
-void addKnown(
-    ScenePlanes& planes,
-    std::vector<int>& candidates,
-    const Plane& plane,
-    std::vector<Eigen::Vector3d> samples)
+/** A surface known from other frames, in this one. */
+struct KnownSurface
 {
-  constexpr double kSamePlane = 0.05, kNear = 0.10;  // [m]; the poses' noise
+  Plane plane;
+  std::vector<Eigen::Vector3d> samples;
+  double tolerance;      // within which it is a plane of this frame [m]
+  bool isShown = false;  // its plane is this frame's
+};
+
+/** Where a frame shows a level surface it tells its plane better than any pose. Things that stand
+ * on it have tops as well, so the surface is the level that most points agree with; where it is
+ * hidden but for some of these tops its own samples outvote them. */
+KnownSurface levelIn(
+    const DepthCloud& cloud,
+    const Plane& known,
+    std::vector<Eigen::Vector3d> samples,
+    const Eigen::Vector3d& up,
+    const PerceptionOptions& options)
+{
+  constexpr int kStep = 4;             // cells; 5000 points are enough
+  constexpr double kPoseError = 0.05;  // of its height [m]
+  constexpr double kSameLevel = 0.02;  // of two planes of one frame [m]; a keyboard is thicker
+  KnownSurface out = {known, std::move(samples), kSameLevel};
+  const PlaneExtent extent(known.n, out.samples);
+  std::vector<Eigen::Vector3d> near;
+  for (int r = 0; r < cloud.rows(); r += kStep)
+    for (int c = 0; c < cloud.columns(); c += kStep)
+    {
+      if (!cloud.valid(c, r)) continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      if (std::abs(known.signedDistance(p)) < kPoseError && extent.isWithin(p, 0))
+        near.push_back(p);
+    }
+  auto votes = near;
+  votes.insert(votes.end(), out.samples.begin(), out.samples.end());
+  const auto voted = mainLevel(votes, known.n, up, options);
+  if (!voted) return out;
+  near.erase(
+      std::remove_if(
+          near.begin(), near.end(),
+          [&](const auto& p)
+          { return std::abs(voted->plane.signedDistance(p)) > options.onPlane(p.z()); }),
+      near.end());
+  const auto level = mainLevel(near, known.n, up, options);
+  if (!level) return out;
+  out.plane = level->plane;
+  out.isShown = true;
+  return out;
+}
+
+/** Adds a surface known from other frames: to the planes of this frame that show it, else as a
+ * plane of its own. \param candidates Planes of this frame with that orientation. */
+void addKnown(ScenePlanes& planes, std::vector<int>& candidates, KnownSurface surface)
+{
+  constexpr double kNear = 0.10;  // [m]; the poses' noise
+  const auto& samples = surface.samples;
+  bool isSeen = false;
   for (const int i : candidates)
   {
     ScenePlane& seen = planes.all.planes[static_cast<std::size_t>(i)];
@@ -112,17 +160,19 @@ void addKnown(
       distance += seen.plane.signedDistance(p) / static_cast<double>(samples.size());
       overlaps = overlaps || seen.extent.isWithin(p, kNear);
     }
-    if (std::abs(distance) > kSamePlane || !overlaps) continue;
-    if (seen.extent.isEverywhere()) return;
+    if (std::abs(distance) > surface.tolerance || !overlaps) continue;
+    isSeen = true;
+    if (seen.extent.isEverywhere()) continue;
+    if (surface.isShown) seen.plane = surface.plane;
     seen.rim.insert(seen.rim.end(), samples.begin(), samples.end());
     seen.extent = PlaneExtent(seen.plane.n, seen.rim);
-    return;
   }
+  if (isSeen) return;
   ScenePlane known;
-  known.plane = plane;
+  known.plane = surface.plane;
   for (const auto& p : samples) known.centroid += p / static_cast<double>(samples.size());
-  known.extent = PlaneExtent(plane.n, samples);
-  known.rim = std::move(samples);
+  known.extent = PlaneExtent(known.plane.n, samples);
+  known.rim = std::move(surface.samples);
   candidates.push_back(static_cast<int>(planes.all.planes.size()));
   planes.all.planes.push_back(std::move(known));
 }
@@ -178,6 +228,7 @@ ScenePlanes classifyPlanes(
   constexpr double kFloorMargin = 0.06;  // [m]
   constexpr double kMaxBelowFloor = 0.03;
   constexpr std::size_t kMinSamples = 3;  // that make a surface
+  constexpr double kSameWall = 0.05;      // [m]; the poses' noise
   ScenePlanes out;
   out.all = std::move(segmentation);
   out.up = up.normalized();
@@ -215,9 +266,11 @@ ScenePlanes classifyPlanes(
     if (patch.kind == SurfaceKind::Floor) continue;
     auto standing = check(cloud, patch).standing;
     if (standing.size() < kMinSamples) continue;
-    addKnown(
-        out, patch.kind == SurfaceKind::Wall ? out.vertical : out.horizontal, patch.plane,
-        std::move(standing));
+    if (patch.kind == SurfaceKind::Wall)
+      addKnown(out, out.vertical, {patch.plane, std::move(standing), kSameWall});
+    else
+      addKnown(
+          out, out.horizontal, levelIn(cloud, patch.plane, std::move(standing), out.up, options));
   }
   sortByHeight();
   return out;
