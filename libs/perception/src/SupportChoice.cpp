@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "SupportEvidence.h"
 
@@ -35,6 +36,9 @@ double heightPenalty(double height, const LabelProperties& label)
   return (ratio > 0 ? kTooTall : kTooLow) * std::min(1.0, 0.25 * deviation * deviation);
 }
 
+/** Of planes that are tops of things their boxes. */
+using Tops = std::map<int, const DetectedObject*>;
+
 /** Decides for one box at a time. */
 class SupportJudge
 {
@@ -42,28 +46,30 @@ class SupportJudge
   SupportJudge(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
+      const Tops& tops,
       const DetectedObject& detection,
       const LabelProperties& label,
       const RoughObject& object,
       const PerceptionOptions& options) :
       cloud_(cloud),
       planes_(planes),
+      tops_(tops),
       detection_(detection),
       label_(label),
       object_(object),
       options_(options),
       ring_(ringAround(cloud, planes, detection.box, options))
   {
+    findBeside(ring_, object, label, planes.up);
   }
 
-  /** \param ownTop A plane that is the top of this very object. */
-  BoxSupport decide(const std::optional<int>& ownTop) const
+  BoxSupport decide() const
   {
     BoxSupport out;
     double best = kAnything;
     for (const int i : planes_.horizontal)
     {
-      if (ownTop && i == *ownTop) continue;
+      if (ownerOf(i) == &detection_) continue;
       const double score = object_.empty() ? flatScore(i) : standingScore(i);
       if (score <= best) continue;
       best = score;
@@ -81,6 +87,13 @@ class SupportJudge
   }
 
  private:
+  /** Whose top a plane is; none: of nothing that has a box. */
+  const DetectedObject* ownerOf(int i) const
+  {
+    const auto top = tops_.find(i);
+    return top == tops_.end() ? nullptr : top->second;
+  }
+
   bool isFloor(int i) const { return planes_.floor && *planes_.floor == i; }
 
   bool isMostlyInBox(int i) const
@@ -111,11 +124,11 @@ class SupportJudge
     constexpr double kMinCovered = 0.3, kMaxBelow = 0.5;
     const ScenePlane& plane = planes_.plane(i);
     const auto ring = touching(plane.plane);
-    const PlaneExtent extent = ring.share > kMinTouching
-                                   ? plane.extent.grown(nearExtent(ring.surface, plane.extent))
-                                   : plane.extent;
-    const auto e =
-        standingEvidence(cloud_, plane.plane, extent, object_, detection_.box, label_, options_);
+    SupportSurface surface = {plane.plane, plane.extent};
+    if (const auto* owner = ownerOf(i)) surface.box = owner->box;
+    if (ring.share > kMinTouching)
+      surface.extent = plane.extent.grown(connectedTo(cloud_, surface, ring.surface, options_));
+    const auto e = standingEvidence(cloud_, surface, object_, detection_.box, label_, options_);
     // A thing's own top is in its box, too, with little above it; thin things rise little above
     // the noise.
     const bool mayBeItsTop = label_.support == UsualSupport::Floor || isMostlyInBox(i);
@@ -134,20 +147,6 @@ class SupportJudge
   }
 
   RingEvidence touching(const Plane& plane) const { return ringOn(ring_, plane, Ring::LowerHalf); }
-
-  /** Of the points around the box that lie on a plane those that belong to the seen part of it:
-   * the segmentation loses the far ends of surfaces. */
-  static std::vector<Eigen::Vector3d> nearExtent(
-      std::vector<Eigen::Vector3d> points, const PlaneExtent& extent)
-  {
-    constexpr double kReach = 1.0;  // [m]
-    points.erase(
-        std::remove_if(
-            points.begin(), points.end(),
-            [&](const auto& p) { return !extent.isWithin(p, kReach); }),
-        points.end());
-    return points;
-  }
 
   double hangingScore(int i) const
   {
@@ -169,6 +168,7 @@ class SupportJudge
 
   const DepthCloud& cloud_;
   const ScenePlanes& planes_;
+  const Tops& tops_;
   const DetectedObject& detection_;
   const LabelProperties& label_;
   const RoughObject& object_;
@@ -189,9 +189,8 @@ bool endsWithin(
   return x > lower.x1 && x < lower.x2 && y > lower.y1 && y < lower.y2;
 }
 
-/** Adds to the planes the small level tops of objects that other boxes end on.
- * \return For each box the index of its top. */
-std::vector<std::optional<int>> addTops(
+/** Adds to the planes the small level tops of objects that other boxes end on. */
+Tops addTops(
     const DepthCloud& cloud,
     const std::vector<DetectedObject>& boxes,
     const std::vector<std::optional<RoughObject>>& objects,
@@ -199,7 +198,7 @@ std::vector<std::optional<int>> addTops(
     const PerceptionOptions& options)
 {
   constexpr double kSameLevel = 0.02;  // [m]
-  std::vector<std::optional<int>> tops(boxes.size());
+  Tops tops;
   for (std::size_t lower = 0; lower < boxes.size(); ++lower)
   {
     if (!objects[lower]) continue;
@@ -220,8 +219,9 @@ std::vector<std::optional<int>> addTops(
                  other.extent.isWithin(top->centroid, kSameLevel);
         });
     if (isKnown) continue;
-    tops[lower] = static_cast<int>(planes.all.planes.size());
-    planes.horizontal.push_back(*tops[lower]);
+    const int index = static_cast<int>(planes.all.planes.size());
+    tops[index] = &boxes[lower];
+    planes.horizontal.push_back(index);
     planes.all.planes.push_back(std::move(*top));
   }
   return tops;
@@ -251,9 +251,10 @@ std::vector<BoxSupport> chooseSupports(
   std::vector<BoxSupport> out;
   for (std::size_t i = 0; i < boxes.size(); ++i)
     out.push_back(
-        objects[i] ? SupportJudge(cloud, planes, boxes[i], properties[i], *objects[i], options)
-                         .decide(tops[i])
-                   : BoxSupport());
+        objects[i]
+            ? SupportJudge(cloud, planes, tops, boxes[i], properties[i], *objects[i], options)
+                  .decide()
+            : BoxSupport());
   return out;
 }
 

@@ -46,29 +46,40 @@ std::vector<Eigen::Vector3d> atMainDepth(std::vector<Weighted> all, double width
   return out;
 }
 
+/** Does a point appear in a box? Beyond the image's border the box may go on. */
+bool appearsIn(const PinholeCamera& camera, const ImageBox& box, const Eigen::Vector3d& p)
+{
+  constexpr double kBoxError = 0.05;  // of a detector, share of the box's size
+  if (p.z() < 0.1) return false;
+  const Eigen::Vector2d pixel =
+      camera.project(p).cwiseMax(0.0).cwiseMin(Eigen::Vector2d(camera.width, camera.height));
+  const Eigen::Vector2d error = kBoxError * Eigen::Vector2d(box.width(), box.height());
+  return pixel.x() > box.x1 - error.x() && pixel.x() < box.x2 + error.x() &&
+         pixel.y() > box.y1 - error.y() && pixel.y() < box.y2 + error.y();
+}
+
 /** Would an object at a point show outside its box, with nothing nearer in front? A detector would
  * have drawn the box around it: the object is not there. */
 bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3d& p, double margin)
 {
-  constexpr double kBoxError = 0.05;  // of a detector, share of the box's size
-  if (p.z() < 0.1) return false;
+  if (p.z() < 0.1 || appearsIn(cloud.camera(), box, p)) return false;
   const Eigen::Vector2d pixel = cloud.camera().project(p);
-  const double dx = kBoxError * box.width(), dy = kBoxError * box.height();
-  if (pixel.x() > box.x1 - dx && pixel.x() < box.x2 + dx && pixel.y() > box.y1 - dy &&
-      pixel.y() < box.y2 + dy)
-    return false;
   const int c = static_cast<int>(std::lround(pixel.x() / cloud.stride()));
   const int r = static_cast<int>(std::lround(pixel.y() / cloud.stride()));
   return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
 }
 
-/** Does the camera look through a surface somewhere between a point and its extent? */
-bool looksThroughRim(
+/** Does the camera look down past a surface somewhere between a point and its extent? A keyboard is
+ * too thin to tell along the ray, but what shows beside it lies clearly below its top. */
+bool looksPastRim(
     const DepthCloud& cloud,
-    const Eigen::Vector3d& foot,
-    const Eigen::Vector3d& toExtent,
+    const SupportSurface& surface,
+    const Eigen::Vector3d& point,
     const PerceptionOptions& options)
 {
+  const Plane& plane = surface.plane;
+  const Eigen::Vector3d foot = point - plane.signedDistance(point) * plane.n;
+  const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
   for (const double share : {0.3, 0.6, 0.9})
   {
     const Eigen::Vector3d p = foot + share * toExtent;
@@ -76,28 +87,31 @@ bool looksThroughRim(
     const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
     const int c = static_cast<int>(std::lround(pixel.x()));
     const int r = static_cast<int>(std::lround(pixel.y()));
-    const double margin = 0.03 + 2.5 * options.depthSigma(p.z());
-    if (cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() + margin) return true;
+    if (!cloud.inside(c, r) || !cloud.valid(c, r)) continue;
+    const Eigen::Vector3d seen = cloud.point(c, r).cast<double>();
+    if (plane.signedDistance(seen) < -options.onPlane(seen.z())) return true;
   }
   return false;
 }
 
 /** Does a surface reach under a point? 1 inside of its extent; falling to 0 at 10 cm outside when
  * its rim is seen, as that is known to some centimetres, and more slowly when it may go on out of
- * sight, behind or under the object. */
+ * sight, behind or under the object. The top of a thing ends within the thing's box. */
 double coverage(
     const DepthCloud& cloud,
-    const Plane& plane,
-    const PlaneExtent& extent,
+    const SupportSurface& surface,
     const Eigen::Vector3d& p,
     const PerceptionOptions& options)
 {
   constexpr double kSure = 0.02, kSeenFall = 0.08, kHiddenFall = 0.4;  // [m]
-  if (extent.isWithin(p, kSure)) return 1.0;
-  if (!extent.isWithin(p, kSure + kHiddenFall)) return 0.0;
-  const double outside = extent.outside(p) - kSure;
-  const Eigen::Vector3d foot = p - plane.signedDistance(p) * plane.n;
-  const bool isRim = looksThroughRim(cloud, foot, extent.toExtent(p), options);
+  const Plane& plane = surface.plane;
+  if (surface.box &&
+      !appearsIn(cloud.camera(), *surface.box, p - plane.signedDistance(p) * plane.n))
+    return 0.0;
+  if (surface.extent.isWithin(p, kSure)) return 1.0;
+  if (!surface.extent.isWithin(p, kSure + kHiddenFall)) return 0.0;
+  const double outside = surface.extent.outside(p) - kSure;
+  const bool isRim = looksPastRim(cloud, surface, p, options);
   return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
 }
 
@@ -181,13 +195,13 @@ RoughObject roughObject(
 
 StandingEvidence standingEvidence(
     const DepthCloud& cloud,
-    const Plane& plane,
-    const PlaneExtent& extent,
+    const SupportSurface& surface,
     const RoughObject& object,
     const ImageBox& box,
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
+  const Plane& plane = surface.plane;
   const auto& points = object.points;
   const double n = static_cast<double>(points.size());
   StandingEvidence out;
@@ -207,7 +221,7 @@ StandingEvidence standingEvidence(
   const std::size_t step = 1 + low / kMaxLowPoints;
   int looked = 0;
   for (std::size_t i = 0; i < low; i += step, ++looked)
-    out.covered += coverage(cloud, plane, extent, points[i], options);
+    out.covered += coverage(cloud, surface, points[i], options);
   out.covered /= looked;
 
   constexpr double kMinGap = 0.05;  // [m]; thinner ones say nothing
@@ -331,9 +345,22 @@ std::vector<RingPoint> ringAround(
   return out;
 }
 
+void findBeside(
+    std::vector<RingPoint>& points,
+    const RoughObject& object,
+    const LabelProperties& label,
+    const Eigen::Vector3d& up)
+{
+  if (object.empty()) return;
+  const double reach = label.typicalSize.norm() * (1.0 + 0.5 * label.sizeSpread);
+  const Eigen::Vector3d& middle = object.points[object.points.size() / 2];
+  for (auto& p : points) p.beside = up.cross(p.point - middle).norm() < reach;
+}
+
 RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring)
 {
   constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
+  constexpr double kSurely = 0.5;  // of the tolerance; the desk lies not far below a keyboard's top
   RingEvidence out;
   int all = 0, on = 0;
   for (const auto& p : points)
@@ -342,12 +369,31 @@ RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ri
     ++all;
     const double distance = std::abs(plane.signedDistance(p.point));
     if (distance > p.tolerance) continue;
-    if (ring == Ring::LowerHalf && distance > p.nearest + p.noise) continue;
+    if (ring == Ring::LowerHalf && (!p.beside || distance > p.nearest + p.noise)) continue;
     ++on;
-    if (!p.inBox && p.normal && p.normal->dot(plane.n) > kSameWay) out.surface.push_back(p.point);
+    if (!p.inBox && distance < kSurely * p.tolerance && p.normal &&
+        p.normal->dot(plane.n) > kSameWay)
+      out.surface.push_back(p.point);
   }
   if (all > 0) out.share = static_cast<double>(on) / all;
   return out;
+}
+
+std::vector<Eigen::Vector3d> connectedTo(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    std::vector<Eigen::Vector3d> points,
+    const PerceptionOptions& options)
+{
+  constexpr double kReach = 1.0;  // [m]
+  points.erase(
+      std::remove_if(
+          points.begin(), points.end(),
+          [&](const auto& p) {
+            return !surface.extent.isWithin(p, kReach) || looksPastRim(cloud, surface, p, options);
+          }),
+      points.end());
+  return points;
 }
 
 }  // namespace quadmap

@@ -40,11 +40,18 @@ struct StandingEvidence
       0;  //!< Share of the gap, outside the box, where the object would show but does not
 };
 
+/** A level surface that something may stand on. */
+struct SupportSurface
+{
+  Plane plane;
+  PlaneExtent extent;
+  std::optional<ImageBox> box = {};  //!< Of the thing whose top it is: it reaches no farther
+};
+
 /** \param object Not empty. \param box The detector's. */
 StandingEvidence standingEvidence(
     const DepthCloud& cloud,
-    const Plane& plane,
-    const PlaneExtent& extent,
+    const SupportSurface& surface,
     const RoughObject& object,
     const ImageBox& box,
     const LabelProperties& label,
@@ -89,6 +96,7 @@ struct RingPoint
   double nearest = 0;  //!< To the nearest horizontal plane that reaches there [m]
   bool inBox = false;  //!< In the lowest tenth of the box: the support shows there, too
   bool lower = false;  //!< Below the middle of the box
+  bool beside = true;  //!< No farther from the object than such a thing is large
 };
 
 /** The surroundings of a box: a ring of an eighth of its size, some hundred points. */
@@ -98,7 +106,23 @@ std::vector<RingPoint> ringAround(
     const ImageBox& box,
     const PerceptionOptions& options);
 
+/** Sets RingPoint::beside: the floor that shows past the edge of a table is around the box of what
+ * stands there, but not around its foot. */
+void findBeside(
+    std::vector<RingPoint>& points,
+    const RoughObject& object,
+    const LabelProperties& label,
+    const Eigen::Vector3d& up);
+
 /** Of two levels a hand's breadth or less apart a point shows the nearer one only. */
 RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring);
+
+/** Of points on a surface those that belong to the seen part of it: the segmentation loses the far
+ * ends of surfaces. Where the camera looks down past the surface in between, it has ended. */
+std::vector<Eigen::Vector3d> connectedTo(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    std::vector<Eigen::Vector3d> points,
+    const PerceptionOptions& options);
 
 }  // namespace quadmap
