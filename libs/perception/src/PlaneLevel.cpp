@@ -24,11 +24,14 @@ Heights heightsAlong(
 {
   constexpr double kFlatness = 0.001;  // of real surfaces [m]
   Heights out;
+  out.along.reserve(points.size());
+  out.sigmas.reserve(points.size());
   for (const auto& p : points)
   {
     out.along.push_back(direction.dot(p));
     const double perDepth = direction.dot(p) / p.z();  // errors lie along the ray
-    out.sigmas.push_back(std::hypot(kFlatness, perDepth * options.depthSigma(p.z())));
+    const double noise = perDepth * options.depthSigma(p.z());
+    out.sigmas.push_back(std::sqrt(kFlatness * kFlatness + noise * noise));
   }
   return out;
 }
@@ -36,30 +39,24 @@ Heights heightsAlong(
 /** The height that most points agree with within two of their sigmas. */
 double mode(const Heights& heights)
 {
-  struct End
+  const std::size_t count = heights.along.size();
+  std::vector<double> lower(count), upper(count);  // ends of what each point agrees with
+  for (std::size_t i = 0; i < count; ++i)
   {
-    double height;
-    int step;
-  };
-  std::vector<End> ends;
-  for (std::size_t i = 0; i < heights.along.size(); ++i)
-  {
-    ends.push_back({heights.along[i] - 2 * heights.sigmas[i], 1});
-    ends.push_back({heights.along[i] + 2 * heights.sigmas[i], -1});
+    lower[i] = heights.along[i] - 2 * heights.sigmas[i];
+    upper[i] = heights.along[i] + 2 * heights.sigmas[i];
   }
-  std::sort(
-      ends.begin(), ends.end(),
-      [](const End& a, const End& b)
-      { return a.height != b.height ? a.height < b.height : a.step > b.step; });
-  int depth = 0, deepest = 0;
+  std::sort(lower.begin(), lower.end());
+  std::sort(upper.begin(), upper.end());
+  std::size_t ended = 0, deepest = 0;
   double from = 0, to = 0;
-  for (std::size_t i = 0; i < ends.size(); ++i)
+  for (std::size_t begun = 1; begun <= count; ++begun)
   {
-    depth += ends[i].step;
-    if (depth <= deepest) continue;
-    deepest = depth;
-    from = ends[i].height;
-    to = i + 1 < ends.size() ? ends[i + 1].height : from;
+    while (upper[ended] < lower[begun - 1]) ++ended;
+    if (begun - ended <= deepest) continue;
+    deepest = begun - ended;
+    from = lower[begun - 1];
+    to = begun < count ? std::min(lower[begun], upper[ended]) : upper[ended];
   }
   return 0.5 * (from + to);
 }
@@ -84,7 +81,8 @@ Plane fit(
 {
   const Eigen::Vector3d e1 = up.unitOrthogonal(), e2 = up.cross(e1);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::size_t i : chosen) middle += points[i] / static_cast<double>(chosen.size());
+  for (const std::size_t i : chosen) middle += points[i];
+  middle /= static_cast<double>(chosen.size());
   const double share = std::min(1.0, kIndependent / static_cast<double>(chosen.size()));
   Eigen::Matrix3d A = Eigen::Vector3d(0, 1, 1).asDiagonal() * (1 / (kUpSigma * kUpSigma));
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -112,9 +110,10 @@ std::optional<PlaneLevel> mainLevel(
   const Heights heights = heightsAlong(points, up, options);
   Plane best;
   std::vector<std::size_t> onBest;
-  for (const Eigen::Vector3d& start : {normal, up})
+  const Plane tilted{normal, -mode(heightsAlong(points, normal, options))};
+  const Plane level{up, -mode(heights)};
+  for (Plane plane : {tilted, level})
   {
-    Plane plane{start, -mode(heightsAlong(points, start, options))};
     auto on = pointsOn(plane, points, heights);
     for (int i = 0; i < kRefinements && on.size() >= kMinPoints; ++i)
     {

@@ -48,11 +48,15 @@ int PlaneSegmentation::planeAt(const DepthCloud& cloud, int c, int r, double tol
 std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange& range) const
 {
   std::vector<double> inside(planes.size(), 0.0);
-  for (int r = range.r0 / kPlaneStride; r < std::min(rows_, range.r1 / kPlaneStride); ++r)
-    for (int c = range.c0 / kPlaneStride; c < std::min(columns_, range.c1 / kPlaneStride); ++c)
+  const int endR = std::min(rows_, range.r1 / kPlaneStride);
+  const int endC = std::min(columns_, range.c1 / kPlaneStride);
+  for (int r = range.r0 / kPlaneStride; r < endR; ++r)
+    for (int c = range.c0 / kPlaneStride; c < endC;)
     {
-      const int label = labels_[static_cast<std::size_t>(r * columns_ + c)];
-      if (label >= 0) inside[static_cast<std::size_t>(label)] += 1.0;
+      const int* row = &labels_[static_cast<std::size_t>(r * columns_)];
+      const int first = c, label = row[c];  // of a run
+      while (c < endC && row[c] == label) ++c;
+      if (label >= 0) inside[static_cast<std::size_t>(label)] += c - first;
     }
   const double cells = static_cast<double>(labels_.size());
   for (std::size_t i = 0; i < planes.size(); ++i)

@@ -30,8 +30,8 @@ void setLevel(ScenePlane& plane, const PlaneLevel& level, const PerceptionOption
   plane.plane = level.plane;
   plane.samples = level.samples;
   plane.centroid.setZero();
-  for (const auto& p : plane.samples)
-    plane.centroid += p / static_cast<double>(plane.samples.size());
+  for (const auto& p : plane.samples) plane.centroid += p;
+  plane.centroid /= static_cast<double>(plane.samples.size());
   plane.rim.erase(
       std::remove_if(
           plane.rim.begin(), plane.rim.end(),

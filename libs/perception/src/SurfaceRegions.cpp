@@ -31,13 +31,15 @@ std::optional<SurfaceRegion> fitRegion(const SurfaceCells& cells, std::vector<st
 {
   SurfaceRegion out;
   const double count = static_cast<double>(indices.size());
-  for (const std::size_t i : indices) out.centroid += cells[i].point.cast<double>() / count;
+  for (const std::size_t i : indices) out.centroid += cells[i].point.cast<double>();
+  out.centroid /= count;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const std::size_t i : indices)
   {
     const Eigen::Vector3d d = cells[i].point.cast<double>() - out.centroid;
-    covariance += d * d.transpose() / count;
+    covariance += d * d.transpose();
   }
+  covariance /= count;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   if (!(solver.eigenvalues()[0] < kMaxCurvature * covariance.trace())) return {};
   out.plane = Plane::throughPoint(solver.eigenvectors().col(0).normalized(), out.centroid);
