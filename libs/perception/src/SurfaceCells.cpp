@@ -20,13 +20,12 @@ constexpr int kUnit = 5, kDiagonal = 7, kFar = kUnit * (kWidest + 1);
 float jumpTolerance(float z) { return 0.06f * (1.0f + z); }
 
 /** Sums over all cells above and to the left, of the inverse depth q, its square, and q times
- * column and row. */
+ * column and row. Only those of the last rows are kept: they stay in the processor's cache. */
 class Sums
 {
  public:
-  Sums(int columns, int rows) :
-      width_(static_cast<std::size_t>(columns) + 1),
-      sums_(width_ * (static_cast<std::size_t>(rows) + 1), Eigen::Vector4d::Zero())
+  explicit Sums(int columns) :
+      width_(static_cast<std::size_t>(columns) + 1), sums_(width_ * kRows, Eigen::Vector4d::Zero())
   {
   }
 
@@ -45,9 +44,10 @@ class Sums
   }
 
  private:
+  static constexpr unsigned kRows = 16;  // > kWidest
   std::size_t index(int c, int r) const
   {
-    return static_cast<std::size_t>(r) * width_ + static_cast<std::size_t>(c);
+    return static_cast<unsigned>(r) % kRows * width_ + static_cast<std::size_t>(c);
   }
 
   std::size_t width_;
@@ -58,7 +58,7 @@ class Sums
 /** The rays of the cells: (x, y, 1) = first + (column, row) * step. */
 struct Rays
 {
-  Eigen::Vector2d first, step;
+  Eigen::Vector2d first, step, cells;  // cells: per unit of a ray, 1 / step
 
   explicit Rays(const DepthCloud& cloud)
   {
@@ -66,6 +66,7 @@ struct Rays
     const double pixels = SurfaceCells::kStride * cloud.stride();
     first = {-camera.cx / camera.fx, -camera.cy / camera.fy};
     step = {pixels / camera.fx, pixels / camera.fy};
+    cells = step.cwiseInverse();
   }
 };
 
@@ -77,13 +78,14 @@ void fitPlane(const Sums& sums, const Rays& rays, int c, int r, int width, Surfa
   const Eigen::Vector4d sum = sums.over(c, r, width);
   const double w2 = width * width, variance = (w2 - 1.0) / 12.0;  // of the columns, of the rows
   const Eigen::Vector2d middle(c + 0.5 * (width - 1), r + 0.5 * (width - 1));
-  const double q = sum[0] / w2;
-  const Eigen::Vector2d slope = (sum.segment<2>(1) / w2 - q * middle) / variance;  // per cell
+  const Eigen::Vector4d mean = sum * (1.0 / w2);
+  const double q = mean[0];
+  const Eigen::Vector2d slope = (mean.segment<2>(1) - q * middle) * (1.0 / variance);  // per cell
   const double residual =
-      std::max(0.0, sum[3] / w2 - q * q - variance * slope.squaredNorm());  // mean square, of q
+      std::max(0.0, mean[3] - q * q - variance * slope.squaredNorm());  // mean square, of q
 
   const Eigen::Vector2d ray = rays.first + middle.cwiseProduct(rays.step);
-  const Eigen::Vector2d n = slope.cwiseQuotient(rays.step);
+  const Eigen::Vector2d n = slope.cwiseProduct(rays.cells);
   const Eigen::Vector3d N(n.x(), n.y(), q - n.dot(ray));
   const double offset = 1.0 / N.norm(), z = 1.0 / q;
   cell.normal = (-offset * N).cast<float>();
@@ -159,22 +161,28 @@ void SurfaceCells::fitPlanes(const DepthCloud& cloud)
 {
   const Rays rays(cloud);
   const auto distance = distancesToJumps();
-  Sums sums(columns_, rows_);
-  std::size_t i = 0;
-  for (int r = 0; r < rows_; ++r)
-    for (int c = 0; c < columns_; ++c, ++i)
-      sums.add(c, r, cells_[i].hasDepth() ? 1.0 / double(cells_[i].point.z()) : 0.0);
+  Sums sums(columns_);
+  const auto cellAt = [&](int c, int r)
+  { return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + std::size_t(c); };
+  int summed = 0;  // rows
   for (int r = kBorder; r < rows_ - kBorder; ++r)
+  {
+    for (; summed <= r + kWidest / 2; ++summed)
+      for (int c = 0; c < columns_; ++c)
+      {
+        const SurfaceCell& cell = cells_[cellAt(c, summed)];
+        sums.add(c, summed, cell.hasDepth() ? 1.0 / double(cell.point.z()) : 0.0);
+      }
     for (int c = kBorder; c < columns_ - kBorder; ++c)
     {
-      i = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
-          static_cast<std::size_t>(c);
+      const std::size_t i = cellAt(c, r);
       if (distance[i] <= kNarrowest * kUnit) continue;
       const float z = cells_[i].point.z();
       const int wanted = std::min(kWidest, static_cast<int>(kWindow + kWider * z));
       const int width = std::min(distance[i] / kUnit, wanted);
       fitPlane(sums, rays, c - width / 2, r - width / 2, width, cells_[i]);
     }
+  }
 }
 
 }  // namespace quadmap
