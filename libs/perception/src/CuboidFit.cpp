@@ -106,7 +106,9 @@ CompleteMeasurement fitCuboid(
 
   const FaceEstimator estimator(cloud, planes, object, level, yaw.yaw, options);
   Faces faces;
-  for (std::size_t face = 0; face < kFaces; ++face) faces[face] = estimator.face(face);
+  for (std::size_t face = 0; face < kFaces; ++face)
+    if (face != kBottom || !object.support)  // on a support it is known
+      faces[face] = estimator.face(face);
   if (object.support)
   {
     // Distance of the supporting plane below the camera, along the object's -z.

@@ -82,8 +82,9 @@ double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 FaceEstimate FaceEstimator::face(std::size_t face) const
 {
   constexpr double kMaxCutTop = 0.15;  // of the lines up through the object
-  const Outline lines = outlineTowards(face);
   auto out = surface(face);
+  if (out && face != kTop) return *out;
+  const Outline lines = outlineTowards(face);
   if (!out) out = outline(face, lines);
   // The upper part of a thing need not be as wide as the lower one (a chair's back): when some of
   // it goes on beyond what is seen, its height is open.
@@ -270,8 +271,9 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
     ++rim;
     profile += inProfile ? 1 : 0;
   }
-  return profile > kMinProfile * rim &&
-         spread(std::move(depth)) > std::max(kMinDepth, kMinBreadth * spread(acrossOf(face)));
+  if (profile <= kMinProfile * rim) return false;
+  const double deep = spread(std::move(depth));
+  return deep > kMinDepth && deep > kMinBreadth * spread(acrossOf(face));
 }
 
 /** Does the object go on beyond a cell at its rim: at the image border, behind something nearer, or
@@ -289,8 +291,8 @@ bool FaceEstimator::isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& 
   constexpr int kBorder = 3;  // cells; the sensor's own rim is empty
   for (int i = 1; i <= kReach; ++i)
   {
-    const int c = static_cast<int>(std::lround(cell.c + i * direction.x()));
-    const int r = static_cast<int>(std::lround(cell.r + i * direction.y()));
+    const int c = static_cast<int>(cell.c + i * direction.x() + 0.5);  // rounded where it is inside
+    const int r = static_cast<int>(cell.r + i * direction.y() + 0.5);
     if (c < kBorder || r < kBorder || c >= cloud_.columns() - kBorder ||
         r >= cloud_.rows() - kBorder)
       return true;
