@@ -51,9 +51,11 @@ class CellMask
   template <typename Visit>
   void forEach(const Visit& visit) const  //!< Calls visit(c, r) for all cells.
   {
-    for (int r = range_.r0; r < range_.r1; ++r)
-      for (int c = range_.c0; c < range_.c1; ++c)
-        if (own_[index(c, r)] != 0) visit(c, r);
+    const DepthCloud::CellRange range = range_;  // its own: a visit cannot change it
+    const char* own = own_.data();
+    for (int r = range.r0; r < range.r1; ++r)
+      for (int c = range.c0; c < range.c1; ++c)
+        if (*own++ != 0) visit(c, r);
   }
 
  private:
