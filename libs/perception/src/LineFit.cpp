@@ -112,6 +112,7 @@ std::optional<LineFit> fitLine(std::vector<Eigen::Vector2d> points, double shell
   if (static_cast<double>(points.size()) < kMinPoints) return {};
   sortIntoBlocks(points, 0, kBlocks);
   std::vector<double> across;
+  across.reserve(points.size());
   for (const auto& p : points) across.push_back(p.y());
   double slope = 0, offset = median(std::move(across));
   Blocks blocks;

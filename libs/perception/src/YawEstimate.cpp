@@ -57,6 +57,7 @@ std::optional<LineFit> faceLine(const LevelCloud& cloud, double heading)
   constexpr double kMaxNormalAngle = 20.0 * kPi / 180.0, kShell = 0.04;  // [m]
   const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
   std::vector<Eigen::Vector2d> points;
+  points.reserve(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     if (cloud.normals[i] && cloud.normals[i]->head<2>().dot(n) > std::cos(kMaxNormalAngle))
       points.emplace_back(cloud.points[i].head<2>().dot(t), cloud.points[i].head<2>().dot(n));
@@ -103,6 +104,8 @@ Rectangle smallestRectangle(const LevelCloud& cloud)
   {
     const double yaw = degree * kPi / 180.0, c = std::cos(yaw), s = std::sin(yaw);
     std::vector<double> x, y;
+    x.reserve(kMaxPoints);
+    y.reserve(kMaxPoints);
     for (std::size_t i = 0; i < cloud.points.size(); i += step)
     {
       x.push_back(c * cloud.points[i].x() + s * cloud.points[i].y());

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quadmap/geometry/RotationDistance.h"
-
 namespace quadmap
 {
 namespace
@@ -54,11 +52,12 @@ YawHistogram::Peak YawHistogram::peak() const
   for (const auto& entry : entries_)
   {
     out.mass += entry.weight;
-    const double near = nearestEquivalentYaw(entry.yaw, coarse);
-    if (std::abs(near - coarse) > kPeakHalfWidth) continue;
+    double apart = entry.yaw - coarse;  // both are folded: less than a period
+    if (std::abs(apart) > kPeriod / 2) apart -= std::copysign(kPeriod, apart);
+    if (std::abs(apart) > kPeakHalfWidth) continue;
     inside += entry.weight;
-    offset += entry.weight * (near - coarse);
-    squares += entry.weight * (near - coarse) * (near - coarse);
+    offset += entry.weight * apart;
+    squares += entry.weight * apart * apart;
   }
   if (inside > 0)
   {
