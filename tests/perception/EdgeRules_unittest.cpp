@@ -82,6 +82,17 @@ TEST(EdgeRules, WhatStandsBehindATableHasNoBottomEdge)
   EXPECT_EQ(edges[3], 'o') << edges;
 }
 
+// From afar the desk is not found as the support, and within the strip below the screen it comes
+// much nearer than the screen.
+TEST(EdgeRules, ADeskNotHigherThanWhatStandsOnItHidesNothing)
+{
+  SyntheticFrame frame;
+  frame.add(3.5, 0.0, 0.71, 0.0, {0.2, 0.5, 0.5});
+  frame.add(3.2, 0.0, 0.67, 0.0, {0.4, 0.62, 0.04});
+  const std::string edges = edgesOf(measured(frame, {frame.detect(0, "tv")}));
+  EXPECT_EQ(edges[3], 'u') << edges;
+}
+
 TEST(EdgeRules, AScreenInFrontOccludesAlthoughItHasNoDepth)
 {
   auto frame = frameWithSuitcase();

@@ -18,6 +18,8 @@ constexpr double kContactShare = 0.1;
 /** Between a box edge and the border of the image; detectors err by as much where it cuts an object
  * [px of an image 640 wide]. */
 constexpr double kMinStrip_px = 8.0;
+/** An object's lower end is this quantile of its points' heights; some are stray ones. */
+constexpr double kLowestPart = 0.02;
 
 bool isUpright(BoxEdge edge) { return edge == BoxEdge::Left || edge == BoxEdge::Right; }
 
@@ -66,15 +68,17 @@ class EdgeJudge
       const PerceptionOptions& options) :
       cloud_(cloud), box_(box), context_(context), options_(options), inside_(cloud.cellsOf(box))
   {
-    for (const auto& other : context.boxes)
-      if (other.depth > 0 && !showOneThing(other.box, box))
-        others_.push_back({cloud.cellsOf(other.box), other.depth});
+    if (!context.object.empty()) lowest_ = lowestHeight();
+    for (const auto& screen : context.screens)
+      if (!showOneThing(screen.box, box))
+        screens_.push_back({cloud.cellsOf(screen.box), screen.depth});
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto edge = static_cast<BoxEdge>(i);
       const double depth = depthNear(edge);
       nearBorder_[i] = isNearBorder(edge, depth);
       nearer_[i] = nearerShare(edge, depth);
+      touching_[i] = nearer_[i] > 0 ? nearer_[i] * nearerShareAtEnd(edge) : 0.0;
     }
     floating_ = floating();
   }
@@ -131,6 +135,26 @@ class EdgeJudge
         [&](const Plane& surface) { return std::abs(surface.signedDistance(p)) < tolerance; });
   }
 
+  /** Of the lowest part that is seen of the object, above the camera [m]; it is not empty. */
+  double lowestHeight() const
+  {
+    const auto& points = context_.object.points;
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
+      heights.push_back(context_.up.dot(points[i]));
+    return quantile(std::move(heights), kLowestPart);
+  }
+
+  /** Does a cell hide only what is lower than the object? Its ray descends from there, so what
+   * hides the object's lower end from above rises above the lowest that is seen of it, by as much
+   * more as it is nearer. A surface that does not, such as the desk before a screen's foot, leads
+   * up to the object, whether or not it was found to be a plane. */
+  bool hidesOnlyBelow(int c, int r) const
+  {
+    const double height = context_.up.dot(cloud_.point(c, r).cast<double>());
+    return lowest_ && height < 0 && height < *lowest_ + onSupport(cloud_.depth(c, r));
+  }
+
   /** What may be taken for the object's own depth, or for that of what touches it [m]. The depth of
    * an object without a cloud of its own is that of its surroundings. */
   double depthMargin(double depth) const
@@ -141,14 +165,15 @@ class EdgeJudge
   }
 
   /** Is something at this cell nearer than `limit` [m]? A cell without depth is as near as the
-   * object of another box that it lies in. */
+   * screen that it lies on; elsewhere it lies in the shadow of a depth edge and tells nothing. */
   bool isNearer(int c, int r, double limit) const
   {
     if (cloud_.valid(c, r))
-      return cloud_.depth(c, r) < limit && !isOwnOutside(c, r) && !isOnSupport(c, r);
+      return cloud_.depth(c, r) < limit && !isOwnOutside(c, r) && !isOnSupport(c, r) &&
+             !hidesOnlyBelow(c, r);
     return std::any_of(
-        others_.begin(), others_.end(),
-        [&](const auto& other) { return other.depth < limit && other.cells.contains(c, r); });
+        screens_.begin(), screens_.end(),
+        [&](const auto& screen) { return screen.depth < limit && screen.cells.contains(c, r); });
   }
 
   /** Share of an edge's length along which `isIt(c, r)` for a cell of the strip outside it. */
@@ -261,7 +286,8 @@ class EdgeJudge
     const auto i = static_cast<std::size_t>(edge);
     HiddenEvidence e;
     e.nearer = nearer_[i];
-    if (e.nearer > 0) e.touching = e.nearer * nearerShareAtEnd(edge);
+    e.touching = touching_[i];
+    e.touchingBeside = std::max(touching_[(i + 1) % 4], touching_[(i + 3) % 4]);
     e.opposite = nearer_[(i + 2) % 4];
     e.depth = context_.depth;
     e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
@@ -296,7 +322,8 @@ class EdgeJudge
     std::vector<double> heights;
     for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
       heights.push_back(support.signedDistance(points[i]));
-    const double top = quantile(heights, 0.98), low = quantile(std::move(heights), 0.02);
+    const double top = quantile(heights, 1 - kLowestPart),
+                 low = quantile(std::move(heights), kLowestPart);
     // As much above the support was cut away with it.
     const double gap = low - onSupport(context_.depth);
     return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;
@@ -313,9 +340,10 @@ class EdgeJudge
   const EdgeContext& context_;
   const PerceptionOptions& options_;
   const DepthCloud::CellRange inside_;  // cells of the box
-  std::vector<CellsAtDepth> others_;    // the boxes whose depth is known
+  std::vector<CellsAtDepth> screens_;
   std::array<bool, 4> nearBorder_;
-  std::array<double, 4> nearer_;
+  std::array<double, 4> nearer_, touching_;
+  std::optional<double> lowest_;  // height of the object's lower end [m]
   double floating_ = 0;
 };
 

@@ -10,22 +10,22 @@
 
 namespace quadmap
 {
-/** A box of the frame and the depth of what it shows. */
+/** The box of something that returns no depth, such as a screen. */
 struct BoxAtDepth
 {
   ImageBox box;      // [px]
-  double depth = 0;  // Of its near part [m]; 0 = unknown
+  double depth = 0;  // Of what little of it was measured, or of its surroundings [m]
 };
 
 /** What is known of the object when its box edges are judged. */
 struct EdgeContext
 {
-  const ObjectCloud& object;      //!< May be empty
-  const LabelProperties& label;   //!< How large such things usually are
-  Eigen::Vector3d up;             //!< Optical frame, unit
-  double depth = 0;               //!< Of the object [m]; 0 = unknown
-  std::vector<Plane> surfaces;    //!< Support and floor are no occluders; optical frame
-  std::vector<BoxAtDepth> boxes;  //!< Of the frame: a screen in front returns no depth
+  const ObjectCloud& object;        //!< May be empty
+  const LabelProperties& label;     //!< How large such things usually are
+  Eigen::Vector3d up;               //!< Optical frame, unit
+  double depth = 0;                 //!< Of the object [m]; 0 = unknown
+  std::vector<Plane> surfaces;      //!< Support and floor are no occluders; optical frame
+  std::vector<BoxAtDepth> screens;  //!< Of the frame: in front, they hide without depth
 };
 
 /** The four box edges as tangent planes in the sensor frame, with what speaks against each: near

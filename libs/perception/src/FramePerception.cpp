@@ -20,6 +20,9 @@ constexpr unsigned kCoarseColumns = 32, kCoarseRows = 24;
  * measurements beyond are wrong by more than four sigmas, below one of ten. */
 constexpr double kMaxLeak = 0.2;
 
+/** What returns depth in more of its box is no screen: what lacks it there are shadows of edges. */
+constexpr double kMaxScreenCoverage = 0.5;
+
 Eigen::Vector3d toSensor(const Eigen::Vector3d& p_optical)
 {
   return {p_optical.z(), -p_optical.x(), -p_optical.y()};
@@ -29,8 +32,8 @@ Eigen::Vector3d toOptical(const Eigen::Vector3d& p_sensor)
   return {-p_sensor.y(), -p_sensor.z(), p_sensor.x()};
 }
 
-/** The boxes of a frame with the depth of their near parts, as far as it was measured. */
-std::vector<BoxAtDepth> boxesAtDepth(
+/** The boxes of a frame that are mostly without depth: screens, glass. */
+std::vector<BoxAtDepth> screensOf(
     const DepthCloud& cloud,
     const std::vector<ObjectTask>& tasks,
     const std::vector<ObjectCloud>& objects)
@@ -40,11 +43,11 @@ std::vector<BoxAtDepth> boxesAtDepth(
   {
     const ImageBox& box = tasks[i].detection->box;
     const ImageBox visible = box.clipped(cloud.camera().width, cloud.camera().height);
-    out.push_back({box, 0});
+    if (!visible.isValid() || objects[i].coverage > kMaxScreenCoverage) continue;
     if (!objects[i].empty())
-      out.back().depth = nearDepthOf(objects[i]);
-    else if (visible.isValid())
-      if (const auto seed = seedWithoutCloud(cloud, visible)) out.back().depth = seed->z();
+      out.push_back({box, nearDepthOf(objects[i])});
+    else if (const auto seed = seedWithoutCloud(cloud, visible))
+      out.push_back({box, seed->z()});
   }
   return out;
 }
@@ -65,7 +68,7 @@ struct FramePerception::Impl
       const ScenePlanes& planes,
       const ObjectTask& task,
       const ObjectCloud& object,
-      const std::vector<BoxAtDepth>& boxes) const;
+      const std::vector<BoxAtDepth>& screens) const;
   void tryComplete(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
@@ -121,7 +124,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     const ScenePlanes& planes,
     const ObjectTask& task,
     const ObjectCloud& object,
-    const std::vector<BoxAtDepth>& boxes) const
+    const std::vector<BoxAtDepth>& screens) const
 {
   const DetectedObject& detection = *task.detection;
   ObjectMeasurement out;
@@ -134,7 +137,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   }
   out.depthCoverage = object.coverage;
 
-  EdgeContext context{object, task.label, planes.up, 0, {}, boxes};
+  EdgeContext context{object, task.label, planes.up, 0, {}, screens};
   if (object.support) context.surfaces.push_back(planes.plane(*object.support).plane);
   if (planes.floor) context.surfaces.push_back(planes.plane(*planes.floor).plane);
   std::optional<Eigen::Vector3d> seed;
@@ -210,9 +213,9 @@ FrameSurfaces FramePerception::measure(
   ScenePlanes planes = classifyPlanes(cloud, std::move(segmentation), *up, known, impl_->options);
   const auto tasks = impl_->tasksOf(cloud, planes, boxes.objects);
   const auto objects = segmentObjects(cloud, planes, tasks, impl_->options);
-  const auto depths = boxesAtDepth(cloud, tasks, objects);
+  const auto screens = screensOf(cloud, tasks, objects);
   for (std::size_t i = 0; i < tasks.size(); ++i)
-    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i], depths);
+    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i], screens);
 
   FrameSurfaces out = surfacesOf(cloud, planes, known);
   for (auto& patch : out.seen) patch = transformed(patch, T_sensor_optical());

@@ -9,7 +9,10 @@ struct HiddenEvidence
   /** The same times the share of the object's outermost cells that it touches: what hides the end
    * of an object does so where the object seems to end */
   double touching = 0;
-  double opposite = 0;      //!< The same of the opposite edge: then what is hidden is over there
+  /** `touching` of the two edges that meet this one, the larger: an object whose lower end is
+   * hidden may be wider down there. */
+  double touchingBeside = 0;
+  double opposite = 0;      //!< `nearer` of the opposite edge: then what is hidden is over there
   double depth = 0;         //!< Of the object [m]: from afar, contacts are harder to see
   bool cutBeside = false;   //!< One of the two edges that meet this one is at the image border
   bool anyContact = false;  //!< Any edge of the box is at the border or has something nearer

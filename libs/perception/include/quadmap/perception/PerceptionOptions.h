@@ -51,7 +51,7 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   /** An edge is not used when the object goes on beyond it with more than this probability; 1: the
    * rule is off. 0.1: below 1 % of the edges in use are wrong on simulated homes
    * (doc/benchmarks.md). */
-  double maxHiddenProbability = 0.10;
+  double maxHiddenProbability = 0.07;
   /** What a detector's box edge may be off by when boxes are compared with what the depth shows [px
    * of an image 640 px wide], > 0: detectors look at images of one size, whatever the camera's. */
   double edgeTolerance = 6.0;
