@@ -13,7 +13,7 @@ constexpr double kMaxTilt = 20.0 * M_PI / 180.0;
 /** How far the unseen end of an axis may lie beyond what was seen, as a share of that size. */
 constexpr double kUnseenShare = 0.35;
 /** Smallest believable standard deviation of a face [m]. */
-constexpr double kMinFaceSigma = 0.0007;
+constexpr double kMinFaceSigma = 0.0006;
 /** Where an object without any depth is looked for: range and its standard deviation [m]. */
 constexpr double kBlindRange = 2.5, kBlindRangeSigma = 1.2;
 

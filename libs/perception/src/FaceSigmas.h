@@ -79,7 +79,7 @@ inline double topEdgeSigma(double perCell, double range, const PerceptionOptions
 /** A plane of many points, below the object. */
 inline double supportSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.00048, 0.05 * options.depthSigma(range));
+  return std::hypot(0.00045, 0.048 * options.depthSigma(range));
 }
 
 }  // namespace quadmap
