@@ -14,8 +14,12 @@ constexpr double kMaxTilt = 20.0 * M_PI / 180.0;
 constexpr double kUnseenShare = 0.35;
 /** Smallest believable standard deviation of a face [m]. */
 constexpr double kMinFaceSigma = 0.0006;
-/** Where an object without any depth is looked for: range and its standard deviation [m]. */
+/** Where an object without any depth is looked for that nobody knows the size of: range and its
+ * standard deviation [m]. */
 constexpr double kBlindRange = 2.5, kBlindRangeSigma = 1.2;
+/** Of the logarithm of a range from the size of a box, besides what objects of a kind differ by:
+ * they are seen from their narrow and their broad side. */
+constexpr double kViewSpread = 0.2;
 
 Eigen::Vector3d composed(const mrpt::poses::CPose3D& T, const Eigen::Vector3d& p)
 {
@@ -105,6 +109,32 @@ Eigen::Matrix3d cuboidCenterCovariance(const ObjectView& view)
   return S;
 }
 
+/** Where four usable edges alone say that an object is. */
+struct BlindPosition
+{
+  Eigen::Vector3d direction;  // from the camera, through the middle of the box
+  double range, sigma;        // along it [m]
+};
+
+BlindPosition blindPosition(
+    const std::vector<ObjectView::Edge>& edges, const LabelProperties& properties)
+{
+  const Eigen::Vector3d &left = edges[0].plane.n, &top = edges[1].plane.n,
+                        &right = edges[2].plane.n, &bottom = edges[3].plane.n;
+  // Two opposite tangent planes are halved by the one with the difference of their normals.
+  Eigen::Vector3d direction = (left - right).cross(top - bottom).normalized();
+  if (direction.dot(left + top + right + bottom) < 0) direction = -direction;
+  if (!properties.known) return {direction, kBlindRange, kBlindRangeSigma};
+  const auto angle = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+  { return std::acos(std::clamp(-a.dot(b), -1.0, 1.0)); };
+  const auto rangeOf = [](double size, double seen)
+  { return 0.5 * size / std::tan(0.5 * std::max(seen, 1e-3)); };
+  const double width = std::sqrt(properties.typicalSize.x() * properties.typicalSize.y());
+  const double range = std::sqrt(
+      rangeOf(width, angle(left, right)) * rangeOf(properties.typicalSize.z(), angle(top, bottom)));
+  return {direction, range, range * std::hypot(properties.sizeSpread, kViewSpread)};
+}
+
 /** Position of a partial measurement: the seed, pushed inwards by half the typical depth; without
  * a seed somewhere along the ray through the box. */
 void setPartialPosition(
@@ -128,10 +158,10 @@ void setPartialPosition(
   }
   else
   {
-    for (const auto& edge : view.edges) direction += edge.plane.n;  // all four: forwards
-    direction.normalize();
-    view.center = view.camera + kBlindRange * direction;
-    alongRay = kBlindRangeSigma;
+    const BlindPosition blind = blindPosition(view.edges, properties);
+    direction = blind.direction;
+    view.center = view.camera + blind.range * direction;
+    alongRay = blind.sigma;
   }
   const double acrossRay = 0.05 + 0.24 * size.mean();
   view.centerCovariance =
