@@ -74,8 +74,8 @@ LabelProperties readProperties(const CConfigFile& config, const std::string& sec
 {
   rejectUnknownKeys(
       config, section,
-      {"aliases", "shapeExponent", "dominantDirection", "levelTop", "support", "typicalSize", "sizeSpread",
-       "confusedWith"});
+      {"aliases", "shapeExponent", "dominantDirection", "levelTop", "support", "typicalSize",
+       "sizeSpread", "confusedWith"});
   LabelProperties p;
   p.name = section;
   p.known = true;

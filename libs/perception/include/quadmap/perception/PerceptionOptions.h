@@ -56,10 +56,10 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
    * of an image 640 px wide], > 0: detectors look at images of one size, whatever the camera's. */
   double edgeTolerance = 6.0;
   /** Standard deviation of a box edge: this [px of an image 640 px wide], > 0, and that share of
-   * the box's size across the edge, >= 0. A real detector's edges jitter by about two thirds of it
-   * (doc/guide/write-a-scene.md); the rest is for what it gets wrong alike in all images. */
-  double edgeSigma = 2.0;
-  double edgeSigmaShare = 0.015;
+   * the box's size across the edge, >= 0. A real detector's edges jitter by about three quarters of
+   * it (doc/guide/write-a-scene.md); the rest is for what it gets wrong alike in all images. */
+  double edgeSigma = 1.7;
+  double edgeSigmaShare = 0.013;
 
   void loadFromConfigFile(
       const mrpt::config::CConfigFileBase& config, const std::string& section) override;
