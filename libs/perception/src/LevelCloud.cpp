@@ -31,7 +31,7 @@ LevelCloud levelCloud(
   for (const auto& p : object.points) centroid += p;
   out.R_level_optical = levelRotation(up_optical, centroid.normalized());
   out.medianRange = median(sampleOf(object.points, 2));
-  constexpr std::size_t kMaxSamples = 2500;
+  constexpr std::size_t kMaxSamples = 1600;
   const std::size_t step = 1 + object.points.size() / kMaxSamples;
   out.cellsPerSample = static_cast<double>(step) * object.step * object.step;
   out.cellsPerNormal = cloud.cellsPerNormal(out.medianRange);

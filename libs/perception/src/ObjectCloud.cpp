@@ -323,7 +323,7 @@ class Segmenter
 
 std::vector<double> sampleOf(const std::vector<Eigen::Vector3d>& points, int axis)
 {
-  constexpr std::size_t kMost = 2000;
+  constexpr std::size_t kMost = 800;
   const std::size_t step = 1 + points.size() / kMost;
   std::vector<double> out;
   out.reserve(points.size() / step + 1);
