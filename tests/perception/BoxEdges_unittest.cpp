@@ -8,7 +8,7 @@ using namespace quadmap;
 
 namespace
 {
-/** An image 320 px wide: its border rule is 15 px, its edges are known to 3 px. */
+/** An image 320 px wide: its border rule is 15 px. */
 CObservationObjects imageWith(const std::vector<ImageBox>& boxes)
 {
   CObservationObjects image;
@@ -55,7 +55,10 @@ TEST(BoxEdges, ArePlanesThroughCameraAndEdge)
   auto image = imageWith({
       {100, 80, 180, 140}
   });
-  measureWithoutDepth(image, PerceptionOptions());
+  PerceptionOptions options;
+  options.edgeSigma = 2.0;
+  options.edgeSigmaShare = 0.015;
+  measureWithoutDepth(image, options);
   const auto& edges = *image.objects[0].measurement.edges;
   const PinholeCamera camera = pinholeFrom(image.cameraParams);
   const auto inSensor = [&](double u, double v)
