@@ -51,14 +51,13 @@ class AreaOfHeight
 /** The bin of the largest level that stands out: a vertical side covers all heights alike. */
 std::optional<int> largestLevel(const AreaOfHeight& areas, double minArea)
 {
+  constexpr int kApart = 2 * kHalfWindow + 1;  // bins from one window to the next
   std::optional<int> best;
   double largest = minArea;
   for (int i = 0; i < areas.size(); ++i)
   {
     const double area = areas.window(i);
-    const double apart = 2 * kHalfWindow + 1;
-    const double beside = 0.5 * (areas.window(i - static_cast<int>(apart)) +
-                                 areas.window(i + static_cast<int>(apart)));
+    const double beside = 0.5 * (areas.window(i - kApart) + areas.window(i + kApart));
     if (area <= largest || area < kMinContrast * beside) continue;
     largest = area;
     best = i;
