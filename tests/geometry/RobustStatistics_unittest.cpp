@@ -27,6 +27,26 @@ TEST(Quantile, InterpolatesBetweenOrderStatistics)
   EXPECT_DOUBLE_EQ(quantile({7}, 0.3), 7);
 }
 
+TEST(Quantile, ARangeHasTheQuantilesAtBothEnds)
+{
+  std::mt19937 random(2);
+  std::normal_distribution<double> gaussian;
+  for (const std::size_t count : {1, 2, 31, 400, 1600})
+  {
+    std::vector<double> values(count);
+    for (double& v : values) v = gaussian(random);
+    values.push_back(kNaN);
+    for (const double p : {0.0, 0.005, 0.02, 0.05, 0.3})
+    {
+      const QuantileRange range = quantileRange(values, p);
+      EXPECT_EQ(range.low, quantile(values, p)) << p << " of " << count;
+      EXPECT_EQ(range.high, quantile(values, 1 - p)) << p << " of " << count;
+      EXPECT_EQ(range.width(), range.high - range.low);
+    }
+  }
+  EXPECT_THROW(quantileRange({kNaN}, 0.1), std::invalid_argument);
+}
+
 TEST(Quantile, FarOutAgreesWithSortedValues)
 {
   std::mt19937 random(1);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/geometry/RotationDistance.h"
 
 namespace quadmap
@@ -190,6 +191,43 @@ TEST(YawEstimate, TakesTheLineOfAFlatThingWithoutNormals)
     ASSERT_TRUE(estimate.defined);
     EXPECT_LT(yawDistance(estimate.yaw, yaw), 3 * estimate.sigma);
     EXPECT_LT(estimate.sigma, 1.0 * kDegree);
+  }
+}
+
+TEST(YawEstimate, TakesTheSmallestOfAllRectanglesWithoutNormals)
+{
+  Rng rng(6);
+  std::uniform_real_distribution<double> share(-0.5, 0.5);
+  for (int i = 0; i < 40; ++i)
+  {
+    LevelCloud cloud = emptyCloud(2.0);
+    const double width = 0.3 + 0.5 * (share(rng) + 0.5);
+    const Eigen::Rotation2Dd turned(M_PI * share(rng));
+    for (int k = 0; k < 390; ++k)
+    {
+      const Eigen::Vector2d p = turned * Eigen::Vector2d(width * share(rng), 0.3 * share(rng));
+      cloud.points.emplace_back(2 + p.x(), p.y(), 0.0);
+    }
+    cloud.normals.resize(cloud.points.size());
+    double smallest = 1e9, heading = 0;
+    for (int degree = 0; degree < 90; degree += 2)
+    {
+      std::vector<double> x, y;
+      const Eigen::Rotation2Dd back(-degree * kDegree);
+      for (const auto& p : cloud.points)
+      {
+        const Eigen::Vector2d q = back * p.head<2>();
+        x.push_back(q.x());
+        y.push_back(q.y());
+      }
+      const QuantileRange along = quantileRange(x, 0.02), across = quantileRange(y, 0.02);
+      if (along.width() * across.width() >= smallest) continue;
+      smallest = along.width() * across.width();
+      heading = degree * kDegree + (along.width() >= across.width() ? 0.0 : M_PI / 2);
+    }
+    const YawEstimate yaw = estimateYaw(cloud, PerceptionOptions());
+    ASSERT_FALSE(yaw.defined);
+    EXPECT_NEAR(yaw.yaw, heading, 1e-9) << i;
   }
 }
 

@@ -7,17 +7,23 @@
 
 namespace quadmap
 {
-double quantile(std::vector<double> values, double p)
+namespace
 {
-  if (!(p >= 0 && p <= 1)) throw std::invalid_argument("quantile: p must be in [0, 1]");
+void dropInfinite(std::vector<double>& values)
+{
   values.erase(
       std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }),
       values.end());
   if (values.empty()) throw std::invalid_argument("quantile: no finite value");
+}
 
+/** \param values Finite, at least one; put into another order. */
+double quantileOf(std::vector<double>& values, double p)
+{
+  if (!(p >= 0 && p <= 1)) throw std::invalid_argument("quantile: p must be in [0, 1]");
   const double position = p * static_cast<double>(values.size() - 1);
-  const double fraction = position - std::floor(position);
   const auto rank = static_cast<std::size_t>(position);
+  const double fraction = position - static_cast<double>(rank);
   // Far out few values need to be looked at twice.
   constexpr std::size_t kTail = 32;
   if (values.size() - rank <= values.size() / kTail)
@@ -40,6 +46,20 @@ double quantile(std::vector<double> values, double p)
   if (fraction == 0) return *below;
   const double above = *std::min_element(below + 1, values.end());
   return *below + fraction * (above - *below);
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double p)
+{
+  dropInfinite(values);
+  return quantileOf(values, p);
+}
+
+QuantileRange quantileRange(std::vector<double> values, double p)
+{
+  dropInfinite(values);
+  return {quantileOf(values, p), quantileOf(values, 1 - p)};
 }
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }

@@ -322,8 +322,7 @@ class EdgeJudge
     std::vector<double> heights;
     for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
       heights.push_back(support.signedDistance(points[i]));
-    const double top = quantile(heights, 1 - kLowestPart),
-                 low = quantile(std::move(heights), kLowestPart);
+    const auto [low, top] = quantileRange(std::move(heights), kLowestPart);
     // As much above the support was cut away with it.
     const double gap = low - onSupport(context_.depth);
     return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;

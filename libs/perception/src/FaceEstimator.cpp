@@ -19,8 +19,7 @@ constexpr double kAway = 0.25;  // cosine from which a side is turned away
 double spread(std::vector<double> values)
 {
   if (values.empty()) return 0.0;
-  const double high = quantile(values, 0.95);
-  return high - quantile(std::move(values), 0.05);
+  return quantileRange(std::move(values), 0.05).width();
 }
 
 }  // namespace
@@ -62,8 +61,9 @@ FaceEstimator::FaceEstimator(
   centroid_ /= static_cast<double>(size());
   for (const std::size_t axis : {0, 1, 2})
   {
-    extremes_[2 * axis] = quantile(points_[axis], 1.0 - kTailShare);
-    extremes_[2 * axis + 1] = -quantile(points_[axis], kTailShare);
+    const QuantileRange range = quantileRange(points_[axis], kTailShare);
+    extremes_[2 * axis] = range.high;
+    extremes_[2 * axis + 1] = -range.low;
   }
 }
 

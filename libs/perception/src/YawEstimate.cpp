@@ -94,28 +94,57 @@ struct Rectangle
   double yaw = 0, width = 0;  // of its longer side [rad], [m]
 };
 
+/** What some points extend over along an axis [m]. */
+struct Extent
+{
+  double most = 0;  // of them, without stray ones
+  double all = 0;
+
+  explicit Extent(std::vector<double> values)
+  {
+    constexpr double kStray = 0.02;  // share of the points, at either end
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    all = *highest - *lowest;
+    most = quantileRange(std::move(values), kStray).width();
+  }
+  /** The least that `most` may be when the axis is turned. \param across Extent across it. */
+  double turnedBy(double angle, const Extent& across) const
+  {
+    return std::max(0.0, most * std::cos(angle) - across.all * std::sin(angle));
+  }
+};
+
 Rectangle smallestRectangle(const LevelCloud& cloud)
 {
   constexpr std::size_t kMaxPoints = 400;
+  constexpr int kStep = 2;  // [deg]
   const std::size_t step = 1 + cloud.points.size() / kMaxPoints;
   Rectangle best;
   double bestArea = 1e9;
-  for (int degree = 0; degree < 90; degree += 2)
+  for (int degree = 0; degree < 90;)
   {
     const double yaw = degree * kPi / 180.0, c = std::cos(yaw), s = std::sin(yaw);
-    std::vector<double> x, y;
-    x.reserve(kMaxPoints);
-    y.reserve(kMaxPoints);
+    std::vector<double> along, across;
+    along.reserve(kMaxPoints);
+    across.reserve(kMaxPoints);
     for (std::size_t i = 0; i < cloud.points.size(); i += step)
     {
-      x.push_back(c * cloud.points[i].x() + s * cloud.points[i].y());
-      y.push_back(-s * cloud.points[i].x() + c * cloud.points[i].y());
+      along.push_back(c * cloud.points[i].x() + s * cloud.points[i].y());
+      across.push_back(-s * cloud.points[i].x() + c * cloud.points[i].y());
     }
-    const double dx = quantile(x, 0.98) - quantile(x, 0.02);
-    const double dy = quantile(y, 0.98) - quantile(y, 0.02);
-    if (dx * dy >= bestArea) continue;
-    bestArea = dx * dy;
-    best = dx >= dy ? Rectangle{yaw, dx} : Rectangle{yaw + kPi / 2, dy};
+    const Extent x(std::move(along)), y(std::move(across));
+    if (x.most * y.most < bestArea)
+    {
+      bestArea = x.most * y.most;
+      best = x.most >= y.most ? Rectangle{yaw, x.most} : Rectangle{yaw + kPi / 2, y.most};
+    }
+    // The next heading whose rectangle may be smaller.
+    double turn = 0;
+    do
+    {
+      degree += kStep;
+      turn += kStep * kPi / 180.0;
+    } while (degree < 90 && x.turnedBy(turn, y) * y.turnedBy(turn, x) > bestArea);
   }
   return best;
 }

@@ -8,6 +8,14 @@ namespace quadmap
  * \exception std::invalid_argument If there is no finite value or p is out of range. */
 double quantile(std::vector<double> values, double p);
 
+/** The p- and the (1 - p)-quantile, p < 0.5. */
+struct QuantileRange
+{
+  double low, high;
+  double width() const { return high - low; }
+};
+QuantileRange quantileRange(std::vector<double> values, double p);
+
 double median(std::vector<double> values);
 
 /** Standard deviation estimated from the median absolute deviation (times 1.4826). */
