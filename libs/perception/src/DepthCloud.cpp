@@ -41,19 +41,27 @@ DepthCloud::DepthCloud(
   for (int r = 0; r < rows_; ++r)
     rayY_.push_back(static_cast<float>((r * stride_ - camera_.cy) / camera_.fy));
 
-  depth_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.f);
+  depth_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   const float minRange = static_cast<float>(options.minRange);
   const float maxRange = static_cast<float>(options.maxRange);
   for (int r = 0; r < rows_; ++r)
+  {
+    const auto* row = &range(r * stride_, 0);
+    float* cells = &depth_[index(0, r)];
     for (int c = 0; c < columns_; ++c)
     {
-      float z = static_cast<float>(range(r * stride_, c * stride_)) * scan.rangeUnits;
+      float z = static_cast<float>(row[c * stride_]) * scan.rangeUnits;
       if (!scan.range_is_depth)
         z /= std::sqrt(
             1.f + rayX_[std::size_t(c)] * rayX_[std::size_t(c)] +
             rayY_[std::size_t(r)] * rayY_[std::size_t(r)]);
-      if (z >= minRange && z <= maxRange) depth_[index(c, r)] = z;
+      cells[c] = z >= minRange && z <= maxRange ? z : 0.f;
     }
+  }
+  constexpr int kSparse = 4;
+  for (int r = 0; r < rows_; r += kSparse)
+    for (int c = 0; c < columns_; c += kSparse)
+      if (valid(c, r)) sparsePoints_.push_back(point(c, r).cast<double>());
 }
 
 int DepthCloud::normalReach(float z) const

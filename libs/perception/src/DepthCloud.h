@@ -38,6 +38,10 @@ class DepthCloud
     return {rayX_[static_cast<std::size_t>(c)] * z, rayY_[static_cast<std::size_t>(r)] * z, z};
   }
 
+  /** Points of every fourth valid cell of every fourth row [m]: statistics over the whole frame
+   * need no more than these 5000. */
+  const std::vector<Eigen::Vector3d>& sparsePoints() const { return sparsePoints_; }
+
   /** Unit normal of the surface at a cell, towards the camera, from differences over about 6 cm,
    * or more where the noise is larger; nothing at depth edges. */
   std::optional<Eigen::Vector3f> normal(int c, int r) const;
@@ -83,6 +87,7 @@ class DepthCloud
   PerceptionOptions options_;
   int stride_ = 1, columns_ = 0, rows_ = 0;
   std::vector<float> depth_, rayX_, rayY_;
+  std::vector<Eigen::Vector3d> sparsePoints_;
 };
 
 }  // namespace quadmap

@@ -217,7 +217,7 @@ FrameSurfaces FramePerception::measure(
   for (std::size_t i = 0; i < tasks.size(); ++i)
     boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i], screens);
 
-  FrameSurfaces out = surfacesOf(cloud, planes, known);
+  FrameSurfaces out = surfacesOf(cloud, planes);
   for (auto& patch : out.seen) patch = transformed(patch, T_sensor_optical());
   for (auto& p : out.seenThrough) p = transformed(p, T_sensor_optical());
   return out;

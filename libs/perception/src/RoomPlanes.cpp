@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace quadmap
 {
@@ -87,17 +86,23 @@ bool RoomPlanes::isNear(const Track& track, const SurfacePatch& patch_map)
     const auto index = [](int i) { return i >= 0 ? i / kNear : (i + 1) / kNear - 1; };
     return Cell(index(c.first), index(c.second));
   };
-  std::set<Cell> occupied;
-  for (const auto& [cell, state] : track.cells) occupied.insert(coarse(cell));
-  return std::any_of(
-      patch_map.samples.begin(), patch_map.samples.end(),
-      [&](const auto& p)
-      {
-        const Cell c = coarse(cellOf(track, p.template cast<double>()));
-        for (int k = 0; k < 9; ++k)
-          if (occupied.count({c.first + k % 3 - 1, c.second + k / 3 - 1})) return true;
-        return false;
-      });
+  std::vector<Cell> occupied;
+  for (const auto& [cell, state] : track.cells)
+    if (const Cell c = coarse(cell); occupied.empty() || c != occupied.back())
+      occupied.push_back(c);
+  std::sort(occupied.begin(), occupied.end());
+  const auto isOccupied = [&](const Cell& c)
+  { return std::binary_search(occupied.begin(), occupied.end(), c); };
+  std::optional<Cell> last;  // neighbours mostly share a cell
+  for (const auto& p : patch_map.samples)
+  {
+    const Cell c = coarse(cellOf(track, p.cast<double>()));
+    if (c == last) continue;
+    last = c;
+    for (int k = 0; k < 9; ++k)
+      if (isOccupied({c.first + k % 3 - 1, c.second + k / 3 - 1})) return true;
+  }
+  return false;
 }
 
 bool RoomPlanes::isConfirmed(const Track& track) { return track.frames >= kMinFrames; }

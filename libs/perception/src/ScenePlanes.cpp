@@ -12,17 +12,12 @@ namespace
 /** Share of the cloud's points that lie more than `margin` behind (below) the plane. */
 double shareBelow(const DepthCloud& cloud, const Plane& plane, double margin)
 {
-  constexpr int kStep = 4;  // a statistic over some 5000 points is enough
-  int below = 0, all = 0;
-  for (int r = 0; r < cloud.rows(); r += kStep)
-    for (int c = 0; c < cloud.columns(); c += kStep)
-      if (cloud.valid(c, r))
-      {
-        ++all;
-        const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-        if (plane.signedDistance(p) < -margin * std::max(1.0, 0.5 * p.z())) ++below;
-      }
-  return all > 0 ? static_cast<double>(below) / all : 0.0;
+  const auto& points = cloud.sparsePoints();
+  const auto below = std::count_if(
+      points.begin(), points.end(),
+      [&](const auto& p)
+      { return plane.signedDistance(p) < -margin * std::max(1.0, 0.5 * p.z()); });
+  return points.empty() ? 0.0 : static_cast<double>(below) / static_cast<double>(points.size());
 }
 
 void setLevel(ScenePlane& plane, const PlaneLevel& level, const PerceptionOptions& options)
@@ -62,17 +57,13 @@ void levelFloor(ScenePlanes& planes, const PerceptionOptions& options)
   for (const int i : pieces) planes.all.planes[static_cast<std::size_t>(i)].plane = level->plane;
 }
 
-/** The samples of a known surface that this frame does not look through. */
-struct CheckedPatch
-{
-  std::vector<Eigen::Vector3d> standing;
-  std::vector<Eigen::Vector3f> seenThrough;
-};
-
-CheckedPatch check(const DepthCloud& cloud, const SurfacePatch& patch)
+/** The samples of a known surface that are not seen through; those that are go to `seenThrough`. */
+std::vector<Eigen::Vector3d> standing(
+    const DepthCloud& cloud, const SurfacePatch& patch, std::vector<Eigen::Vector3f>& seenThrough)
 {
   constexpr double kBehind = 0.08;  // [m]; what is seen must lie this far behind the surface
-  CheckedPatch out;
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(patch.samples.size());
   for (const auto& sample : patch.samples)
   {
     const Eigen::Vector3d p = sample.cast<double>();
@@ -84,11 +75,11 @@ CheckedPatch check(const DepthCloud& cloud, const SurfacePatch& patch)
       if (cloud.inside(c, r) && cloud.valid(c, r) &&
           patch.plane.signedDistance(cloud.point(c, r).cast<double>()) < -kBehind)
       {
-        out.seenThrough.push_back(sample);
+        seenThrough.push_back(sample);
         continue;
       }
     }
-    out.standing.push_back(p);
+    out.push_back(p);
   }
   return out;
 }
@@ -98,8 +89,9 @@ struct KnownSurface
 {
   Plane plane;
   std::vector<Eigen::Vector3d> samples;
-  double tolerance;      // within which it is a plane of this frame [m]
-  bool isShown = false;  // its plane is this frame's
+  double tolerance;                        // within which it is a plane of this frame [m]
+  bool isShown = false;                    // its plane is this frame's
+  std::optional<PlaneExtent> extent = {};  // when it is known already
 };
 
 /** Where a frame shows a level surface it tells its plane better than any pose. Things that stand
@@ -112,20 +104,15 @@ KnownSurface levelIn(
     const Eigen::Vector3d& up,
     const PerceptionOptions& options)
 {
-  constexpr int kStep = 4;             // cells; 5000 points are enough
   constexpr double kPoseError = 0.05;  // of its height [m]
   constexpr double kSameLevel = 0.02;  // of two planes of one frame [m]; a keyboard is thicker
   KnownSurface out = {known, std::move(samples), kSameLevel};
-  const PlaneExtent extent(known.n, out.samples);
+  out.extent = PlaneExtent(known.n, out.samples);
   std::vector<Eigen::Vector3d> near;
-  for (int r = 0; r < cloud.rows(); r += kStep)
-    for (int c = 0; c < cloud.columns(); c += kStep)
-    {
-      if (!cloud.valid(c, r)) continue;
-      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      if (std::abs(known.signedDistance(p)) < kPoseError && extent.isWithin(p, 0))
-        near.push_back(p);
-    }
+  for (const auto& p : cloud.sparsePoints())
+    if (std::abs(known.signedDistance(p)) < kPoseError && out.extent->isWithin(p, 0))
+      near.push_back(p);
+  if (near.empty()) return out;  // most known surfaces are out of sight
   auto votes = near;
   votes.insert(votes.end(), out.samples.begin(), out.samples.end());
   const auto voted = mainLevel(votes, known.n, up, options);
@@ -140,6 +127,7 @@ KnownSurface levelIn(
   if (!level) return out;
   out.plane = level->plane;
   out.isShown = true;
+  out.extent.reset();
   return out;
 }
 
@@ -154,13 +142,13 @@ void addKnown(ScenePlanes& planes, std::vector<int>& candidates, KnownSurface su
   {
     ScenePlane& seen = planes.all.planes[static_cast<std::size_t>(i)];
     double distance = 0;
-    bool overlaps = false;
     for (const auto& p : samples)
-    {
       distance += seen.plane.signedDistance(p) / static_cast<double>(samples.size());
-      overlaps = overlaps || seen.extent.isWithin(p, kNear);
-    }
-    if (std::abs(distance) > surface.tolerance || !overlaps) continue;
+    if (std::abs(distance) > surface.tolerance ||
+        std::none_of(
+            samples.begin(), samples.end(),
+            [&](const auto& p) { return seen.extent.isWithin(p, kNear); }))
+      continue;
     isSeen = true;
     if (seen.extent.isEverywhere()) continue;
     if (surface.isShown) seen.plane = surface.plane;
@@ -171,7 +159,7 @@ void addKnown(ScenePlanes& planes, std::vector<int>& candidates, KnownSurface su
   ScenePlane known;
   known.plane = surface.plane;
   for (const auto& p : samples) known.centroid += p / static_cast<double>(samples.size());
-  known.extent = PlaneExtent(known.plane.n, samples);
+  known.extent = surface.extent ? *surface.extent : PlaneExtent(known.plane.n, samples);
   known.rim = std::move(surface.samples);
   candidates.push_back(static_cast<int>(planes.all.planes.size()));
   planes.all.planes.push_back(std::move(known));
@@ -263,21 +251,19 @@ ScenePlanes classifyPlanes(
   if (out.floor) out.all.planes[static_cast<std::size_t>(*out.floor)].extent = PlaneExtent();
   for (const auto& patch : known)
   {
-    if (patch.kind == SurfaceKind::Floor) continue;
-    auto standing = check(cloud, patch).standing;
-    if (standing.size() < kMinSamples) continue;
+    auto samples = standing(cloud, patch, out.seenThrough);
+    if (patch.kind == SurfaceKind::Floor || samples.size() < kMinSamples) continue;
     if (patch.kind == SurfaceKind::Wall)
-      addKnown(out, out.vertical, {patch.plane, std::move(standing), kSameWall});
+      addKnown(out, out.vertical, {patch.plane, std::move(samples), kSameWall});
     else
       addKnown(
-          out, out.horizontal, levelIn(cloud, patch.plane, std::move(standing), out.up, options));
+          out, out.horizontal, levelIn(cloud, patch.plane, std::move(samples), out.up, options));
   }
   sortByHeight();
   return out;
 }
 
-FrameSurfaces surfacesOf(
-    const DepthCloud& cloud, const ScenePlanes& planes, const std::vector<SurfacePatch>& known)
+FrameSurfaces surfacesOf(const DepthCloud& cloud, const ScenePlanes& planes)
 {
   constexpr double kWallMargin = 0.10;  // [m]
   constexpr double kMaxBehindWall = 0.03;
@@ -297,11 +283,7 @@ FrameSurfaces surfacesOf(
     if (planes.plane(i).share > kMinWallShare &&
         shareBelow(cloud, planes.plane(i).plane, kWallMargin) <= kMaxBehindWall)
       add(i, SurfaceKind::Wall);
-  for (const auto& patch : known)
-  {
-    const auto through = check(cloud, patch).seenThrough;
-    out.seenThrough.insert(out.seenThrough.end(), through.begin(), through.end());
-  }
+  out.seenThrough = planes.seenThrough;
   return out;
 }
 

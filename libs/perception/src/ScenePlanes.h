@@ -18,6 +18,7 @@ struct ScenePlanes
   std::optional<int> floor;  //!< The lowest horizontal one, when nothing much lies under it
   bool floorSeen = false;    //!< False: the floor is the one known from other frames, if any
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();  //!< Optical frame, unit
+  std::vector<Eigen::Vector3f> seenThrough;  //!< Samples of known surfaces that are not there [m]
 
   const ScenePlane& plane(int index) const { return all.planes[static_cast<std::size_t>(index)]; }
 };
@@ -37,9 +38,7 @@ ScenePlanes classifyPlanes(
     const std::vector<SurfacePatch>& known,
     const PerceptionOptions& options);
 
-/** What the frame says about the surfaces of the room, optical frame.
- * \param known As above. */
-FrameSurfaces surfacesOf(
-    const DepthCloud& cloud, const ScenePlanes& planes, const std::vector<SurfacePatch>& known);
+/** What the frame says about the surfaces of the room, optical frame. */
+FrameSurfaces surfacesOf(const DepthCloud& cloud, const ScenePlanes& planes);
 
 }  // namespace quadmap
