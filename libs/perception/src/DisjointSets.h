@@ -24,6 +24,7 @@ class DisjointSets
 
   void join(int i, int j)
   {
+    if (parent(i) == parent(j)) return;
     const int a = firstOf(i), b = firstOf(j);
     parent(std::max(a, b)) = std::min(a, b);
   }

@@ -1,6 +1,7 @@
 #include "PlaneSegmentation.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "SurfaceRegions.h"
 
@@ -12,6 +13,15 @@ constexpr int kPlaneStride = SurfaceCells::kStride;
 constexpr std::size_t kMaxSamples = 600;  // of a plane: 5 cm apart on a large table
 constexpr int kNone = -1, kSeveral = -2;  // instead of a label
 constexpr int kRimWidth = 2;              // cells; the segmentation leaves out the rim of planes
+
+/** Makes each value the `best` of itself and those `step` before and behind it. */
+template <typename T, typename Best>
+void spread(T* values, std::size_t count, std::size_t step, const Best& best)
+{
+  const std::vector<T> before(values, values + count);
+  for (std::size_t i = step; i < count; ++i) values[i] = best(values[i], before[i - step]);
+  for (std::size_t i = step; i < count; ++i) values[i - step] = best(values[i - step], before[i]);
+}
 
 }  // namespace
 
@@ -97,34 +107,19 @@ void PlaneSegmentation::findLabelsAround()
 {
   // Lowest and highest label of the cells that planeAt() looks at, first along the rows. As
   // unsigned, no label is above all others.
-  const auto width = static_cast<std::size_t>(columns_), height = static_cast<std::size_t>(rows_);
-  constexpr std::size_t kRim = kRimWidth;
-  std::vector<unsigned> low(labels_.begin(), labels_.end());
-  std::vector<int> high = labels_;
-  const auto spread = [&](std::size_t to, std::size_t from, const auto& lows, const auto& highs)
+  const std::size_t width = static_cast<std::size_t>(columns_), all = labels_.size();
+  std::vector<std::uint16_t> low(labels_.begin(), labels_.end());
+  std::vector<std::int16_t> high(labels_.begin(), labels_.end());
+  for (std::size_t row = 0; row < all; row += width)
   {
-    low[to] = std::min(low[to], lows[from]);
-    high[to] = std::max(high[to], highs[from]);
-  };
-  for (std::size_t r = 0; r < height; ++r)
-    for (std::size_t i = r * width; i + kRim < (r + 1) * width; ++i)
-    {
-      const auto label = labels_[i], other = labels_[i + kRim];
-      low[i] = std::min(low[i], static_cast<unsigned>(other));
-      high[i] = std::max(high[i], other);
-      low[i + kRim] = std::min(low[i + kRim], static_cast<unsigned>(label));
-      high[i + kRim] = std::max(high[i + kRim], label);
-    }
-  const auto rowLow = low;
-  const auto rowHigh = high;
-  for (std::size_t i = 0; i + kRim * width < labels_.size(); ++i)
-  {
-    spread(i, i + kRim * width, rowLow, rowHigh);
-    spread(i + kRim * width, i, rowLow, rowHigh);
+    spread(&low[row], width, kRimWidth, [](auto a, auto b) { return std::min(a, b); });
+    spread(&high[row], width, kRimWidth, [](auto a, auto b) { return std::max(a, b); });
   }
-  around_.resize(labels_.size());
-  for (std::size_t i = 0; i < around_.size(); ++i)
-    around_[i] = high[i] < 0 ? kNone : high[i] == static_cast<int>(low[i]) ? high[i] : kSeveral;
+  spread(low.data(), all, kRimWidth * width, [](auto a, auto b) { return std::min(a, b); });
+  spread(high.data(), all, kRimWidth * width, [](auto a, auto b) { return std::max(a, b); });
+  around_.resize(all);
+  for (std::size_t i = 0; i < all; ++i)
+    around_[i] = high[i] < 0 ? kNone : high[i] == low[i] ? high[i] : kSeveral;
 }
 
 void PlaneSegmentation::findRims(const DepthCloud& cloud, const PerceptionOptions& options)
@@ -154,14 +149,16 @@ void PlaneSegmentation::findRims(const DepthCloud& cloud, const PerceptionOption
     for (int line = 0; line < lines; ++line)
     {
       std::fill(spans.begin(), spans.end(), Span());
-      for (int i = 0; i < length; ++i)
+      const int* labels = labels_.data() + (alongRows ? line * columns_ : line);
+      const int step = alongRows ? 1 : columns_;
+      for (int i = 0; i < length;)
       {
-        const int label = labels_[static_cast<std::size_t>(
-            alongRows ? line * columns_ + i : i * columns_ + line)];
+        const int first = i, label = labels[i * step];  // of a run
+        while (i < length && labels[i * step] == label) ++i;
         if (label < 0) continue;
         Span& span = spans[static_cast<std::size_t>(label)];
-        if (span.first < 0) span.first = i;
-        span.last = i;
+        if (span.first < 0) span.first = first;
+        span.last = i - 1;
       }
       for (std::size_t k = 0; k < spans.size(); ++k)
       {

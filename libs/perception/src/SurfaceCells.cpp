@@ -19,6 +19,21 @@ constexpr int kUnit = 5, kDiagonal = 7, kFar = kUnit * (kWidest + 1);
 /** Two neighbouring cells of one surface differ by less in depth [m]. */
 float jumpTolerance(float z) { return 0.06f * (1.0f + z); }
 
+/** Sets the distance of each of some cells and of that `step` farther to 0 unless both show one
+ * surface. \param z Depths [m], 0 for none: of `count + step` cells. */
+void markJumps(const float* z, std::size_t step, std::size_t count, int* distance)
+{
+  std::vector<int> isOne(count);  // surface: all bits set
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float a = z[i], b = z[i + step];
+    const bool haveDepth = std::min(a, b) > 0, areNear = std::abs(a - b) <= jumpTolerance(a);
+    isOne[i] = -static_cast<int>(haveDepth & areNear);
+  }
+  for (std::size_t i = 0; i < count; ++i) distance[i] &= isOne[i];
+  for (std::size_t i = 0; i < count; ++i) distance[i + step] &= isOne[i];
+}
+
 /** Sums over all cells above and to the left, of the inverse depth q, its square, and q times
  * column and row. Only those of the last rows are kept: they stay in the processor's cache. */
 class Sums
@@ -122,38 +137,35 @@ SurfaceCells::SurfaceCells(const DepthCloud& cloud) :
  * kFar. */
 std::vector<int> SurfaceCells::distancesToJumps() const
 {
+  // Loops without branches over plain numbers, which the compiler makes four steps at a time of.
   const auto width = static_cast<std::size_t>(columns_), height = static_cast<std::size_t>(rows_);
+  std::vector<float> z(cells_.size());
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = cells_[i].point.z();
   std::vector<int> distance(cells_.size(), kFar);
-  const auto compare = [&](std::size_t i, std::size_t j)
-  {
-    const float a = cells_[i].point.z(), b = cells_[j].point.z();
-    if (a > 0 && b > 0 && std::abs(a - b) <= jumpTolerance(a)) return;
-    distance[i] = distance[j] = 0;
-  };
   for (std::size_t r = 0; r < height; ++r)
-    for (std::size_t c = 0, i = r * width; c < width; ++c, ++i)
+    markJumps(&z[r * width], 1, width - 1, &distance[r * width]);
+  markJumps(z.data(), width, z.size() - width, distance.data());
+  // From above and from below; the ends of rows stay as they are.
+  const auto spread = [&](int* row, const int* other)
+  {
+    for (std::size_t c = 1; c + 1 < width; ++c)
     {
-      if (c + 1 < width) compare(i, i + 1);
-      if (r + 1 < height) compare(i, i + width);
+      const int diagonally = std::min(other[c - 1], other[c + 1]) + kDiagonal;
+      row[c] = std::min(std::min(row[c], other[c] + kUnit), diagonally);
     }
-  const auto bound = [&](std::size_t i, std::size_t from, int step)
-  { distance[i] = std::min(distance[i], distance[from] + step); };
+  };
   for (std::size_t r = 1; r < height; ++r)
-    for (std::size_t c = 1, i = r * width + 1; c + 1 < width; ++c, ++i)
-    {
-      bound(i, i - 1, kUnit);
-      bound(i, i - width, kUnit);
-      bound(i, i - width - 1, kDiagonal);
-      bound(i, i - width + 1, kDiagonal);
-    }
+  {
+    int* row = &distance[r * width];
+    spread(row, row - width);
+    for (std::size_t c = 1; c + 1 < width; ++c) row[c] = std::min(row[c], row[c - 1] + kUnit);
+  }
   for (std::size_t r = height - 1; r-- > 0;)
-    for (std::size_t c = width - 1, i = r * width + c - 1; c-- > 1; --i)
-    {
-      bound(i, i + 1, kUnit);
-      bound(i, i + width, kUnit);
-      bound(i, i + width + 1, kDiagonal);
-      bound(i, i + width - 1, kDiagonal);
-    }
+  {
+    int* row = &distance[r * width];
+    spread(row, row + width);
+    for (std::size_t c = width - 1; c-- > 1;) row[c] = std::min(row[c], row[c + 1] + kUnit);
+  }
   return distance;
 }
 
