@@ -27,19 +27,36 @@ ImageBox enlarged(const ImageBox& box, double share)
   return {box.x1 - dx, box.y1 - dy, box.x2 + dx, box.y2 + dy};
 }
 
+/** A point and how near to a plane it is on it [m]. */
+struct TolerantPoint
+{
+  Eigen::Vector3d point;
+  double tolerance;
+  bool isOn(const Plane& plane) const { return std::abs(plane.signedDistance(point)) < tolerance; }
+};
+using TolerantPoints = std::vector<TolerantPoint>;
+
+TolerantPoints withTolerances(
+    const std::vector<Eigen::Vector3d>& points, const PerceptionOptions& options)
+{
+  TolerantPoints out;
+  out.reserve(points.size());
+  for (const auto& p : points) out.push_back({p, options.onPlane(p.z())});
+  return out;
+}
+
 /** Points around a box, a regular sample, without floors and table tops. */
-std::vector<Eigen::Vector3d> surroundings(
+TolerantPoints surroundings(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const ImageBox& box,
     const PerceptionOptions& options)
 {
-  const auto isOnTop = [&](const Eigen::Vector3d& p)
+  const auto isOnTop = [&](const TolerantPoint& p)
   {
     return std::any_of(
         planes.horizontal.begin(), planes.horizontal.end(),
-        [&](int i)
-        { return std::abs(planes.plane(i).plane.signedDistance(p)) < options.onPlane(p.z()); });
+        [&](int i) { return p.isOn(planes.plane(i).plane); });
   };
   constexpr double kRing = 0.15;  // width, of the box's size
   constexpr int kStep = 3;        // cells
@@ -47,25 +64,23 @@ std::vector<Eigen::Vector3d> surroundings(
   const auto outer =
       cloud.cellsOf({box.x1 - width, box.y1 - width, box.x2 + width, box.y2 + width});
   const auto inner = cloud.cellsOf(box);
-  std::vector<Eigen::Vector3d> out;
+  TolerantPoints out;
   for (int r = outer.r0; r < outer.r1; r += kStep)
     for (int c = outer.c0; c < outer.c1; c += kStep)
     {
       if (inner.contains(c, r) || !cloud.valid(c, r)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      if (!isOnTop(p)) out.push_back(p);
+      const TolerantPoint tolerant = {p, options.onPlane(p.z())};
+      if (!isOnTop(tolerant)) out.push_back(tolerant);
     }
   return out;
 }
 
-int countOn(
-    const Plane& plane,
-    const std::vector<Eigen::Vector3d>& points,
-    const PerceptionOptions& options)
+int countOn(const Plane& plane, const TolerantPoints& points)
 {
-  return static_cast<int>(std::count_if(
-      points.begin(), points.end(),
-      [&](const auto& p) { return std::abs(plane.signedDistance(p)) < options.onPlane(p.z()); }));
+  int count = 0;
+  for (const auto& p : points) count += p.isOn(plane) ? 1 : 0;
+  return count;
 }
 
 /** Share of the surroundings on a plane that makes it the wall behind the box; less may be a thing
@@ -75,25 +90,19 @@ constexpr double kMinWallShare = 0.15;
 /** Vertical planes that much of the box's surroundings lies on: they go on behind the object, also
  * where the segmentation lost them. */
 std::vector<Plane> wallsAround(
-    const ScenePlanes& planes,
-    const std::vector<Eigen::Vector3d>& around,
-    const CandidateRule& rule,
-    const PerceptionOptions& options)
+    const ScenePlanes& planes, const TolerantPoints& around, const CandidateRule& rule)
 {
   std::vector<Plane> out;
   for (const int i : planes.vertical)
-    if (rule.reachesBeyond(i) && countOn(planes.plane(i).plane, around, options) >
-                                     kMinWallShare * static_cast<double>(around.size()))
+    if (rule.reachesBeyond(i) &&
+        countOn(planes.plane(i).plane, around) > kMinWallShare * static_cast<double>(around.size()))
       out.push_back(planes.plane(i).plane);
   return out;
 }
 
 /** The vertical plane that most of the surroundings lies on, where the segmentation found none:
  * through pairs of points in a fixed order, refined by nothing but the count. */
-std::optional<Plane> wallThrough(
-    const std::vector<Eigen::Vector3d>& around,
-    const Eigen::Vector3d& up,
-    const PerceptionOptions& options)
+std::optional<Plane> wallThrough(const TolerantPoints& around, const Eigen::Vector3d& up)
 {
   constexpr std::size_t kTrials = 60;
   constexpr double kMinBase = 0.2;  // between the two points [m]
@@ -104,14 +113,15 @@ std::optional<Plane> wallThrough(
   for (std::size_t i = 0; i < kTrials; ++i)
   {
     // Strides that are coprime with most sizes spread the pairs over the ring.
-    const Eigen::Vector3d &p = around[(i * 7919) % n], &q = around[(i * 104729 + n / 2) % n];
+    const Eigen::Vector3d& p = around[(i * 7919) % n].point;
+    const Eigen::Vector3d& q = around[(i * 104729 + n / 2) % n].point;
     const Eigen::Vector3d along = q - p;
     if ((along - up * up.dot(along)).norm() < kMinBase) continue;
     Plane plane;
     plane.n = up.cross(along).normalized();
     plane.d = -plane.n.dot(p);
     if (plane.d < 0) plane = {-plane.n, -plane.d};  // towards the camera
-    const int count = countOn(plane, around, options);
+    const int count = countOn(plane, around);
     if (count <= bestCount) continue;
     bestCount = count;
     best = plane;
@@ -124,18 +134,16 @@ std::optional<Plane> wallThrough(
 bool goesOnBehind(
     const Plane& wall,
     const Eigen::Vector3d& up,
-    const std::vector<Eigen::Vector3d>& around,
-    const std::vector<Eigen::Vector3d>& points,
-    const PerceptionOptions& options)
+    const TolerantPoints& around,
+    const TolerantPoints& points)
 {
   constexpr double kSlack = 0.05;  // [m]
   const Eigen::Vector3d along = up.cross(wall.n);
-  const auto rangeOf = [&](const std::vector<Eigen::Vector3d>& cloud)
+  const auto rangeOf = [&](const TolerantPoints& cloud)
   {
     Eigen::AlignedBox1d range;
     for (const auto& p : cloud)
-      if (std::abs(wall.signedDistance(p)) < options.onPlane(p.z()))
-        range.extend(Eigen::Matrix<double, 1, 1>(along.dot(p)));
+      if (p.isOn(wall)) range.extend(Eigen::Matrix<double, 1, 1>(along.dot(p.point)));
     return range;
   };
   const auto on = rangeOf(points), enclosing = rangeOf(around);
@@ -144,23 +152,21 @@ bool goesOnBehind(
 }
 
 /** Could it be the object's own side, with most of the object on it or something behind it? */
-bool isOwnSide(
-    const Plane& wall, const std::vector<Eigen::Vector3d>& points, const PerceptionOptions& options)
+bool isOwnSide(const Plane& wall, const TolerantPoints& points)
 {
   constexpr double kMaxOn = 0.5, kMaxBehind = 0.02;  // shares of the candidates
   const auto all = static_cast<double>(points.size());
   const auto behind = std::count_if(
       points.begin(), points.end(),
-      [&](const auto& p) { return wall.signedDistance(p) < -options.onPlane(p.z()); });
-  return countOn(wall, points, options) > kMaxOn * all ||
-         static_cast<double>(behind) > kMaxBehind * all;
+      [&](const auto& p) { return wall.signedDistance(p.point) < -p.tolerance; });
+  return countOn(wall, points) > kMaxOn * all || static_cast<double>(behind) > kMaxBehind * all;
 }
 
 /** Takes away what lies on the walls behind the box: those of the segmentation, else one that only
  * the surroundings show. */
 void dropWalls(
     const std::vector<Plane>& walls,
-    const std::vector<Eigen::Vector3d>& around,
+    const TolerantPoints& around,
     const ScenePlanes& planes,
     const PerceptionOptions& options,
     BoxCandidates& candidates)
@@ -177,12 +183,13 @@ void dropWalls(
         });
   };
   for (const auto& wall : walls)
-    if (goesOnBehind(wall, planes.up, around, candidates.points, options)) drop(wall);
+    if (goesOnBehind(wall, planes.up, around, withTolerances(candidates.points, options)))
+      drop(wall);
   if (!walls.empty()) return;
-  const auto wall = wallThrough(around, planes.up, options);
-  if (wall && !isOwnSide(*wall, candidates.points, options) &&
-      goesOnBehind(*wall, planes.up, around, candidates.points, options))
-    drop(*wall);
+  const auto wall = wallThrough(around, planes.up);
+  if (!wall) return;
+  const auto points = withTolerances(candidates.points, options);
+  if (!isOwnSide(*wall, points) && goesOnBehind(*wall, planes.up, around, points)) drop(*wall);
 }
 
 }  // namespace
@@ -251,7 +258,7 @@ BoxCandidates candidatesIn(
       range, stepFor(range.cells())
   };
   const auto around = surroundings(cloud, planes, box, options);
-  const auto walls = wallsAround(planes, around, out.rule, options);
+  const auto walls = wallsAround(planes, around, out.rule);
   const auto atMost = static_cast<std::size_t>(range.cells() / (out.step * out.step));
   out.cells.reserve(atMost);
   out.points.reserve(atMost);

@@ -79,18 +79,20 @@ bool looksPastRim(
 {
   const Plane& plane = surface.plane;
   const Eigen::Vector3d foot = point - plane.signedDistance(point) * plane.n;
-  const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
-  for (const double share : {0.3, 0.6, 0.9})
+  const auto looksPast = [&](const Eigen::Vector3d& p)
   {
-    const Eigen::Vector3d p = foot + share * toExtent;
-    if (p.z() < 0.1) continue;
+    if (p.z() < 0.1) return false;
     const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
     const int c = static_cast<int>(std::lround(pixel.x()));
     const int r = static_cast<int>(std::lround(pixel.y()));
-    if (!cloud.inside(c, r) || !cloud.valid(c, r)) continue;
+    if (!cloud.inside(c, r) || !cloud.valid(c, r)) return false;
     const Eigen::Vector3d seen = cloud.point(c, r).cast<double>();
-    if (plane.signedDistance(seen) < -options.onPlane(seen.z())) return true;
-  }
+    return plane.signedDistance(seen) < -options.onPlane(seen.z());
+  };
+  const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
+  if (toExtent.isZero(0)) return looksPast(foot);
+  for (const double share : {0.3, 0.6, 0.9})
+    if (looksPast(foot + share * toExtent)) return true;
   return false;
 }
 
@@ -263,15 +265,13 @@ std::optional<ScenePlane> topOf(
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
     {
-      if (std::any_of(holes.begin(), holes.end(), [&](const auto& h) { return h.contains(c, r); }))
-        continue;
-      const auto normal = cloud.normal(c, r);
-      if (!normal || normal->cast<double>().dot(planes.up) < kFacesUp) continue;
+      const auto isHole = [&](const auto& hole) { return hole.contains(c, r); };
+      if (!cloud.valid(c, r) || std::any_of(holes.begin(), holes.end(), isHole)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
-      const double tolerance = options.onPlane(p.z());
-      const int plane = planes.all.planeAt(cloud, c, r, tolerance);
-      if (plane >= 0 && object.planeShares[static_cast<std::size_t>(plane)] < kOwnShare) continue;
-      points.push_back(p);
+      const int plane = planes.all.planeAt(cloud, c, r, options.onPlane(p.z()));
+      if (plane >= 0 && object.planeShares[std::size_t(plane)] < kOwnShare) continue;
+      const auto normal = cloud.normal(c, r);
+      if (normal && normal->cast<double>().dot(planes.up) >= kFacesUp) points.push_back(p);
     }
   std::stable_sort(
       points.begin(), points.end(),
