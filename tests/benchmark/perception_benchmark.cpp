@@ -13,6 +13,7 @@
 
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/FramePerception.h"
+#include "quadmap/perception/RoomPlanes.h"
 #include "quadmap/sensors/TumDataset.h"
 #include "quadmap/sensors/simulator/Simulator.h"
 
@@ -28,7 +29,12 @@ struct Frame
 {
   mrpt::obs::CObservation3DRangeScan::Ptr scan;
   CObservationObjects boxes;
-  Eigen::Vector3d up_sensor;
+  mrpt::poses::CPose3D T_world_sensor;
+
+  Eigen::Vector3d up_sensor() const
+  {
+    return T_world_sensor.getRotationMatrix().asEigen().row(2).transpose();
+  }
 };
 using Frames = std::vector<Frame>;
 
@@ -45,10 +51,7 @@ void addFrame(
     const std::optional<mrpt::poses::CPose3D>& T_world_robot)
 {
   if (!boxes || boxes->objects.empty() || !T_world_robot) return;
-  const auto T_world_sensor = *T_world_robot + scan->sensorPose;
-  const Eigen::Vector3d up_sensor =
-      T_world_sensor.getRotationMatrix().asEigen().transpose() * Eigen::Vector3d::UnitZ();
-  frames.push_back({scan, *boxes, up_sensor});
+  frames.push_back({scan, *boxes, *T_world_robot + scan->sensorPose});
 }
 
 /** Spread over the walk of which the bundled recording is made, in 640x480. */
@@ -162,8 +165,9 @@ void measureFrames(benchmark::State& state, const Frames& frames)
   {
     const Frame& frame = frames[next++ % frames.size()];
     CObservationObjects measured = frame.boxes;
+    const Eigen::Vector3d up_sensor = frame.up_sensor();
     const double start_ms = threadTime_ms();
-    perception.measure(*frame.scan, measured, frame.up_sensor);
+    perception.measure(*frame.scan, measured, up_sensor);
     times_ms.push_back(threadTime_ms() - start_ms);
     benchmark::DoNotOptimize(measured.objects.data());
   }
@@ -173,16 +177,21 @@ void measureFrames(benchmark::State& state, const Frames& frames)
   state.counters["p95_ms"] = quantile(times_ms, 0.95);
 }
 
-/** Memory after some of the frames: allocated, and resident. */
+/** Memory after some of the frames, with the surfaces of the room that they show: allocated, and
+ * resident. */
 void measureMemory(benchmark::State& state, const Frames& frames)
 {
   const FramePerception perception(PerceptionOptions(), LabelTable::installed());
+  RoomPlanes room;
   int done = 0;
   for (auto _ : state)
   {
     const Frame& frame = frames[static_cast<std::size_t>(done) % frames.size()];
     CObservationObjects measured = frame.boxes;
-    perception.measure(*frame.scan, measured, frame.up_sensor);
+    room.add(
+        perception.measure(
+            *frame.scan, measured, frame.up_sensor(), room.around(frame.T_world_sensor)),
+        frame.T_world_sensor);
     ++done;
     for (const int look : kLooksAtMemory)
       if (done == look)
