@@ -77,6 +77,32 @@ TEST(ObjectCloud, TellsTwoBooksSideBySideApart)
   for (const auto& one : m) EXPECT_NEAR(boundsInWorld(frame, one).sizes().y(), 0.18, 0.03);
 }
 
+TEST(ObjectCloud, DoesNotTakeTheEndOfATouchingThingForASide)
+{
+  SyntheticFrame frame(1.2, 0.6);
+  frame.noise = 0.001;
+  frame.add(1.4, 0.0, 0.0, 0.0, {0.7, 1.2, 0.7});
+  frame.add(1.3, 0.0, 0.7, 0.0, {0.24, 0.30, 0.06});
+  frame.add(1.3, -0.25, 0.7, 0.0, {0.12, 0.20, 0.06});  // nobody detects it
+  const auto m = measureAll(frame, {frame.detect(1, "book")}, frame.scan());
+  ASSERT_TRUE(m[0].complete) << m[0].reason;
+  const Ellipsoid cuboid = m[0].complete->object_sensor.transformed(frame.T_world_sensor);
+  for (std::size_t f = 0; f < 4; ++f)
+  {
+    const auto axis = static_cast<Eigen::Index>(f / 2);
+    const Eigen::Vector3d n = (f % 2 == 0 ? 1.0 : -1.0) * cuboid.rotation().col(axis);
+    const bool towardsOther = n.y() < -0.9;
+    EXPECT_EQ(m[0].complete->faces[f].kind == FaceKind::Unknown, towardsOther) << n.transpose();
+    const double half = std::abs(n.y()) > 0.5 ? 0.15 : 0.12;
+    const double end =
+        n.dot(cuboid.center() - Eigen::Vector3d(1.3, 0, 0.73)) + cuboid.semiAxes()[axis];
+    if (!towardsOther)
+    {
+      EXPECT_NEAR(end, half, 0.01) << n.transpose();
+    }
+  }
+}
+
 TEST(ObjectCloud, LeavesTheThingInFrontToTheBoxItSuits)
 {
   SyntheticFrame frame;

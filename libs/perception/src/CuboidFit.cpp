@@ -43,7 +43,8 @@ void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator)
   for (std::size_t side = 0; side < kSides; ++side)
   {
     auto& worth = faces[side].worth;
-    if (estimator.facingAway(side) < -0.25) worth.kind = FaceKind::AtLeast;
+    if (estimator.facingAway(side) < -0.25 && worth.kind == FaceKind::Measured)
+      worth.kind = FaceKind::AtLeast;
     worth.sigma += kSideDoubt;
   }
 }

@@ -83,13 +83,33 @@ FaceEstimate FaceEstimator::face(std::size_t face) const
 {
   constexpr double kMaxCutTop = 0.15;  // of the lines up through the object
   auto out = surface(face);
-  if (out && face != kTop) return *out;
-  const Outline lines = outlineTowards(face);
-  if (!out) out = outline(face, lines);
-  // The upper part of a thing need not be as wide as the lower one (a chair's back): when some of
-  // it goes on beyond what is seen, its height is open.
-  if (face == kTop && cutShare(lines, face, -1e9) > kMaxCutTop) out->worth.kind = FaceKind::AtLeast;
+  if (!out || face == kTop)
+  {
+    const Outline lines = outlineTowards(face);
+    if (!out) out = outline(face, lines);
+    // The upper part of a thing need not be as wide as the lower one (a chair's back): when some of
+    // it goes on beyond what is seen, its height is open.
+    if (face == kTop && cutShare(lines, face, -1e9) > kMaxCutTop)
+      out->worth.kind = FaceKind::AtLeast;
+  }
+  if (endsOutsideBox(face)) out->worth.kind = FaceKind::Unknown;
   return *out;
+}
+
+/** Does a cloud that goes on outside the detector's box end there, too, on this side? Then it is
+ * another thing's end, of one that touches the object. */
+bool FaceEstimator::endsOutsideBox(std::size_t face) const
+{
+  constexpr double kEnd = 0.02, kMaxOutside = 0.3;  // [m], share of the end's points
+  if (object_.leak == 0) return false;
+  int end = 0, outside = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    if (along(face, i) < extreme(face) - kEnd) continue;
+    ++end;
+    outside += object_.inBox.contains(cells_[i].c, cells_[i].r) ? 0 : 1;
+  }
+  return outside > kMaxOutside * end;
 }
 
 std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const

@@ -88,6 +88,7 @@ class FaceEstimator
   const std::vector<double>& acrossOf(std::size_t face) const { return points_[face < 2 ? 1 : 0]; }
   std::size_t size() const { return cells_.size(); }
   Outline outlineTowards(std::size_t face) const;
+  bool endsOutsideBox(std::size_t face) const;
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
   void raiseTop(std::vector<double> shell, FaceEstimate& top) const;

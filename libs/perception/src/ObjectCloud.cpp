@@ -197,6 +197,7 @@ class Segmenter
     out.object.support = task.support;
     if (!boxOf(index).isValid()) return out;
     out.object.coverage = coverageOf(cloud_, boxOf(index));
+    out.object.inBox = cloud_.cellsOf(boxOf(index));
     if (!candidates_[index])
       candidates_[index].emplace(candidatesIn(cloud_, planes_, task, options_));
     BoxCandidates& candidates = *candidates_[index];

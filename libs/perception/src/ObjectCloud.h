@@ -84,6 +84,7 @@ struct ObjectCloud
   std::optional<int> support;           //!< Plane it stands on, index in ScenePlanes
   std::optional<Plane> top;             //!< Where its kind ends in a level surface; normal up
   double coverage = 0;                  //!< Share of the box's cells with valid depth
+  DepthCloud::CellRange inBox;          //!< Cells of the detector's box; some lie around it
   double leak = 0;  //!< Share of the box's outline across which the surface goes on outside
 
   bool empty() const { return points.empty(); }
