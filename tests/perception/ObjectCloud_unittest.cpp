@@ -137,6 +137,26 @@ TEST(ObjectCloud, JoinsTheFrontOfAChairWhoseSeatIsSeenEdgeOn)
   EXPECT_NEAR(bounds.max().z(), 0.92, 0.03);
 }
 
+TEST(ObjectCloud, LeavesAChairBesideATableToItself)
+{
+  SyntheticFrame frame(1.4, 0.45);
+  frame.noise = 0.0015;
+  frame.add(2.5, 0.0, 0.70, 0.0, {0.9, 1.2, 0.05});  // top
+  std::vector<std::size_t> table = {0};
+  for (const double x : {2.1, 2.9})
+    for (const double y : {-0.55, 0.55})
+    {
+      table.push_back(frame.boxes.size());
+      frame.add(x, y, 0.0, 0.0, {0.06, 0.06, 0.70});
+    }
+  frame.add(2.5, 0.71, 0.0, 0.0, {0.06, 0.06, 0.40});  // a leg of a chair, within the table's box
+  const auto m = measureAll(frame, {detectParts(frame, table, "dining table")}, frame.scan());
+  ASSERT_TRUE(m[0].complete) << m[0].reason;
+  const auto bounds = boundsInWorld(frame, m[0]);
+  EXPECT_NEAR(bounds.max().y(), 0.60, 0.03);
+  EXPECT_NEAR(bounds.min().y(), -0.60, 0.03);
+}
+
 TEST(ObjectCloud, LooksThroughAChairsBack)
 {
   SyntheticFrame frame(1.2, 0.35);

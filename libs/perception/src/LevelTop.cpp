@@ -121,4 +121,16 @@ std::optional<Plane> levelTop(
   return Plane{support.n, support.d - densest(std::move(near), width)};
 }
 
+std::optional<PlaneExtent> topExtent(
+    const Plane& top, std::vector<Eigen::Vector3d> points, const PerceptionOptions& options)
+{
+  points.erase(
+      std::remove_if(
+          points.begin(), points.end(),
+          [&](const auto& p) { return std::abs(top.signedDistance(p)) > options.onPlane(p.z()); }),
+      points.end());
+  if (points.empty()) return {};
+  return PlaneExtent(top.n, points);
+}
+
 }  // namespace quadmap

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "DepthCloud.h"
+#include "PlaneExtent.h"
 #include "quadmap/geometry/Plane.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
@@ -24,5 +25,10 @@ std::optional<Plane> levelTop(
     const Plane& support,
     const LabelProperties& label,
     const PerceptionOptions& options);
+
+/** How far an object's level top reaches: its other parts are below it. Nothing when no point is on
+ * the top. \param points Of the object, optical frame [m]. */
+std::optional<PlaneExtent> topExtent(
+    const Plane& top, std::vector<Eigen::Vector3d> points, const PerceptionOptions& options);
 
 }  // namespace quadmap

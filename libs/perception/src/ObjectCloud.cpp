@@ -6,6 +6,7 @@
 
 #include "BoxCandidates.h"
 #include "Cluster.h"
+#include "LevelTop.h"
 #include "ObjectRim.h"
 #include "PointClusters.h"
 #include "SupportEvidence.h"
@@ -217,21 +218,42 @@ class Segmenter
     out.fill = main.fill;
     out.object.leak = main.leak;
     out.object.step = candidates.step;
-    const Eigen::Vector2d down = downInImage(cloud_.camera(), planes_.up, boxOf(index));
+    for (const std::size_t i : membersOf(task, candidates, parts.labels(), clusters, best))
+    {
+      out.object.cells.push_back(candidates.cells[i]);
+      out.object.points.push_back(candidates.points[i]);
+    }
+    addRim(
+        candidates, 2.0 * std::max(gap, 2.0 * options_.depthSigma(range)),
+        [&](const ObjectCloud::Cell& cell) { return !belongsToOther(index, cell); }, out.object);
+    return out;
+  }
+
+  /** The candidates of the main cluster and of the parts that join it; nothing of a table but its
+   * top reaches out over the rest: what stands beside its legs is a chair.
+   * \param labels Of each candidate its cluster. */
+  std::vector<std::size_t> membersOf(
+      const ObjectTask& task,
+      const BoxCandidates& candidates,
+      const std::vector<int>& labels,
+      const std::vector<Cluster>& clusters,
+      int best) const
+  {
+    constexpr double kSlack = 0.05;  // [m]
+    const Cluster& main = clusters[static_cast<std::size_t>(best)];
+    const Eigen::Vector2d down = downInImage(cloud_.camera(), planes_.up, task.detection->box);
     std::vector<bool> isPart;
     for (const auto& cluster : clusters)
       isPart.push_back(
           isFragment(cluster, main) ||
           (cluster.count >= options_.minPoints && isFront(cluster, main, task.label, down)));
+    std::optional<PlaneExtent> top;
+    if (candidates.rule.top()) top = topExtent(*candidates.rule.top(), candidates.points, options_);
+    std::vector<std::size_t> out;
     for (std::size_t i = 0; i < candidates.points.size(); ++i)
-      if (parts.labels()[i] == best || isPart[static_cast<std::size_t>(parts.labels()[i])])
-      {
-        out.object.cells.push_back(candidates.cells[i]);
-        out.object.points.push_back(candidates.points[i]);
-      }
-    addRim(
-        candidates, 2.0 * std::max(gap, 2.0 * options_.depthSigma(range)),
-        [&](const ObjectCloud::Cell& cell) { return !belongsToOther(index, cell); }, out.object);
+      if (labels[i] == best || (isPart[static_cast<std::size_t>(labels[i])] &&
+                                (!top || top->isWithin(candidates.points[i], kSlack))))
+        out.push_back(i);
     return out;
   }
 
