@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "HiddenPart.h"
+#include "ObjectEnd.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/BoxEdges.h"
@@ -18,10 +18,6 @@ constexpr double kContactShare = 0.1;
 /** Between a box edge and the border of the image; detectors err by as much where it cuts an object
  * [px of an image 640 wide]. */
 constexpr double kMinStrip_px = 8.0;
-/** An object's lower end is this quantile of its points' heights; some are stray ones. */
-constexpr double kLowestPart = 0.02;
-
-bool isUpright(BoxEdge edge) { return edge == BoxEdge::Left || edge == BoxEdge::Right; }
 
 /** Options in pixels are meant for images of this width, and grow with the image. */
 double scaledPixels(const DepthCloud& cloud, double pixels)
@@ -54,9 +50,6 @@ ImageBox quarterInside(const ImageBox& box, BoxEdge edge)
       std::max(inwards.x1, inwards.x2), std::max(inwards.y1, inwards.y2)};
 }
 
-/** Some thousand values give a quantile as well as all do. */
-std::size_t sampleStep(std::size_t count) { return 1 + count / 2000; }
-
 /** Judges the edges of one box. */
 class EdgeJudge
 {
@@ -66,19 +59,19 @@ class EdgeJudge
       const ImageBox& box,
       const EdgeContext& context,
       const PerceptionOptions& options) :
-      cloud_(cloud), box_(box), context_(context), options_(options), inside_(cloud.cellsOf(box))
+      cloud_(cloud),
+      box_(box),
+      context_(context),
+      options_(options),
+      occluders_(cloud, box, context, options)
   {
-    if (!context.object.empty()) lowest_ = lowestHeight();
-    for (const auto& screen : context.screens)
-      if (!showOneThing(screen.box, box))
-        screens_.push_back({cloud.cellsOf(screen.box), screen.depth});
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto edge = static_cast<BoxEdge>(i);
       const double depth = depthNear(edge);
       nearBorder_[i] = isNearBorder(edge, depth);
       nearer_[i] = nearerShare(edge, depth);
-      touching_[i] = nearer_[i] > 0 ? nearer_[i] * nearerShareAtEnd(edge) : 0.0;
+      touching_[i] = nearer_[i] > 0 ? nearer_[i] * endAt(edge).shareBehind() : 0.0;
     }
     floating_ = floating();
   }
@@ -102,10 +95,9 @@ class EdgeJudge
                                       : ObjectSide::Lateral;
   }
 
-  /** Does a cell belong to the object, outside its box? */
-  bool isOwnOutside(int c, int r) const
+  ObjectEnd endAt(BoxEdge edge) const
   {
-    return context_.object.mask.contains(c, r) && !inside_.contains(c, r);
+    return ObjectEnd(cloud_, context_, edge, occluders_, options_);
   }
 
   /** Depth of the object near one of its edges [m]; of the whole object where too little of it is
@@ -121,59 +113,6 @@ class EdgeJudge
       if (quarter.contains(cells[i].c, cells[i].r))
         depths.push_back(cloud_.depth(cells[i].c, cells[i].r));
     return depths.size() < kMinCells ? context_.depth : quantile(std::move(depths), kNearPart);
-  }
-
-  /** Of a point at a depth that may lie on a supporting surface [m]. */
-  double onSupport(double depth) const { return 0.03 + 2.0 * options_.depthSigma(depth); }
-
-  bool isOnSupport(int c, int r) const
-  {
-    const double tolerance = onSupport(cloud_.depth(c, r));
-    const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
-    return std::any_of(
-        context_.surfaces.begin(), context_.surfaces.end(),
-        [&](const Plane& surface) { return std::abs(surface.signedDistance(p)) < tolerance; });
-  }
-
-  /** Of the lowest part that is seen of the object, above the camera [m]; it is not empty. */
-  double lowestHeight() const
-  {
-    const auto& points = context_.object.points;
-    std::vector<double> heights;
-    for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
-      heights.push_back(context_.up.dot(points[i]));
-    return quantile(std::move(heights), kLowestPart);
-  }
-
-  /** Does a cell hide only what is lower than the object? Its ray descends from there, so what
-   * hides the object's lower end from above rises above the lowest that is seen of it, by as much
-   * more as it is nearer. A surface that does not, such as the desk before a screen's foot, leads
-   * up to the object, whether or not it was found to be a plane. */
-  bool hidesOnlyBelow(int c, int r) const
-  {
-    const double height = context_.up.dot(cloud_.point(c, r).cast<double>());
-    return lowest_ && height < 0 && height < *lowest_ + onSupport(cloud_.depth(c, r));
-  }
-
-  /** What may be taken for the object's own depth, or for that of what touches it [m]. The depth of
-   * an object without a cloud of its own is that of its surroundings. */
-  double depthMargin(double depth) const
-  {
-    constexpr double kShareWithoutCloud = 0.25;
-    return 0.05 + 3.0 * options_.depthSigma(depth) +
-           (context_.object.empty() ? kShareWithoutCloud * depth : 0.0);
-  }
-
-  /** Is something at this cell nearer than `limit` [m]? A cell without depth is as near as the
-   * screen that it lies on; elsewhere it lies in the shadow of a depth edge and tells nothing. */
-  bool isNearer(int c, int r, double limit) const
-  {
-    if (cloud_.valid(c, r))
-      return cloud_.depth(c, r) < limit && !isOwnOutside(c, r) && !isOnSupport(c, r) &&
-             !hidesOnlyBelow(c, r);
-    return std::any_of(
-        screens_.begin(), screens_.end(),
-        [&](const auto& screen) { return screen.depth < limit && screen.cells.contains(c, r); });
   }
 
   /** Share of an edge's length along which `isIt(c, r)` for a cell of the strip outside it. */
@@ -199,60 +138,10 @@ class EdgeJudge
   double nearerShare(BoxEdge edge, double depth) const
   {
     if (depth <= 0) return 0;
-    const double limit = depth - depthMargin(depth);
+    const double limit = depth - occluders_.depthMargin(depth);
     return shareAlong(
         edge, scaledPixels(cloud_, options_.occlusionStrip),
-        [&](int c, int r) { return isNearer(c, r, limit); });
-  }
-
-  /** Share of the object's cells at one of its ends that something nearer touches. What stands
-   * before another part of the edge hides nothing there. */
-  double nearerShareAtEnd(BoxEdge edge) const
-  {
-    const bool upright = isUpright(edge);
-    const int outwards = edge == BoxEdge::Left || edge == BoxEdge::Top ? -1 : 1;
-    constexpr int kNone = std::numeric_limits<int>::min() / 2;
-    // Of the object in each row (left, right) or column, outwards.
-    std::vector<int> ends(
-        static_cast<std::size_t>(upright ? cloud_.rows() : cloud_.columns()), kNone);
-    int end = kNone;
-    for (const auto& [c, r] : context_.object.cells)
-    {
-      int& last = ends[static_cast<std::size_t>(upright ? r : c)];
-      last = std::max(last, outwards * (upright ? c : r));
-      end = std::max(end, last);
-    }
-    const double tolerance = options_.edgeToleranceIn(cloud_.camera().width) / cloud_.stride();
-    int cells = 0, touched = 0;
-    for (std::size_t line = 0; line < ends.size(); ++line)
-      if (ends[line] != kNone && end - ends[line] <= tolerance)
-      {
-        ++cells;
-        touched += isNearerBeyond(upright, static_cast<int>(line), ends[line], outwards) ? 1 : 0;
-      }
-    return cells > 0 ? static_cast<double>(touched) / cells : 0.0;
-  }
-
-  /** Is something nearer in the strip beyond a cell of the object?
-   * \param line Row (left and right edges) or column of the cell.
-   * \param position Its column or row, times `outwards`, which is 1 or -1. */
-  bool isNearerBeyond(bool upright, int line, int position, int outwards) const
-  {
-    const auto cell = [&](int p) {
-      return upright ? ObjectCloud::Cell{p * outwards, line}
-                     : ObjectCloud::Cell{line, p * outwards};
-    };
-    const auto own = cell(position);
-    const double depth = cloud_.depth(own.c, own.r);
-    const double limit = depth - depthMargin(depth);
-    const int width = std::max(
-        2, static_cast<int>(scaledPixels(cloud_, options_.occlusionStrip)) / cloud_.stride());
-    for (int k = 1; k <= width; ++k)
-    {
-      const auto [c, r] = cell(position + k);
-      if (cloud_.inside(c, r) && isNearer(c, r, limit)) return true;
-    }
-    return false;
+        [&](int c, int r) { return occluders_.isNearer(c, r, limit); });
   }
 
   /** Near the border of the image, and the object is not seen to end before it. */
@@ -269,12 +158,13 @@ class EdgeJudge
   bool endsBefore(BoxEdge edge, double distance, double depth) const
   {
     constexpr double kMinBackground = 0.6, kMaxRest = 0.05;
-    const double margin = depthMargin(depth);
+    const double margin = occluders_.depthMargin(depth);
     // Boxes are not exact: the object may reach a little beyond its edge.
     const auto near = cloud_.cellsOf(stripOutside(box_, edge, 0.5 * distance));
     const auto isBackground = [&](int c, int r) { return cloud_.depth(c, r) > depth + margin; };
-    const auto isObject = [&](int c, int r) {
-      return cloud_.valid(c, r) && !isBackground(c, r) && !isOnSupport(c, r) &&
+    const auto isObject = [&](int c, int r)
+    {
+      return cloud_.valid(c, r) && !isBackground(c, r) && !occluders_.isOnSupport(c, r) &&
              !near.contains(c, r);
     };
     return shareAlong(edge, distance, isBackground) >= kMinBackground &&
@@ -324,25 +214,17 @@ class EdgeJudge
       heights.push_back(support.signedDistance(points[i]));
     const auto [low, top] = quantileRange(std::move(heights), kLowestPart);
     // As much above the support was cut away with it.
-    const double gap = low - onSupport(context_.depth);
+    const double gap = low - occluders_.onSupport(context_.depth);
     return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;
   }
-
-  struct CellsAtDepth
-  {
-    DepthCloud::CellRange cells;
-    double depth;  // [m]
-  };
 
   const DepthCloud& cloud_;
   const ImageBox box_;
   const EdgeContext& context_;
   const PerceptionOptions& options_;
-  const DepthCloud::CellRange inside_;  // cells of the box
-  std::vector<CellsAtDepth> screens_;
+  const Occluders occluders_;
   std::array<bool, 4> nearBorder_;
   std::array<double, 4> nearer_, touching_;
-  std::optional<double> lowest_;  // height of the object's lower end [m]
   double floating_ = 0;
 };
 
