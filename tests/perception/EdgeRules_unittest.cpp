@@ -82,6 +82,16 @@ TEST(EdgeRules, WhatStandsBehindATableHasNoBottomEdge)
   EXPECT_EQ(edges[3], 'o') << edges;
 }
 
+// What hides it returns no depth, and no detector knows it: nothing but the box, which ends far
+// above the floor, tells.
+TEST(EdgeRules, ABoxThatEndsBeforeItsObjectReachesTheSupportHasNoBottomEdge)
+{
+  auto frame = frameWithSuitcase();
+  frame.add(1.6, 0.0, 0.0, 0.0, {0.1, 1.5, 0.45});
+  frame.boxes[1].hasDepth = false;
+  EXPECT_EQ(edgesOf(measured(frame, {frame.detect(0, "suitcase")})), "uuuo");
+}
+
 // From afar the desk is not found as the support, and within the strip below the screen it comes
 // much nearer than the screen.
 TEST(EdgeRules, ADeskNotHigherThanWhatStandsOnItHidesNothing)
@@ -195,6 +205,16 @@ TEST(EdgeRules, AnObjectThatIsSeenToEndBeforeTheBorderHasItsEdge)
   nearer.boxes[0].cuboid =
       Ellipsoid({2.2, 1.15, kSize.z() / 2, 0, 0, 0}, kSize / 2);  // goes on beyond the image
   EXPECT_EQ(edgesOf(measured(nearer, {nearer.detect(0, "suitcase")}))[0], 'b');
+}
+
+// A bench that comes nearer to the right: its right side runs into the lower border of the image.
+TEST(EdgeRules, ASideThatSlantsOutOfTheImageIsNoEdge)
+{
+  SyntheticFrame frame;
+  frame.add(1.4, 0.0, 0.0, 0.4, {2.0, 0.5, 0.4});
+  const auto detection = frame.detect(0, "bench");
+  ASSERT_LT(detection.box.x2, 600) << "far from the right border";
+  EXPECT_EQ(edgesOf(measured(frame, {detection})), "uuob");
 }
 
 TEST(EdgeRules, EitherRuleCanBeSwitchedOff)

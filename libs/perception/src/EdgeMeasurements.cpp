@@ -68,10 +68,11 @@ class EdgeJudge
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto edge = static_cast<BoxEdge>(i);
-      const double depth = depthNear(edge);
-      nearBorder_[i] = isNearBorder(edge, depth);
-      nearer_[i] = nearerShare(edge, depth);
-      touching_[i] = nearer_[i] > 0 ? nearer_[i] * endAt(edge).shareBehind() : 0.0;
+      ends_.emplace_back(cloud, context, edge, occluders_, options);
+      depth_[i] = depthNear(edge);
+      nearBorder_[i] = isNearBorder(edge, depth_[i]);
+      nearer_[i] = nearerShare(edge, depth_[i]);
+      touching_[i] = nearer_[i] > 0 ? nearer_[i] * ends_[i].shareBehind() : 0.0;
     }
     floating_ = floating();
   }
@@ -93,11 +94,6 @@ class EdgeJudge
     return outwardsUp > kMinCosine    ? ObjectSide::Top
            : outwardsUp < -kMinCosine ? ObjectSide::Bottom
                                       : ObjectSide::Lateral;
-  }
-
-  ObjectEnd endAt(BoxEdge edge) const
-  {
-    return ObjectEnd(cloud_, context_, edge, occluders_, options_);
   }
 
   /** Depth of the object near one of its edges [m]; of the whole object where too little of it is
@@ -183,13 +179,33 @@ class EdgeJudge
     e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
     for (std::size_t k = 0; k < 4; ++k)
       e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
-    addSizes(e);
+    e.endAtBorder = ends_[i].shareAtBorder();
+    if (sideOf(edge) != ObjectSide::Lateral)  // there, these tell nothing
+    {
+      e.endBeside = ends_[i].shareBeside();
+      const double limit = depth_[i] - occluders_.depthMargin(depth_[i]);
+      e.nearerInside = occluders_.shareNearer(quarterInside(box_, edge), limit);
+    }
+    addCuboid(edge, e);
+    addSizes(edge, e);
     e.floating = floating_;
     return e;
   }
 
+  /** How far the cuboid reaches beyond an edge. */
+  void addCuboid(BoxEdge edge, HiddenEvidence& e) const
+  {
+    if (!context_.cuboidBox) return;
+    const ImageBox& cuboid = *context_.cuboidBox;
+    const double beyond[4] = {
+        box_.x1 - cuboid.x1, box_.y1 - cuboid.y1, cuboid.x2 - box_.x2, cuboid.y2 - box_.y2};
+    const double outwards = beyond[static_cast<std::size_t>(edge)];
+    e.cuboidBeyond_px = outwards / scaledPixels(cloud_, 1);
+    e.cuboidBeyondShare = outwards / (isUpright(edge) ? box_.width() : box_.height());
+  }
+
   /** How the box compares with the label's typical size at the object's depth. */
-  void addSizes(HiddenEvidence& e) const
+  void addSizes(BoxEdge edge, HiddenEvidence& e) const
   {
     const LabelProperties& label = context_.label;
     if (!label.known || context_.depth <= 0) return;
@@ -201,6 +217,19 @@ class EdgeJudge
     e.tooLow = std::max(0.0, lower);
     e.tooNarrow =
         std::max(0.0, std::log(label.typicalSize.head<2>().maxCoeff() / width) / label.sizeSpread);
+    if (const double top = heightOf(edge); top > 0)
+      e.topTooLow = std::max(0.0, std::log(label.typicalSize.z() / top) / label.sizeSpread);
+  }
+
+  /** Of the middle of an edge, at the object's depth, above the support [m]; 0 when unknown. */
+  double heightOf(BoxEdge edge) const
+  {
+    if (!context_.object.support || context_.object.empty()) return 0;
+    const ImageBox line = stripOutside(box_, edge, 0);
+    const Eigen::Vector3d p = cloud_.camera().ray(line.centerX(), line.centerY()) * context_.depth;
+    constexpr double kMinHeight = 0.01;
+    const double height = context_.surfaces.front().signedDistance(p);
+    return height > kMinHeight ? height : 0.0;
   }
 
   /** Share of the object's height by which its lower end is above the support, in [0, 1]. */
@@ -224,7 +253,9 @@ class EdgeJudge
   const PerceptionOptions& options_;
   const Occluders occluders_;
   std::array<bool, 4> nearBorder_;
+  std::array<double, 4> depth_;  // of the object near each edge [m]
   std::array<double, 4> nearer_, touching_;
+  std::vector<ObjectEnd> ends_;
   double floating_ = 0;
 };
 

@@ -71,9 +71,9 @@ struct FramePerception::Impl
       const std::vector<BoxAtDepth>& screens) const;
   void tryComplete(
       const DepthCloud& cloud,
-      const ScenePlanes& planes,
       const ObjectCloud& object,
       const ObjectTask& task,
+      CompleteMeasurement complete,
       ObjectMeasurement& out) const;
   /** Takes the edges over and chooses between partial and rejected. */
   void setEdges(const std::array<EdgeMeasurement, 4>& edges, ObjectMeasurement& out) const;
@@ -93,12 +93,11 @@ std::vector<ObjectTask> FramePerception::Impl::tasksOf(
 
 void FramePerception::Impl::tryComplete(
     const DepthCloud& cloud,
-    const ScenePlanes& planes,
     const ObjectCloud& object,
     const ObjectTask& task,
+    CompleteMeasurement complete,
     ObjectMeasurement& out) const
 {
-  CompleteMeasurement complete = fitCuboid(cloud, planes, object, task.label, options);
   const ImageBox& box = task.detection->box;
   const double tolerance = options.edgeToleranceIn(cloud.camera().width);
   weakenFacesInsideBox(cloud.camera(), box, tolerance, complete);
@@ -149,10 +148,12 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   else
   {
     seed = seedOf(object);
+    const CompleteMeasurement complete = fitCuboid(cloud, planes, object, task.label, options);
+    context.cuboidBox = projectCuboidBox(cloud.camera(), complete.object_sensor);
     if (options.models == ObservationModels::Partial)
       out.reason = "complete models are switched off";
     else
-      tryComplete(cloud, planes, object, task, out);
+      tryComplete(cloud, object, task, complete, out);
   }
   if (seed) context.depth = seed->z();
   if (seed) out.seed_sensor = toSensor(*seed);
