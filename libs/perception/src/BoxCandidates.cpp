@@ -12,7 +12,7 @@ namespace
 {
 /** Of a larger box every second, third ... row and column is looked at: its cells lie as close on
  * the object, in shares of its size, and it costs no more than a small one. */
-int stepFor(int cells)
+int candidateStep(int cells)
 {
   constexpr double kMaxCells = 4000;
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(cells / kMaxCells))));
@@ -255,7 +255,7 @@ BoxCandidates candidatesIn(
   const auto range = cloud.cellsOf(box);
   BoxCandidates out = {
       {cloud, planes, task, range, options},
-      range, stepFor(range.cells())
+      range, candidateStep(range.cells())
   };
   const auto around = surroundings(cloud, planes, box, options);
   const auto walls = wallsAround(planes, around, out.rule);

@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -89,5 +90,12 @@ class DepthCloud
   std::vector<float> depth_, rayX_, rayY_;
   std::vector<Eigen::Vector3d> sparsePoints_;
 };
+
+/** Step over rows and columns with which some cells are looked at: about `count` of them, at most
+ * four times as many. */
+inline int stepFor(int cells, int count)
+{
+  return std::max(1, static_cast<int>(std::sqrt(cells / static_cast<double>(count))));
+}
 
 }  // namespace quadmap

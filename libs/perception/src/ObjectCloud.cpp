@@ -9,7 +9,7 @@
 #include "LevelTop.h"
 #include "ObjectRim.h"
 #include "PointClusters.h"
-#include "SupportEvidence.h"
+#include "SupportRing.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap

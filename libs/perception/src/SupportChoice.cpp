@@ -5,6 +5,7 @@
 #include <map>
 
 #include "SupportEvidence.h"
+#include "SupportRing.h"
 
 namespace quadmap
 {
