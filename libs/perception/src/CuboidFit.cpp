@@ -107,20 +107,21 @@ CompleteMeasurement fitCuboid(
 
   const FaceEstimator estimator(cloud, planes, object, level, yaw.yaw, options);
   Faces faces;
+  const auto isKnown = [&](std::size_t face)
+  { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
   for (std::size_t face = 0; face < kFaces; ++face)
-    if (face != kBottom || !object.support)  // on a support it is known
-      faces[face] = estimator.face(face);
+    if (!isKnown(face)) faces[face] = estimator.face(face);
+  if (object.top)
+  {
+    faces[kTop].position = -object.top->d;
+    faces[kTop].worth = {FaceKind::Measured, levelTopSigma(estimator.range(), options)};
+  }
   if (object.support)
   {
     // Distance of the supporting plane below the camera, along the object's -z.
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
     doubtHiddenPart(faces, estimator);
-  }
-  if (object.top)
-  {
-    faces[kTop].position = -object.top->d;
-    faces[kTop].worth = {FaceKind::Measured, topSurfaceSigma(estimator.range(), options)};
   }
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);

@@ -47,6 +47,12 @@ inline double topSurfaceSigma(double range, const PerceptionOptions& options)
   return std::hypot(0.0011, 0.17 * options.depthSigma(range));
 }
 
+/** The same of a level top, whose height is found among all points of the thing. */
+inline double levelTopSigma(double range, const PerceptionOptions& options)
+{
+  return std::hypot(0.0011, 0.17 * options.depthSigma(range));
+}
+
 /** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
 inline double protrusionSigma(double cell) { return std::hypot(0.005, cell); }
 
