@@ -1,7 +1,13 @@
+#include "FaceSigmas.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "SyntheticFrame.h"
 #include "quadmap/geometry/Support.h"
@@ -51,6 +57,38 @@ void addBox(SyntheticFrame& frame, Residuals& out, const std::string& label = "s
   const auto& m = boxes.objects.front().measurement;
   if (!m.complete) return;
   out.add(*m.complete, frame.boxes[0].cuboid.transformed(-frame.T_world_sensor));
+}
+
+/** Mean of the n-th largest (0: the largest) of some normally distributed values of variance 1. */
+double meanOfLargest(std::size_t n, std::size_t count)
+{
+  constexpr int kTrials = 20000;
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  double sum = 0;
+  for (int i = 0; i < kTrials; ++i)
+  {
+    std::vector<double> values(count);
+    for (auto& v : values) v = normal(random);
+    const auto nth = values.begin() + static_cast<long>(n);
+    std::nth_element(values.begin(), nth, values.end(), std::greater<>());
+    sum += *nth;
+  }
+  return sum / kTrials;
+}
+
+TEST(FaceSigmas, NoiseMovesTheOutermostPointsAsFarAsDrawnOnesLie)
+{
+  for (const std::size_t count : {3, 8, 25, 120})
+    for (std::size_t n = 0; n < 3; ++n)
+      EXPECT_NEAR(outlineNoise(-1.0, 1.0, n, count), meanOfLargest(n, count), 0.05)
+          << n << " of " << count;
+}
+
+TEST(FaceSigmas, NoiseAlongTheLineOfSightOnlyMovesPoints)
+{
+  EXPECT_DOUBLE_EQ(outlineNoise(0.1, 0.01, 0, 10), 0.0);
+  EXPECT_NEAR(outlineNoise(0.5, 0.01, 0, 10), 0.5 * outlineNoise(1.0, 0.01, 0, 10), 1e-12);
 }
 
 TEST(FaceSigmas, HoldForABoxFromManyRangesAndAngles)

@@ -231,6 +231,17 @@ double FaceEstimator::cutShare(const Outline& outline, std::size_t face, double 
   return all > 0 ? static_cast<double>(cut) / all : 1.0;
 }
 
+/** How far noise moves the n-th outermost of the points that may lie at a face. */
+double FaceEstimator::noiseAt(std::size_t face, double position, std::size_t n) const
+{
+  constexpr double kReach = 2.0;  // of the noise
+  const double sigma = options_.depthSigma(range_), away = facingAway(face);
+  const double least = position - kReach * std::abs(away) * sigma;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size(); ++i) count += along(face, i) >= least ? 1 : 0;
+  return outlineNoise(away, sigma, n, count);
+}
+
 /** A face that shows by its outline only. */
 FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) const
 {
@@ -251,8 +262,7 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   const double away = facingAway(face);
   out.source = away > kAway ? FaceSource::FarEdge : FaceSource::Outline;
   const double perCell = std::min(outline.metresPerCell, kMaxMetresPerCell);
-  out.position =
-      outermost + outlineShift(away, perCell) - outlineNoise(away, options_.depthSigma(range_));
+  out.position = outermost + outlineShift(away, perCell) - noiseAt(face, outermost, stray);
   const auto& across = acrossOf(face);
   double count = 0;
   for (const auto& line : outline.lines)
@@ -267,10 +277,17 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
   // A slanted cut leaves few lines their ends; nothing is known beyond them.
   if (isOpen) out.position = std::max(outermost, extreme(face));
-  out.worth.sigma = face == kTop                        ? topEdgeSigma(perCell, range_, options_)
-                    : out.source == FaceSource::FarEdge ? farEdgeSigma(perCell, range_, options_)
-                                                        : outlineSigma(perCell, range_, options_);
+  out.worth.sigma = outlineSigmaOf(face, perCell);
   return out;
+}
+
+double FaceEstimator::outlineSigmaOf(std::size_t face, double perCell) const
+{
+  const double away = facingAway(face);
+  if (face == kTop && away < -kAway) return topFromAboveSigma(perCell, range_, options_);
+  if (face == kTop) return topEdgeSigma(perCell, range_, options_);
+  if (away > kAway) return farEdgeSigma(perCell, range_, options_);
+  return outlineSigma(perCell, range_, options_);
 }
 
 /** A side that is turned away counts when a surface is seen that leads up to it and that is no mere

@@ -89,6 +89,8 @@ class FaceEstimator
   std::size_t size() const { return cells_.size(); }
   Outline outlineTowards(std::size_t face) const;
   bool endsOutsideBox(std::size_t face) const;
+  double outlineSigmaOf(std::size_t face, double perCell) const;
+  double noiseAt(std::size_t face, double position, std::size_t n) const;
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
   void raiseTop(std::vector<double> shell, FaceEstimate& top) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "quadmap/perception/PerceptionOptions.h"
 
@@ -20,11 +21,15 @@ inline double outlineShift(double away, double perCell)
   return (away > 0.25 ? 1.0 : 0.5) * perCell;
 }
 
-/** How far depth noise moves the outermost of some points along a face's normal [m]. */
-inline double outlineNoise(double away, double depthSigma)
+/** How far depth noise moves the n-th outermost (0: the outermost) of `count` points along a face's
+ * normal [m]: Blom's plotting position, and for the quantile Tukey's lambda distribution.
+ * \param away Cosine between the face's normal and the line of sight. */
+inline double outlineNoise(double away, double depthSigma, std::size_t n, std::size_t count)
 {
-  constexpr double kSigmas = 1.6;  // of the largest of some ten points
-  return std::abs(away) > 0.25 ? kSigmas * std::abs(away) * depthSigma : 0.0;
+  if (std::abs(away) < 0.25) return 0.0;
+  const double beyond = (static_cast<double>(n) + 0.625) / (static_cast<double>(count) + 0.25);
+  const double sigmas = 4.91 * (std::pow(1.0 - beyond, 0.14) - std::pow(beyond, 0.14));
+  return sigmas * std::abs(away) * depthSigma;
 }
 
 /** What the outline of something round loses besides: its surface turns away from the camera. */
@@ -50,7 +55,7 @@ inline double topSurfaceSigma(double range, const PerceptionOptions& options)
 /** The same of a level top, whose height is found among all points of the thing. */
 inline double levelTopSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0011, 0.17 * options.depthSigma(range));
+  return std::hypot(0.0007, 0.10 * options.depthSigma(range));
 }
 
 /** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
@@ -80,6 +85,12 @@ inline double farEdgeSigma(double perCell, double range, const PerceptionOptions
 inline double topEdgeSigma(double perCell, double range, const PerceptionOptions& options)
 {
   return std::hypot(std::hypot(0.0021, 0.31 * perCell), 0.26 * options.depthSigma(range));
+}
+
+/** The same of a top that is seen from above: its highest point ends no line. */
+inline double topFromAboveSigma(double perCell, double range, const PerceptionOptions& options)
+{
+  return std::hypot(std::hypot(0.0016, 0.25 * perCell), 0.20 * options.depthSigma(range));
 }
 
 /** A plane of many points, below the object. */
