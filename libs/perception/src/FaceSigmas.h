@@ -43,7 +43,7 @@ inline double roundOutlineSigma(double radius, double outline)
  * sensor's depth and what is not quite flat are. */
 inline double surfaceSigma(double range, const PerceptionOptions& options)
 {
-  return std::hypot(0.0024, 0.31 * options.depthSigma(range));
+  return std::hypot(0.00225, 0.29 * options.depthSigma(range));
 }
 
 /** The same of the top, which no heading moves. */
@@ -84,13 +84,13 @@ inline double farEdgeSigma(double perCell, double range, const PerceptionOptions
 /** The same of the top. */
 inline double topEdgeSigma(double perCell, double range, const PerceptionOptions& options)
 {
-  return std::hypot(std::hypot(0.0021, 0.31 * perCell), 0.26 * options.depthSigma(range));
+  return std::hypot(std::hypot(0.0023, 0.33 * perCell), 0.28 * options.depthSigma(range));
 }
 
 /** The same of a top that is seen from above: its highest point ends no line. */
 inline double topFromAboveSigma(double perCell, double range, const PerceptionOptions& options)
 {
-  return std::hypot(std::hypot(0.0016, 0.25 * perCell), 0.20 * options.depthSigma(range));
+  return std::hypot(std::hypot(0.0015, 0.24 * perCell), 0.19 * options.depthSigma(range));
 }
 
 /** A plane of many points, below the object. */
