@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -169,6 +170,35 @@ TEST(FramePerception, CallsTheHiddenBackOfAFrontalBoxALowerBound)
       EXPECT_EQ(m.complete->faces[f].kind, FaceKind::Measured);
     }
   }
+}
+
+/** How many sides of a chair are measured of which only the upper half, box 0, is seen.
+ * \param foot Its lower half: the detector's box is around both. */
+long measuredSides(const SyntheticFrame& frame, const Ellipsoid& foot)
+{
+  DetectedObject chair = frame.detect(0, "chair");
+  const auto lower = *projectCuboidBox(
+      pinholeFrom(frame.camera),
+      foot.transformed(-frame.T_world_sensor).transformed(-T_sensor_optical()));
+  chair.box = {
+      std::min(chair.box.x1, lower.x1), chair.box.y1, std::max(chair.box.x2, lower.x2), lower.y2};
+  const auto m = measured(frame, chair);
+  EXPECT_TRUE(m.complete) << m.reason;
+  if (!m.complete) return 0;
+  return std::count_if(
+      m.complete->faces.begin(), m.complete->faces.begin() + 4,
+      [](const auto& face) { return face.kind == FaceKind::Measured; });
+}
+
+TEST(FramePerception, MeasuresNoSideOfWhatStandsOnABlackFoot)
+{
+  SyntheticFrame inSight(1.7, 0.5), hidden(1.7, 0.5);
+  for (auto* frame : {&inSight, &hidden}) frame->add(2.3, 0.0, 0.45, 0.4, {0.45, 0.45, 0.45});
+  inSight.add(2.3, 0.0, 0.0, 0.4, {0.46, 0.46, 0.44});
+  inSight.boxes[1].hasDepth = false;
+  hidden.add(1.7, 0.0, 0.0, 0.0, {0.3, 1.6, 0.6});
+  EXPECT_EQ(measuredSides(inSight, inSight.boxes[1].cuboid), 0) << "it may reach out";
+  EXPECT_GT(measuredSides(hidden, inSight.boxes[1].cuboid), 0) << "behind a table";
 }
 
 TEST(FramePerception, CallsASideCutByTheImageALowerBound)

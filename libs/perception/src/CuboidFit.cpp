@@ -32,7 +32,7 @@ void completeRound(Faces& faces, const FaceEstimator& estimator)
 }
 
 /** When the lower part is hidden (a chair behind a table), what is seen bounds the whole only from
- * inside: the object may come nearer below. */
+ * inside: the object may come nearer below. A foot without depth may reach out on all sides. */
 void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator)
 {
   constexpr double kMaxHidden = 0.3;   // of the height
@@ -40,10 +40,11 @@ void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator)
   constexpr double kSideDoubt = 0.03;  // [m]
   const double bottom = -faces[kBottom].position, top = faces[kTop].position;
   if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kMaxHidden * (top - bottom))) return;
+  const bool isOpen = estimator.isFootInSight();
   for (std::size_t side = 0; side < kSides; ++side)
   {
     auto& worth = faces[side].worth;
-    if (estimator.facingAway(side) < -0.25 && worth.kind == FaceKind::Measured)
+    if ((isOpen || estimator.facingAway(side) < -0.25) && worth.kind == FaceKind::Measured)
       worth.kind = FaceKind::AtLeast;
     worth.sigma += kSideDoubt;
   }

@@ -79,6 +79,36 @@ double FaceEstimator::facingAway(std::size_t face) const
 
 double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
+bool FaceEstimator::isFootInSight() const
+{
+  constexpr double kLowest = 0.98, kMaxHidden = 0.3;  // quantile; share of what lies below it
+  const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
+  const Eigen::Vector3d lower = middle + 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
+  const Eigen::Vector2d down = cloud_.camera().project(lower) - cloud_.camera().project(middle);
+  std::vector<double> visible;
+  for (const auto& cell : cells_) visible.push_back(down.dot(Eigen::Vector2d(cell.c, cell.r)));
+  const double lowest = quantile(std::move(visible), kLowest);
+  const double tolerance = 3.0 * options_.depthSigma(range_);
+  int below = 0, hidden = 0;
+  for (int r = object_.inBox.r0; r < object_.inBox.r1; ++r)
+    for (int c = object_.inBox.c0; c < object_.inBox.c1; ++c)
+    {
+      if (down.dot(Eigen::Vector2d(c, r)) <= lowest) continue;
+      ++below;
+      if (!cloud_.valid(c, r) || cloud_.depth(c, r) > range_ - tolerance) continue;
+      const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
+      hidden += isOnSupport(p, tolerance) ? 0 : 1;
+    }
+  return hidden < kMaxHidden * below;
+}
+
+bool FaceEstimator::isOnSupport(const Eigen::Vector3d& p, double tolerance) const
+{
+  constexpr double kUneven = 0.03;  // [m]
+  return object_.support &&
+         std::abs(planes_.plane(*object_.support).plane.signedDistance(p)) < kUneven + tolerance;
+}
+
 FaceEstimate FaceEstimator::face(std::size_t face) const
 {
   constexpr double kMaxCutTop = 0.15;  // of the lines up through the object
@@ -335,11 +365,8 @@ bool FaceEstimator::isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& 
       return true;
     if (object_.mask.contains(c, r) || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
     const Eigen::Vector3d q = cloud_.point(c, r).cast<double>();
-    const double tolerance = 0.03 + 3.0 * options_.depthSigma(p.z());
-    if (object_.support &&
-        std::abs(planes_.plane(*object_.support).plane.signedDistance(q)) < tolerance)
-      return false;
-    return q.z() < p.z() + tolerance;
+    const double noise = 3.0 * options_.depthSigma(p.z());
+    return !isOnSupport(q, noise) && q.z() < p.z() + 0.03 + noise;
   }
   return false;
 }

@@ -51,6 +51,10 @@ class FaceEstimator
 
   double lowestSeen() const;  //!< Along the object's z, from the camera [m]
 
+  /** Does little of what the box shows below the visible part stand in front of the object? Then
+   * its foot is not hidden, but black or thin. */
+  bool isFootInSight() const;
+
   FaceEstimate face(std::size_t face) const;
 
   /** The near side of something round with this radius [m]: each point knows by its normal how far
@@ -96,6 +100,7 @@ class FaceEstimator
   void raiseTop(std::vector<double> shell, FaceEstimate& top) const;
   FaceEstimate outline(std::size_t face, const Outline& lines) const;
   bool leadsUp(std::size_t face, double position) const;
+  bool isOnSupport(const Eigen::Vector3d& p, double tolerance) const;
   bool isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const;
 
   const DepthCloud& cloud_;
