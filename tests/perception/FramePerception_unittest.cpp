@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 
 #include "SyntheticFrame.h"
@@ -239,6 +240,23 @@ TEST(FramePerception, FallsBackToBoxEdgesWithoutDepth)
       nearest = std::min(nearest, edge.plane_sensor.signedDistance(corners.col(i)));
     EXPECT_NEAR(nearest, 0.0, 2.0 / 525 * 1.5);
   }
+}
+
+TEST(FramePerception, TakesNotWhatIsBehindAScreenForTheScreen)
+{
+  SyntheticFrame frame(1.2, 0.1);
+  frame.add(2.0, 0.0, 0.9, 0.0, {0.04, 0.6, 0.35});
+  frame.add(2.0, 0.0, 0.7, 0.0, {0.04, 0.12, 0.2});  // its foot
+  for (auto& box : frame.boxes) box.hasDepth = false;
+  frame.add(1.97, 0.0, 0.9, 0.0, {0.02, 0.6, 0.02});  // the lower part of its frame
+  frame.add(2.0, 0.0, 0.0, 0.0, {0.7, 1.6, 0.7});     // the desk it stands on
+  frame.add(2.7, 0.05, 0.0, 0.0, {0.2, 0.9, 0.85});   // something behind, that shows under it
+  DetectedObject tv = frame.detect(0, "tv");
+  tv.box.y2 = frame.detect(1, "tv").box.y2;
+  const auto m = measured(frame, tv);
+  ASSERT_EQ(m.kind, MeasurementKind::Partial) << m.reason;
+  ASSERT_TRUE(m.seed_sensor);
+  EXPECT_NEAR(m.seed_sensor->x(), 2.0, 0.25);
 }
 
 TEST(FramePerception, UsesAMaskToTellAnObjectFromWhatTouchesIt)

@@ -135,8 +135,9 @@ BlindPosition blindPosition(
   return {direction, range, range * std::hypot(properties.sizeSpread, kViewSpread)};
 }
 
-/** Position of a partial measurement: the seed, pushed inwards by half the typical depth; without
- * a seed somewhere along the ray through the box. */
+/** Position of a partial measurement: the seed, pushed inwards by half the smaller typical width,
+ * as flat things are seen from their broad sides; without a seed somewhere along the ray through
+ * the box. */
 void setPartialPosition(
     const DetectedObject& detected,
     const mrpt::poses::CPose3D& T_map_sensor,
@@ -144,7 +145,6 @@ void setPartialPosition(
     ObjectView& view)
 {
   const Eigen::Vector3d size = properties.typicalSize;
-  const double depth = 0.5 * (size.x() + size.y());
   view.halfSizes = 0.5 * size;
 
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
@@ -153,8 +153,8 @@ void setPartialPosition(
   {
     const Eigen::Vector3d onSurface = composed(T_map_sensor, *seed);
     direction = (onSurface - view.camera).normalized();
-    view.center = onSurface + 0.5 * depth * direction;
-    alongRay = 0.05 + 0.5 * depth;
+    view.center = onSurface + 0.5 * std::min(size.x(), size.y()) * direction;
+    alongRay = 0.05 + 0.25 * (size.x() + size.y());
   }
   else
   {

@@ -32,6 +32,18 @@ Eigen::Vector3d toOptical(const Eigen::Vector3d& p_sensor)
   return {-p_sensor.y(), -p_sensor.z(), p_sensor.x()};
 }
 
+/** Where an object is, about. What little depth a screen's box has may be that of the wall behind:
+ * its cloud counts only when it makes the object. */
+std::optional<Eigen::Vector3d> seedIn(
+    const DepthCloud& cloud, const ImageBox& box, const ObjectCloud& object, MeasurementKind kind)
+{
+  const bool isScreen = object.coverage < kMaxScreenCoverage && kind != MeasurementKind::Complete;
+  std::optional<Eigen::Vector3d> out;
+  if (object.empty() || isScreen) out = seedWithoutCloud(cloud, box);
+  if (!out && !object.empty()) out = seedOf(object);
+  return out;
+}
+
 /** The boxes of a frame that are mostly without depth: screens, glass. */
 std::vector<BoxAtDepth> screensOf(
     const DepthCloud& cloud,
@@ -139,15 +151,12 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   EdgeContext context{object, task.label, planes.up, 0, {}, screens};
   if (object.support) context.surfaces.push_back(planes.plane(*object.support).plane);
   if (planes.floor) context.surfaces.push_back(planes.plane(*planes.floor).plane);
-  std::optional<Eigen::Vector3d> seed;
   if (object.empty())
   {
     out.reason = object.coverage > 0 ? "no separate surface in the box" : "no depth in the box";
-    seed = seedWithoutCloud(cloud, visible);
   }
   else
   {
-    seed = seedOf(object);
     const CompleteMeasurement complete = fitCuboid(cloud, planes, object, task.label, options);
     context.cuboidBox = projectCuboidBox(cloud.camera(), complete.object_sensor);
     if (options.models == ObservationModels::Partial)
@@ -155,6 +164,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     else
       tryComplete(cloud, object, task, complete, out);
   }
+  const auto seed = seedIn(cloud, visible, object, out.kind);
   if (seed) context.depth = seed->z();
   if (seed) out.seed_sensor = toSensor(*seed);
   setEdges(measureEdges(cloud, detection.box, context, options), out);

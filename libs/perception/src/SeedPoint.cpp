@@ -31,7 +31,7 @@ std::optional<Eigen::Vector3d> seedWithoutCloud(const DepthCloud& cloud, const I
   const double ring = std::max(8.0, 0.1 * std::max(box.width(), box.height()));
   const ImageBox around = {box.x1 - ring, box.y1 - ring, box.x2 + ring, box.y2 + ring};
   auto depth = medianDepthIn(cloud, core, {}, 0.3);
-  if (!depth) depth = medianDepthIn(cloud, around, box, 0.5);
+  if (!depth) depth = medianDepthIn(cloud, around, box, 0.25);
   if (!depth) return {};
   return Eigen::Vector3d(cloud.camera().ray(box.centerX(), box.centerY()) * *depth);
 }
