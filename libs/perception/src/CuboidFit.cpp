@@ -32,15 +32,16 @@ void completeRound(Faces& faces, const FaceEstimator& estimator)
 }
 
 /** When the lower part is hidden (a chair behind a table), what is seen bounds the whole only from
- * inside: the object may come nearer below. A foot without depth may reach out on all sides. */
-void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator)
+ * inside: the object may come nearer below. A foot without depth may reach out on all sides, but
+ * not of what is round: plants are wider above. */
+void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator, bool isRound)
 {
   constexpr double kMaxHidden = 0.3;   // of the height
   constexpr double kMinHidden = 0.06;  // [m]; points near the support count as the support's
   constexpr double kSideDoubt = 0.03;  // [m]
   const double bottom = -faces[kBottom].position, top = faces[kTop].position;
   if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kMaxHidden * (top - bottom))) return;
-  const bool isOpen = estimator.isFootInSight();
+  const bool isOpen = !isRound && estimator.isFootInSight();
   for (std::size_t side = 0; side < kSides; ++side)
   {
     auto& worth = faces[side].worth;
@@ -122,7 +123,7 @@ CompleteMeasurement fitCuboid(
     // Distance of the supporting plane below the camera, along the object's -z.
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
-    doubtHiddenPart(faces, estimator);
+    doubtHiddenPart(faces, estimator, !label.dominantDirection);
   }
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);
