@@ -21,6 +21,11 @@ constexpr double kBlindRange = 2.5, kBlindRangeSigma = 1.2;
  * they are seen from their narrow and their broad side. */
 constexpr double kViewSpread = 0.2;
 
+/** Standard deviation of a seed's position [m] for a mean size [m]: fitted to simulated scenes, as
+ * parts of most objects are hidden. */
+constexpr double sigmaAlongRay(double meanWidth) { return 0.05 + 0.5 * meanWidth; }
+constexpr double sigmaAcrossRay(double meanSize) { return 0.04 + 0.21 * meanSize; }
+
 Eigen::Vector3d composed(const mrpt::poses::CPose3D& T, const Eigen::Vector3d& p)
 {
   Eigen::Vector3d out;
@@ -154,7 +159,7 @@ void setPartialPosition(
     const Eigen::Vector3d onSurface = composed(T_map_sensor, *seed);
     direction = (onSurface - view.camera).normalized();
     view.center = onSurface + 0.5 * std::min(size.x(), size.y()) * direction;
-    alongRay = 0.05 + 0.25 * (size.x() + size.y());
+    alongRay = sigmaAlongRay(0.5 * (size.x() + size.y()));
   }
   else
   {
@@ -163,7 +168,7 @@ void setPartialPosition(
     view.center = view.camera + blind.range * direction;
     alongRay = blind.sigma;
   }
-  const double acrossRay = 0.05 + 0.24 * size.mean();
+  const double acrossRay = sigmaAcrossRay(size.mean());
   view.centerCovariance =
       acrossRay * acrossRay * Eigen::Matrix3d::Identity() +
       (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();

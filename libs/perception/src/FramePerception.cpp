@@ -20,9 +20,6 @@ constexpr unsigned kCoarseColumns = 32, kCoarseRows = 24;
  * measurements beyond are wrong by more than four sigmas, below one of ten. */
 constexpr double kMaxLeak = 0.2;
 
-/** What returns depth in more of its box is no screen: what lacks it there are shadows of edges. */
-constexpr double kMaxScreenCoverage = 0.5;
-
 Eigen::Vector3d toSensor(const Eigen::Vector3d& p_optical)
 {
   return {p_optical.z(), -p_optical.x(), -p_optical.y()};
@@ -30,18 +27,6 @@ Eigen::Vector3d toSensor(const Eigen::Vector3d& p_optical)
 Eigen::Vector3d toOptical(const Eigen::Vector3d& p_sensor)
 {
   return {-p_sensor.y(), -p_sensor.z(), p_sensor.x()};
-}
-
-/** Where an object is, about. What little depth a screen's box has may be that of the wall behind:
- * its cloud counts only when it makes the object. */
-std::optional<Eigen::Vector3d> seedIn(
-    const DepthCloud& cloud, const ImageBox& box, const ObjectCloud& object, MeasurementKind kind)
-{
-  const bool isScreen = object.coverage < kMaxScreenCoverage && kind != MeasurementKind::Complete;
-  std::optional<Eigen::Vector3d> out;
-  if (object.empty() || isScreen) out = seedWithoutCloud(cloud, box);
-  if (!out && !object.empty()) out = seedOf(object);
-  return out;
 }
 
 /** The boxes of a frame that are mostly without depth: screens, glass. */
@@ -55,11 +40,8 @@ std::vector<BoxAtDepth> screensOf(
   {
     const ImageBox& box = tasks[i].detection->box;
     const ImageBox visible = box.clipped(cloud.camera().width, cloud.camera().height);
-    if (!visible.isValid() || objects[i].coverage > kMaxScreenCoverage) continue;
-    if (!objects[i].empty())
-      out.push_back({box, nearDepthOf(objects[i])});
-    else if (const auto seed = seedWithoutCloud(cloud, visible))
-      out.push_back({box, seed->z()});
+    if (!visible.isValid() || !looksLikeScreen(objects[i])) continue;
+    if (const auto depth = nearDepthOf(cloud, visible, objects[i])) out.push_back({box, *depth});
   }
   return out;
 }
@@ -164,7 +146,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     else
       tryComplete(cloud, object, task, complete, out);
   }
-  const auto seed = seedIn(cloud, visible, object, out.kind);
+  const auto seed = seedOf(cloud, visible, object, out.kind == MeasurementKind::Complete);
   if (seed) context.depth = seed->z();
   if (seed) out.seed_sensor = toSensor(*seed);
   setEdges(measureEdges(cloud, detection.box, context, options), out);

@@ -7,15 +7,19 @@
 
 namespace quadmap
 {
-/** A surface point for an object whose cloud could not be cut out: the near part of the box's
- * middle; without depth there (screens), what surrounds the box. Optical frame [m].
- * \param box Inside the image. */
-std::optional<Eigen::Vector3d> seedWithoutCloud(const DepthCloud& cloud, const ImageBox& box);
+/** Where an object is, about: the median of its points, axis by axis; without a cloud, a surface
+ * point from the depths in the box or around it. What little depth a screen's box has may be that
+ * of the wall behind: its cloud counts only when it makes the object. Optical frame [m]. \param box
+ * Inside the image. */
+std::optional<Eigen::Vector3d> seedOf(
+    const DepthCloud& cloud, const ImageBox& box, const ObjectCloud& object, bool isComplete);
 
-/** The median of an object's points, axis by axis, optical frame [m]. \param object Not empty. */
-Eigen::Vector3d seedOf(const ObjectCloud& object);
+/** Depth of an object's nearest part, but for a few stray points [m]. \param box Inside the image.
+ */
+std::optional<double> nearDepthOf(
+    const DepthCloud& cloud, const ImageBox& box, const ObjectCloud& object);
 
-/** Depth of an object's nearest part, but for a few stray points [m]. \param object Not empty. */
-double nearDepthOf(const ObjectCloud& object);
+/** Most of the object's box is without depth: screens, glass. */
+bool looksLikeScreen(const ObjectCloud& object);
 
 }  // namespace quadmap
