@@ -45,8 +45,14 @@ TolerantPoints withTolerances(
   return out;
 }
 
-/** Points around a box, a regular sample, without floors and table tops. */
-TolerantPoints surroundings(
+/** What is seen around a box, without floors and table tops. */
+struct Surroundings
+{
+  TolerantPoints points = {};          //!< A regular sample
+  bool onLeft = true, onRight = true;  //!< The image goes on there
+};
+
+Surroundings surroundings(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const ImageBox& box,
@@ -64,14 +70,16 @@ TolerantPoints surroundings(
   const auto outer =
       cloud.cellsOf({box.x1 - width, box.y1 - width, box.x2 + width, box.y2 + width});
   const auto inner = cloud.cellsOf(box);
-  TolerantPoints out;
+  Surroundings out;
+  out.onLeft = box.x1 - 0.5 * width > 0;
+  out.onRight = box.x2 + 0.5 * width < cloud.camera().width;
   for (int r = outer.r0; r < outer.r1; r += kStep)
     for (int c = outer.c0; c < outer.c1; c += kStep)
     {
       if (inner.contains(c, r) || !cloud.valid(c, r)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
       const TolerantPoint tolerant = {p, options.onPlane(p.z())};
-      if (!isOnTop(tolerant)) out.push_back(tolerant);
+      if (!isOnTop(tolerant)) out.points.push_back(tolerant);
     }
   return out;
 }
@@ -100,8 +108,34 @@ std::vector<Plane> wallsAround(
   return out;
 }
 
+/** The vertical plane through what lies on one that is nearly it, by least squares. */
+Plane refined(const Plane& wall, const TolerantPoints& around, const Eigen::Vector3d& up)
+{
+  const Eigen::Vector3d along = up.cross(wall.n);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0, alongSquares = 0, products = 0;
+  for (const auto& p : around)
+    if (p.isOn(wall))
+    {
+      sum += p.point;
+      ++count;
+    }
+  const Eigen::Vector3d mean = sum / count;
+  for (const auto& p : around)
+    if (p.isOn(wall))
+    {
+      const Eigen::Vector3d off = p.point - mean;
+      alongSquares += along.dot(off) * along.dot(off);
+      products += along.dot(off) * wall.n.dot(off);
+    }
+  Plane out;
+  out.n = (alongSquares * wall.n - products * along).normalized();
+  out.d = -out.n.dot(mean);
+  return out;
+}
+
 /** The vertical plane that most of the surroundings lies on, where the segmentation found none:
- * through pairs of points in a fixed order, refined by nothing but the count. */
+ * the best through pairs of points in a fixed order. */
 std::optional<Plane> wallThrough(const TolerantPoints& around, const Eigen::Vector3d& up)
 {
   constexpr std::size_t kTrials = 60;
@@ -126,15 +160,17 @@ std::optional<Plane> wallThrough(const TolerantPoints& around, const Eigen::Vect
     bestCount = count;
     best = plane;
   }
+  if (best) best = refined(*best, around, up);
   return best;
 }
 
 /** Is a plane the wall behind the box? What of the candidates lies on it is enclosed by what of the
- * surroundings does; the side of a thing that stands beside the object ends before it. */
+ * surroundings does, as far as the image goes; the side of a thing that stands beside the object
+ * ends before it. */
 bool goesOnBehind(
     const Plane& wall,
     const Eigen::Vector3d& up,
-    const TolerantPoints& around,
+    const Surroundings& around,
     const TolerantPoints& points)
 {
   constexpr double kSlack = 0.05;  // [m]
@@ -146,27 +182,34 @@ bool goesOnBehind(
       if (p.isOn(wall)) range.extend(Eigen::Matrix<double, 1, 1>(along.dot(p.point)));
     return range;
   };
-  const auto on = rangeOf(points), enclosing = rangeOf(around);
-  return !on.isEmpty() && !enclosing.isEmpty() && on.min()[0] > enclosing.min()[0] - kSlack &&
-         on.max()[0] < enclosing.max()[0] + kSlack;
+  const auto on = rangeOf(points), enclosing = rangeOf(around.points);
+  if (on.isEmpty() || enclosing.isEmpty()) return false;
+  // The wall faces the camera: along it is to the right.
+  return (!around.onLeft || on.min()[0] > enclosing.min()[0] - kSlack) &&
+         (!around.onRight || on.max()[0] < enclosing.max()[0] + kSlack);
 }
 
-/** Could it be the object's own side, with most of the object on it or something behind it? */
+/** Could it be the object's own side, with most of the object on it, nothing before it, or
+ * something behind it? */
 bool isOwnSide(const Plane& wall, const TolerantPoints& points)
 {
-  constexpr double kMaxOn = 0.5, kMaxBehind = 0.02;  // shares of the candidates
+  constexpr double kMaxOn = 0.5, kMaxBefore = 0.05, kMaxBehind = 0.02;  // shares of the candidates
   const auto all = static_cast<double>(points.size());
+  const auto before = std::count_if(
+      points.begin(), points.end(),
+      [&](const auto& p) { return wall.signedDistance(p.point) > 2 * p.tolerance; });
   const auto behind = std::count_if(
       points.begin(), points.end(),
       [&](const auto& p) { return wall.signedDistance(p.point) < -p.tolerance; });
-  return countOn(wall, points) > kMaxOn * all || static_cast<double>(behind) > kMaxBehind * all;
+  return (countOn(wall, points) > kMaxOn * all && static_cast<double>(before) < kMaxBefore * all) ||
+         static_cast<double>(behind) > kMaxBehind * all;
 }
 
 /** Takes away what lies on the walls behind the box: those of the segmentation, else one that only
  * the surroundings show. */
 void dropWalls(
     const std::vector<Plane>& walls,
-    const TolerantPoints& around,
+    Surroundings around,
     const ScenePlanes& planes,
     const PerceptionOptions& options,
     BoxCandidates& candidates)
@@ -185,8 +228,12 @@ void dropWalls(
   for (const auto& wall : walls)
     if (goesOnBehind(wall, planes.up, around, withTolerances(candidates.points, options)))
       drop(wall);
-  if (!walls.empty()) return;
-  const auto wall = wallThrough(around, planes.up);
+  auto& rest = around.points;  // a corner of the room has two walls
+  for (const auto& wall : walls)
+    rest.erase(
+        std::remove_if(rest.begin(), rest.end(), [&](const auto& p) { return p.isOn(wall); }),
+        rest.end());
+  const auto wall = wallThrough(rest, planes.up);
   if (!wall) return;
   const auto points = withTolerances(candidates.points, options);
   if (!isOwnSide(*wall, points) && goesOnBehind(*wall, planes.up, around, points)) drop(*wall);
@@ -258,7 +305,7 @@ BoxCandidates candidatesIn(
       range, candidateStep(range.cells())
   };
   const auto around = surroundings(cloud, planes, box, options);
-  const auto walls = wallsAround(planes, around, out.rule);
+  const auto walls = wallsAround(planes, around.points, out.rule);
   const auto atMost = static_cast<std::size_t>(range.cells() / (out.step * out.step));
   out.cells.reserve(atMost);
   out.points.reserve(atMost);
