@@ -24,7 +24,7 @@ constexpr double kViewSpread = 0.2;
 /** Standard deviation of a seed's position [m] for a mean size [m]: fitted to simulated scenes, as
  * parts of most objects are hidden. */
 constexpr double sigmaAlongRay(double meanWidth) { return 0.05 + 0.5 * meanWidth; }
-constexpr double sigmaAcrossRay(double meanSize) { return 0.04 + 0.21 * meanSize; }
+constexpr double sigmaAcrossRay(double meanSize) { return 0.02 + 0.11 * meanSize; }
 
 Eigen::Vector3d composed(const mrpt::poses::CPose3D& T, const Eigen::Vector3d& p)
 {

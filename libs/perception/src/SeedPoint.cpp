@@ -76,13 +76,6 @@ std::optional<Eigen::Vector3d> seedWithoutCloud(const DepthCloud& cloud, const I
   return Eigen::Vector3d(ray * (onPlane ? *onPlane : quantile(around.depths, 0.25)));
 }
 
-Eigen::Vector3d medianOf(const ObjectCloud& object)
-{
-  Eigen::Vector3d out;
-  for (int axis = 0; axis < 3; ++axis) out[axis] = median(sampleOf(object.points, axis));
-  return out;
-}
-
 }  // namespace
 
 bool looksLikeScreen(const ObjectCloud& object) { return object.coverage <= kMaxScreenCoverage; }
@@ -93,7 +86,8 @@ std::optional<Eigen::Vector3d> seedOf(
   std::optional<Eigen::Vector3d> out;
   if (object.empty() || (looksLikeScreen(object) && !isComplete))
     out = seedWithoutCloud(cloud, box);
-  if (!out && !object.empty()) out = medianOf(object);
+  if (!out && !object.empty())
+    out = cloud.camera().ray(box.centerX(), box.centerY()) * median(sampleOf(object.points, 2));
   return out;
 }
 
