@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 namespace quadmap
@@ -17,35 +16,19 @@ void dropInfinite(std::vector<double>& values)
   if (values.empty()) throw std::invalid_argument("quantile: no finite value");
 }
 
-/** \param values Finite, at least one; put into another order. */
-double quantileOf(std::vector<double>& values, double p)
+/** \param values Finite, at least one; put into another order.
+ * \param known As many are known to be first, with none of the others below them. */
+double quantileOf(std::vector<double>& values, double p, std::size_t known = 0)
 {
   if (!(p >= 0 && p <= 1)) throw std::invalid_argument("quantile: p must be in [0, 1]");
   const double position = p * static_cast<double>(values.size() - 1);
   const auto rank = static_cast<std::size_t>(position);
   const double fraction = position - static_cast<double>(rank);
-  // Far out few values need to be looked at twice.
-  constexpr std::size_t kTail = 32;
-  if (values.size() - rank <= values.size() / kTail)
-  {
-    std::vector<double> highest(values.size() - rank);
-    std::partial_sort_copy(
-        values.begin(), values.end(), highest.begin(), highest.end(), std::greater<double>());
-    const double value = highest.back();
-    return fraction == 0 ? value : value + fraction * (highest[highest.size() - 2] - value);
-  }
-  if (rank + 2 <= values.size() / kTail)
-  {
-    std::vector<double> lowest(rank + 2);
-    std::partial_sort_copy(values.begin(), values.end(), lowest.begin(), lowest.end());
-    return fraction == 0 ? lowest[rank]
-                         : lowest[rank] + fraction * (lowest[rank + 1] - lowest[rank]);
-  }
-  const auto below = values.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(values.begin(), below, values.end());
-  if (fraction == 0) return *below;
-  const double above = *std::min_element(below + 1, values.end());
-  return *below + fraction * (above - *below);
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(known), at(rank), values.end());
+  if (fraction == 0) return values[rank];
+  const double above = *std::min_element(at(rank + 1), values.end());
+  return values[rank] + fraction * (above - values[rank]);
 }
 
 }  // namespace
@@ -59,7 +42,9 @@ double quantile(std::vector<double> values, double p)
 QuantileRange quantileRange(std::vector<double> values, double p)
 {
   dropInfinite(values);
-  return {quantileOf(values, p), quantileOf(values, 1 - p)};
+  const double low = quantileOf(values, p);
+  const auto known = static_cast<std::size_t>(p * static_cast<double>(values.size() - 1));
+  return {low, quantileOf(values, 1 - p, known)};
 }
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
