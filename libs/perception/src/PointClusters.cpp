@@ -55,14 +55,10 @@ Key keyAt(double x, double y, double z)
 class Grid
 {
  public:
-  explicit Grid(std::size_t maxCells)
-  {
-    while ((std::size_t(1) << bits_) < 2 * maxCells) ++bits_;
-    slots_.resize(std::size_t(1) << bits_);
-  }
-
   int numberOf(Key key)
   {
+    constexpr std::size_t kSpace = 8;  // slots for a cell: most looks find a free one at once
+    if (slots_.size() <= kSpace * keys_.size()) grow();
     Slot& slot = slots_[slotOf(key)];
     if (slot.number < 0)
     {
@@ -93,6 +89,15 @@ class Grid
     int number = -1;  // free
   };
 
+  /** Objects are many points but few cells: a small table stays in the processor's cache. */
+  void grow()
+  {
+    ++bits_;
+    slots_.assign(std::size_t(1) << bits_, Slot());
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+      slots_[slotOf(keys_[i])] = {keys_[i], static_cast<int>(i)};
+  }
+
   /** Where a key is, or the free slot where it belongs. */
   std::size_t slotOf(Key key) const
   {
@@ -103,8 +108,8 @@ class Grid
     return slot;
   }
 
-  unsigned bits_ = 4;  // of the number of slots
-  std::vector<Slot> slots_;
+  unsigned bits_ = 10;  // of the number of slots
+  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t(1) << bits_);
   std::vector<Key> keys_;
 };
 
@@ -114,7 +119,7 @@ PointClusters::PointClusters(
     const std::vector<Eigen::Vector3d>& points, double gap, const PerceptionOptions& options)
 {
   const DepthScale depthScale(gap, options);
-  Grid grid(points.size());
+  Grid grid;
   labels_.reserve(points.size());
   Key last = -1;  // neighbours mostly share a cell
   const double cellsPerMetre = 1.0 / gap;
