@@ -44,12 +44,21 @@ class Sums
   {
   }
 
-  /** Cells come row by row. \param q 0 for cells without depth. */
-  void add(int c, int r, double q)
+  /** Adds the next row. \param cells All of it. */
+  void add(int r, const SurfaceCell* cells)
   {
-    if (c == 0) row_.setZero();
-    row_ += q * Eigen::Vector4d(1, c, r, q);
-    sums_[index(c + 1, r + 1)] = sums_[index(c + 1, r)] + row_;
+    const Eigen::Vector4d* above = &sums_[index(0, r)];
+    Eigen::Vector4d* here = &sums_[index(0, r + 1)];
+    // One number at a time: put together into a vector they would have to wait for memory.
+    double sum = 0, columns = 0, rows = 0, squares = 0;
+    for (std::size_t c = 0; c + 1 < width_; ++c)
+    {
+      const double q = cells[c].hasDepth() ? 1.0 / double(cells[c].point.z()) : 0.0;
+      here[c + 1][0] = above[c + 1][0] + (sum += q);
+      here[c + 1][1] = above[c + 1][1] + (columns += q * static_cast<double>(c));
+      here[c + 1][2] = above[c + 1][2] + (rows += q * r);
+      here[c + 1][3] = above[c + 1][3] + (squares += q * q);
+    }
   }
 
   Eigen::Vector4d over(int c, int r, int width) const
@@ -66,7 +75,6 @@ class Sums
   }
 
   std::size_t width_;
-  Eigen::Vector4d row_ = Eigen::Vector4d::Zero();
   std::vector<Eigen::Vector4d> sums_;
 };
 
@@ -179,12 +187,7 @@ void SurfaceCells::fitPlanes(const DepthCloud& cloud)
   int summed = 0;  // rows
   for (int r = kBorder; r < rows_ - kBorder; ++r)
   {
-    for (; summed <= r + kWidest / 2; ++summed)
-      for (int c = 0; c < columns_; ++c)
-      {
-        const SurfaceCell& cell = cells_[cellAt(c, summed)];
-        sums.add(c, summed, cell.hasDepth() ? 1.0 / double(cell.point.z()) : 0.0);
-      }
+    for (; summed <= r + kWidest / 2; ++summed) sums.add(summed, &cells_[cellAt(0, summed)]);
     for (int c = kBorder; c < columns_ - kBorder; ++c)
     {
       const std::size_t i = cellAt(c, r);
