@@ -207,6 +207,24 @@ TEST(EdgeRules, AnObjectThatIsSeenToEndBeforeTheBorderHasItsEdge)
   EXPECT_EQ(edgesOf(measured(nearer, {nearer.detect(0, "suitcase")}))[0], 'b');
 }
 
+// A picture on a wall: the depth beside it is its own, but a box does not end so far from where the
+// border would have cut it.
+TEST(EdgeRules, ABoxThatEndsWellBeforeTheBorderIsNotCutByIt)
+{
+  SyntheticFrame frame;
+  frame.add(2.6, 1.1, 1.0, 0.0, {0.03, 0.5, 0.4});
+  frame.add(2.7, 1.0, 0.0, 0.0, {0.1, 5.0, 2.5});  // the wall
+  const auto distance = [&](double x1)
+  {
+    auto detection = frame.detect(0, "tv");
+    detection.box.x1 = x1;
+    return edgesOf(measured(frame, {detection}))[0];
+  };
+  ASSERT_LT(frame.detect(0, "tv").box.x1, 30);
+  EXPECT_EQ(distance(20), 'u');
+  EXPECT_EQ(distance(9), 'b');
+}
+
 // A bench that comes nearer to the right: its right side runs into the lower border of the image.
 TEST(EdgeRules, ASideThatSlantsOutOfTheImageIsNoEdge)
 {

@@ -18,6 +18,8 @@ constexpr double kContactShare = 0.1;
 /** Between a box edge and the border of the image; detectors err by as much where it cuts an object
  * [px of an image 640 wide]. */
 constexpr double kMinStrip_px = 8.0;
+/** Further from the border of the image than this, a box edge is not where the border cuts. */
+constexpr double kBorderSigmas = 3.0;
 
 /** Options in pixels are meant for images of this width, and grow with the image. */
 double scaledPixels(const DepthCloud& cloud, double pixels)
@@ -140,15 +142,20 @@ class EdgeJudge
         [&](int c, int r) { return occluders_.isNearer(c, r, limit); });
   }
 
-  /** Near the border of the image, and the object is not seen to end before it. */
+  /** Near the border of the image, and neither the box nor the depth shows that the object ends
+   * before it. */
   bool isNearBorder(BoxEdge edge, double depth) const
   {
-    const double distance = distanceToBorder(cloud_.camera(), box_, edge);
-    const double margin = options_.borderMarginIn(cloud_.camera().width);
+    const auto& camera = cloud_.camera();
+    const double distance = distanceToBorder(camera, box_, edge);
+    const double margin = options_.borderMarginIn(camera.width);
     if (margin == 0 || distance >= margin) return false;
-    return depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px) ||
-           !endsBefore(edge, distance, depth);
+    if (depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px)) return true;
+    const double sigma = options_.edgeSigmaIn(camera.width, sizeAcross(edge));
+    return distance < kBorderSigmas * sigma && !endsBefore(edge, distance, depth);
   }
+
+  double sizeAcross(BoxEdge edge) const { return isUpright(edge) ? box_.width() : box_.height(); }
 
   /** Is there background, and nothing of the object's depth, between an edge and the border? */
   bool endsBefore(BoxEdge edge, double distance, double depth) const
@@ -171,37 +178,51 @@ class EdgeJudge
   {
     const auto i = static_cast<std::size_t>(edge);
     HiddenEvidence e;
-    e.nearer = nearer_[i];
-    e.touching = touching_[i];
-    e.touchingBeside = std::max(touching_[(i + 1) % 4], touching_[(i + 3) % 4]);
     e.opposite = nearer_[(i + 2) % 4];
-    e.depth = context_.depth;
+    e.touchingBeside = std::max(touching_[(i + 1) % 4], touching_[(i + 3) % 4]);
     e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
     for (std::size_t k = 0; k < 4; ++k)
       e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
     e.endAtBorder = ends_[i].shareAtBorder();
-    if (sideOf(edge) != ObjectSide::Lateral)  // there, these tell nothing
-    {
-      e.endBeside = ends_[i].shareBeside();
-      const double limit = depth_[i] - occluders_.depthMargin(depth_[i]);
-      e.nearerInside = occluders_.shareNearer(quarterInside(box_, edge), limit);
-    }
+    e.withoutCloud = context_.object.empty();
+    if (!context_.object.support) e.coverageUnsupported = context_.object.coverage;
+    e.floating = floating_;
+    addOutside(edge, e);
     addCuboid(edge, e);
     addSizes(edge, e);
-    e.floating = floating_;
     return e;
   }
 
-  /** How far the cuboid reaches beyond an edge. */
+  /** What is seen around an edge. */
+  void addOutside(BoxEdge edge, HiddenEvidence& e) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    e.nearer = nearer_[i];
+    const auto side = sideOf(edge);
+    if (side == ObjectSide::Lateral) return;  // there, the others tell nothing
+    const double limit = depth_[i] - occluders_.depthMargin(depth_[i]);
+    e.nearerInside = occluders_.shareNearer(quarterInside(box_, edge), limit);
+    if (side == ObjectSide::Bottom)
+      e.noDepth = shareAlong(
+          edge, scaledPixels(cloud_, options_.occlusionStrip),
+          [&](int c, int r) { return !cloud_.valid(c, r); });
+  }
+
+  /** How far the cuboid reaches beyond an edge, and whether it is the object's. */
   void addCuboid(BoxEdge edge, HiddenEvidence& e) const
   {
+    const auto i = static_cast<std::size_t>(edge);
+    const double pixel = scaledPixels(cloud_, 1);
+    e.size_px = sizeAcross(edge) / pixel;
+    e.length_px = (isUpright(edge) ? box_.height() : box_.width()) / pixel;
+    e.cloudShort_px = ends_[i].shortOf(box_) / pixel;
     if (!context_.cuboidBox) return;
     const ImageBox& cuboid = *context_.cuboidBox;
     const double beyond[4] = {
         box_.x1 - cuboid.x1, box_.y1 - cuboid.y1, cuboid.x2 - box_.x2, cuboid.y2 - box_.y2};
-    const double outwards = beyond[static_cast<std::size_t>(edge)];
-    e.cuboidBeyond_px = outwards / scaledPixels(cloud_, 1);
-    e.cuboidBeyondShare = outwards / (isUpright(edge) ? box_.width() : box_.height());
+    e.cuboidBeyond_px = beyond[i] / pixel;
+    const auto& camera = cloud_.camera();
+    e.cuboidFit = imageBoxIoU(cuboid.clipped(camera.width, camera.height), box_);
   }
 
   /** How the box compares with the label's typical size at the object's depth. */

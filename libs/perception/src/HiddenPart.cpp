@@ -8,11 +8,19 @@ namespace quadmap
 namespace
 {
 constexpr double kMaxDeviations = 4;   // more tell nothing more, and a label may be wrong
-constexpr double kNear = 2.5;          // [m], depth cameras are good up to here
 constexpr double kFloatingFree = 0.1;  // lower ends are ragged where the support was cut away
-/** A cuboid that ends further inside or outside is another thing, or not well fitted. */
-constexpr double kMinBeyond_px = -20, kMaxBeyond_px = 60;
-constexpr double kMinBeyondShare = -0.2, kMaxBeyondShare = 1;
+constexpr double kMinSize = 5;         // [px of an image 640 wide]
+
+/** How far the cuboid reaches beyond the end of the object's cloud, over what it errs by, as far as
+ * it is the object's. */
+double cuboidBeyond(const HiddenEvidence& e)
+{
+  constexpr double kError_px = 6, kErrorShare = 0.1;
+  // What lies further inside or outside is another thing, or not well fitted.
+  constexpr double kMinShort_px = -30, kMaxShort_px = 10, kMin = -1, kMax = 3;
+  const double beyond = e.cuboidBeyond_px + std::clamp(e.cloudShort_px, kMinShort_px, kMaxShort_px);
+  return e.cuboidFit * std::clamp(beyond / (kError_px + kErrorShare * e.size_px), kMin, kMax);
+}
 
 }  // namespace
 
@@ -21,6 +29,7 @@ double hiddenProbability(ObjectSide side, const HiddenEvidence& e)
   const double tooLow = std::min(e.tooLow, kMaxDeviations);
   const double tooNarrow = std::min(e.tooNarrow, kMaxDeviations);
   const double cutBeside = e.cutBeside ? 1 : 0;
+  const double cuboid = cuboidBeyond(e);
   double logOdds = 0;
   const auto add = [&](double piece, double top, double bottom, double lateral)
   {
@@ -29,24 +38,25 @@ double hiddenProbability(ObjectSide side, const HiddenEvidence& e)
                                                      : lateral);
   };
   // Logistic regression over simulated rooms (doc/benchmarks.md, "Box edges").
-  add(1, -9.7, -5.7, -7.2);
-  add(e.nearer, 0, 2.2, 4.8);
-  add(e.touching, 0, 1.0, 0);
-  add(e.opposite, -1.7, -1.7, -1.9);
-  add(e.endBeside, 1.5, 1.1, 0);
-  add(e.endAtBorder, 2.4, 1.2, 3.4);
-  add(e.nearerInside, 3.2, 0.7, 0);
-  add(std::clamp(e.cuboidBeyond_px, kMinBeyond_px, kMaxBeyond_px), 0.031, 0.082, 0.041);
-  add(std::clamp(e.cuboidBeyondShare, kMinBeyondShare, kMaxBeyondShare), 0, -3.1, 0);
-  add(std::max(0.0, e.depth - kNear), -1.3, 0, 0);
-  add(e.anyContact ? 1.0 : 0.0, 2.4, 0, 0.9);
-  add(cutBeside, 2.0, 1.0, 0.6);
-  add(cutBeside * tooNarrow, 0.5, 0.8, 0);
-  add(tooNarrow, 0, 0, 0.8);
-  add(tooLow, 0.8, 0.6, 0);
-  add(tooLow * e.touchingBeside, 0, 0, 0.8);
-  add(std::min(e.topTooLow, kMaxDeviations), 2.0, 0, 0);
-  add(std::max(0.0, e.floating - kFloatingFree), 0, 2.4, 2.8);
+  add(1, -8.8, -13.5, -6.7);
+  add(e.nearer, 0, 3.3, 0);
+  add(e.nearer * std::log(std::max(e.length_px, kMinSize)), 0, 0, 1.18);
+  add(e.opposite, -2.5, 0, -1.7);
+  add(e.endAtBorder, 2.2, 0, 4.2);
+  add(e.nearerInside, 4.1, 0.8, 0);
+  add(cuboid, 0.7, 2.3, 1.73);
+  add(std::max(0.0, cuboid) * e.noDepth, 0, 3.7, 0);
+  add(e.withoutCloud ? 1.0 : 0.0, 0, 0, 1.9);
+  add(e.coverageUnsupported, 0, 2.4, 0);
+  add(std::log(std::max(e.size_px, kMinSize)), 0, 1.4, 0);
+  add(e.anyContact ? 1.0 : 0.0, 2.35, 0, 0);
+  add(cutBeside, 1.45, 1.1, 0);
+  add(cutBeside * tooNarrow, 0, 1.15, 0);
+  add(cutBeside * std::min(e.topTooLow, kMaxDeviations), 2.7, 0, 0);
+  add(tooNarrow, 0, 0, 0.7);
+  add(tooLow, 0.73, 0.85, 0);
+  add(tooLow * e.touchingBeside, 0, 0, 0.93);
+  add(std::max(0.0, e.floating - kFloatingFree), 0, 0, 2.6);
   return 1.0 / (1.0 + std::exp(-logOdds));
 }
 

@@ -24,11 +24,10 @@ class ObjectEnd
       const PerceptionOptions& options);
 
   double shareBehind() const;  //!< Of the cells that something nearer touches from beyond the edge
-  /** Of the cells beside which, along the edge, something nearer stands next to the object: it may
-   * hide where the object goes on. */
-  double shareBeside() const;
   /** Of the cells where the edge meets the border of the image: the object may go on out there. */
   double shareAtBorder() const;
+  /** From the object's outermost cell outwards to the edge of a box [px]; 0 without cells. */
+  double shortOf(const ImageBox& box) const;
 
  private:
   struct End
@@ -38,8 +37,6 @@ class ObjectEnd
   };
 
   bool isNearerBeyond(const End& end) const;
-  bool isNearerBeside(const End& end, int direction) const;
-  double depthLimit(const End& end) const;  // what is nearer is not the object [m]
   ObjectCloud::Cell cell(int line, int position) const
   {
     const int across = position * outwards_;
@@ -52,10 +49,12 @@ class ObjectEnd
   const DepthCloud& cloud_;
   const ObjectCloud& object_;
   const Occluders& occluders_;
+  const BoxEdge edge_;
   const bool upright_;
   const int outwards_;  // 1 or -1
   const int strip_;     // that is looked at [cells]
   std::vector<End> ends_;
+  int outermost_;  // column or row, times `outwards_`
 };
 
 }  // namespace quadmap

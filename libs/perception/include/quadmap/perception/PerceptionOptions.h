@@ -49,9 +49,9 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double borderMargin = 30;   //!< Box edges this near to the border are cut; 0: the rule is off
   double occlusionStrip = 8;  //!< Width of the strip outside an edge that is looked at
   /** An edge is not used when the object goes on beyond it with more than this probability; 1: the
-   * rule is off. 0.07: below 1 % of the edges in use are wrong in most simulated rooms
+   * rule is off. 0.06: below 1 % of the edges in use are wrong in most simulated rooms
    * (doc/benchmarks.md). */
-  double maxHiddenProbability = 0.07;
+  double maxHiddenProbability = 0.06;
   /** What a detector's box edge may be off by when boxes are compared with what the depth shows [px
    * of an image 640 px wide], > 0: detectors look at images of one size, whatever the camera's. */
   double edgeTolerance = 6.0;
