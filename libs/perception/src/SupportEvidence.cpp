@@ -43,6 +43,17 @@ std::vector<Eigen::Vector3d> atMainDepth(std::vector<Weighted> all, double width
   return out;
 }
 
+/** Puts points in order along a direction. */
+void sortAlong(const Eigen::Vector3d& direction, std::vector<Eigen::Vector3d>& points)
+{
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order.emplace_back(direction.dot(points[i]), i);
+  std::sort(order.begin(), order.end());
+  const auto before = points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = before[order[i].second];
+}
+
 /** Does a point appear in a box? Beyond the image's border the box may go on. */
 bool appearsIn(const PinholeCamera& camera, const ImageBox& box, const Eigen::Vector3d& p)
 {
@@ -162,9 +173,7 @@ RoughObject roughObject(
     }
   const double width = label.typicalSize.head<2>().norm() * (1.0 + 0.5 * label.sizeSpread);
   out.points = atMainDepth(std::move(all), width);
-  std::stable_sort(
-      out.points.begin(), out.points.end(),
-      [&](const auto& a, const auto& b) { return planes.up.dot(a) < planes.up.dot(b); });
+  sortAlong(planes.up, out.points);
   constexpr std::size_t kFewest = 12;
   if (out.points.size() < kFewest) out.points.clear();
   return out;
@@ -248,9 +257,7 @@ std::optional<ScenePlane> topOf(
       const auto normal = cloud.normal(c, r);
       if (normal && normal->cast<double>().dot(planes.up) >= kFacesUp) points.push_back(p);
     }
-  std::stable_sort(
-      points.begin(), points.end(),
-      [&](const auto& a, const auto& b) { return planes.up.dot(a) < planes.up.dot(b); });
+  sortAlong(planes.up, points);
   std::size_t first = 0, bestFirst = 0, bestCount = 0;
   for (std::size_t last = 0; last < points.size(); ++last)
   {
