@@ -117,18 +117,16 @@ std::optional<Eigen::Vector3f> DepthCloud::normal(int c, int r) const
 bool DepthCloud::isAmongJumps(int c, int r) const
 {
   const float z = depth(c, r), tolerance = jumpTolerance(z);
-  int near = 0, jumps = 0;
-  for (int dr = -1; dr <= 1; ++dr)
-    for (int dc = -1; dc <= 1; ++dc)
+  int near = -1, valid = -1;  // but for the cell itself
+  const int endC = std::min(c + 2, columns_), endR = std::min(r + 2, rows_);
+  for (int rn = std::max(r - 1, 0); rn < endR; ++rn)
+    for (int cn = std::max(c - 1, 0); cn < endC; ++cn)
     {
-      if ((dc == 0 && dr == 0) || !inside(c + dc, r + dr)) continue;
-      const float zn = depth(c + dc, r + dr);
-      if (zn > 0 && std::abs(zn - z) < tolerance)
-        ++near;
-      else if (zn > 0)
-        ++jumps;
+      const float zn = depth(cn, rn);
+      valid += zn > 0 ? 1 : 0;
+      near += zn > 0 && std::abs(zn - z) < tolerance ? 1 : 0;
     }
-  return jumps > 0 && near < 4;
+  return valid > near && near < 4;
 }
 
 DepthCloud::CellRange DepthCloud::cellsOf(const ImageBox& box) const
