@@ -151,9 +151,10 @@ CoarseDepth DepthCloud::coarse(unsigned columns, unsigned rows) const
       values.clear();
       const int r1 = static_cast<int>((i + 1) * static_cast<unsigned>(rows_) / rows);
       const int c1 = static_cast<int>((j + 1) * static_cast<unsigned>(columns_) / columns);
-      for (int r = static_cast<int>(i * static_cast<unsigned>(rows_) / rows); r < r1; r += 2)
+      constexpr int kStep = 3;
+      for (int r = static_cast<int>(i * static_cast<unsigned>(rows_) / rows); r < r1; r += kStep)
         for (int c = static_cast<int>(j * static_cast<unsigned>(columns_) / columns); c < c1;
-             c += 2)
+             c += kStep)
           if (valid(c, r)) values.push_back(depth(c, r));
       if (values.size() < 3)
       {

@@ -36,16 +36,19 @@ Heights heightsAlong(
   return out;
 }
 
-/** The height that most points agree with within two of their sigmas. */
+/** The height that most points agree with within two of their sigmas: a start for the fit, for
+ * which some of them do. */
 double mode(const Heights& heights)
 {
-  const std::size_t count = heights.along.size();
-  std::vector<double> lower(count), upper(count);  // ends of what each point agrees with
-  for (std::size_t i = 0; i < count; ++i)
+  constexpr std::size_t kMost = 200;
+  const std::size_t step = 1 + heights.along.size() / kMost;
+  std::vector<double> lower, upper;  // ends of what each point agrees with
+  for (std::size_t i = 0; i < heights.along.size(); i += step)
   {
-    lower[i] = heights.along[i] - 2 * heights.sigmas[i];
-    upper[i] = heights.along[i] + 2 * heights.sigmas[i];
+    lower.push_back(heights.along[i] - 2 * heights.sigmas[i]);
+    upper.push_back(heights.along[i] + 2 * heights.sigmas[i]);
   }
+  const std::size_t count = lower.size();
   std::sort(lower.begin(), lower.end());
   std::sort(upper.begin(), upper.end());
   std::size_t ended = 0, deepest = 0;
@@ -91,7 +94,7 @@ Plane fit(
     const Eigen::Vector3d d = points[i] - middle;
     const Eigen::Vector3d row(1, e1.dot(d), e2.dot(d));
     const double weight = share / (heights.sigmas[i] * heights.sigmas[i]);
-    A += weight * row * row.transpose();
+    A.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     b += weight * up.dot(d) * row;
   }
   const Eigen::Vector3d x = A.ldlt().solve(b);

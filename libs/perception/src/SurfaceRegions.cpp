@@ -29,14 +29,17 @@ bool isSamePlane(const SurfaceCell& cell, const SurfaceCell& before)
 /** Least squares of the distances; nothing when the region is bent. */
 std::optional<SurfaceRegion> fitRegion(const SurfaceCells& cells, std::vector<std::size_t> indices)
 {
+  constexpr std::size_t kEnough = 1500;  // points: their noise is correlated
+  const std::size_t step = 1 + indices.size() / kEnough;
   SurfaceRegion out;
-  const double count = static_cast<double>(indices.size());
-  for (const std::size_t i : indices) out.centroid += cells[i].point.cast<double>();
+  double count = 0;
+  for (std::size_t k = 0; k < indices.size(); k += step, ++count)
+    out.centroid += cells[indices[k]].point.cast<double>();
   out.centroid /= count;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const std::size_t i : indices)
+  for (std::size_t k = 0; k < indices.size(); k += step)
   {
-    const Eigen::Vector3d d = cells[i].point.cast<double>() - out.centroid;
+    const Eigen::Vector3d d = cells[indices[k]].point.cast<double>() - out.centroid;
     covariance += d * d.transpose();
   }
   covariance /= count;
