@@ -157,6 +157,32 @@ TEST(ObjectCloud, LeavesAChairBesideATableToItself)
   EXPECT_NEAR(bounds.min().y(), -0.60, 0.03);
 }
 
+// Its headboard reaches as far back as the thing behind it, and the box as far up.
+TEST(ObjectCloud, LeavesWhatIsSeenBehindABedThatFillsItsBox)
+{
+  SyntheticFrame frame(1.3, 0.25);
+  frame.noise = 0.0015;
+  const double yaw = 0.6;
+  const Eigen::Vector2d along(std::cos(yaw), std::sin(yaw)), left(-along.y(), along.x());
+  const auto part = [&](double forwards, double sideways, const Eigen::Vector3d& size)
+  {
+    const Eigen::Vector2d at = Eigen::Vector2d(3.2, 0) + forwards * along + sideways * left;
+    frame.add(at.x(), at.y(), 0, yaw, size);
+  };
+  part(0, 0, {2.0, 1.5, 0.5});
+  part(1.02, 0, {0.04, 1.5, 1.0});      // headboard
+  part(-0.1, -1.15, {0.3, 0.3, 0.75});  // beyond its right side: nobody detects it
+  const auto m = measureAll(frame, {detectParts(frame, {0, 1}, "bed")}, frame.scan());
+  ASSERT_TRUE(m[0].complete) << m[0].reason;
+  const Ellipsoid cuboid = m[0].complete->object_sensor.transformed(frame.T_world_sensor);
+  const Eigen::Vector3d right(-left.x(), -left.y(), 0);
+  double farthest = -1e9;
+  const auto corners = cuboid.cuboidCorners();
+  for (int i = 0; i < 8; ++i)
+    farthest = std::max(farthest, right.dot(corners.col(i) - Eigen::Vector3d(3.2, 0, 0)));
+  EXPECT_LT(farthest, 0.75 + 0.05);
+}
+
 TEST(ObjectCloud, LooksThroughAChairsBack)
 {
   SyntheticFrame frame(1.2, 0.35);

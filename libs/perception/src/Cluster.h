@@ -55,7 +55,8 @@ struct Cluster
 };
 
 /** Is a cluster a part that something thin or unseen joins to the main one: a leg, the leaves above
- * a stem? It ends within the box and lies at the main part's depth; background does not. */
+ * a stem? It ends within the box and lies at the main part's depth; background does not. What is
+ * seen over a bed that fills its box may, but the bed needs no other part. */
 bool isFragment(const Cluster& cluster, const Cluster& main);
 
 /** Is it a broad part nearer than the main one that ends within the box, too, and reaches lower:
