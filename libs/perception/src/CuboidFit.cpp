@@ -45,7 +45,7 @@ void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator, bool isRound)
   for (std::size_t side = 0; side < kSides; ++side)
   {
     auto& worth = faces[side].worth;
-    if ((isOpen || estimator.facingAway(side) < -0.25) && worth.kind == FaceKind::Measured)
+    if ((isOpen || estimator.facingAway(side) < -kTurnedAway) && worth.kind == FaceKind::Measured)
       worth.kind = FaceKind::AtLeast;
     worth.sigma += kSideDoubt;
   }

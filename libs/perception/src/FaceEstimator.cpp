@@ -13,7 +13,6 @@ namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
 constexpr std::size_t kTop = 4, kBottom = 5;
-constexpr double kAway = 0.25;  // cosine from which a side is turned away
 
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
@@ -290,7 +289,7 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
       static_cast<std::size_t>(1.0 + kStrayLines * static_cast<double>(outline.lines.size())));
   const double outermost = outline.lines[stray].along;
   const double away = facingAway(face);
-  out.source = away > kAway ? FaceSource::FarEdge : FaceSource::Outline;
+  out.source = away > kTurnedAway ? FaceSource::FarEdge : FaceSource::Outline;
   const double perCell = std::min(outline.metresPerCell, kMaxMetresPerCell);
   out.position = outermost + outlineShift(away, perCell) - noiseAt(face, outermost, stray);
   const auto& across = acrossOf(face);
@@ -303,7 +302,7 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   }
   out.shift /= count;
   const bool isOpen = cutShare(outline, face, outermost - kRim) > kMaxCut ||
-                      (away > kAway && !leadsUp(face, outermost));
+                      (away > kTurnedAway && !leadsUp(face, outermost));
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
   // A slanted cut leaves few lines their ends; nothing is known beyond them.
   if (isOpen) out.position = std::max(outermost, extreme(face));
@@ -314,9 +313,9 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
 double FaceEstimator::outlineSigmaOf(std::size_t face, double perCell) const
 {
   const double away = facingAway(face);
-  if (face == kTop && away < -kAway) return topFromAboveSigma(perCell, range_, options_);
+  if (face == kTop && away < -kTurnedAway) return topFromAboveSigma(perCell, range_, options_);
   if (face == kTop) return topEdgeSigma(perCell, range_, options_);
-  if (away > kAway) return farEdgeSigma(perCell, range_, options_);
+  if (away > kTurnedAway) return farEdgeSigma(perCell, range_, options_);
   return outlineSigma(perCell, range_, options_);
 }
 

@@ -10,15 +10,19 @@ namespace quadmap
 // Standard deviations of faces [m], fitted to simulated scenes with known truth; the table
 // `observation_tables residuals` (doc/benchmarks.md) shows how well they hold.
 
+/** Cosine between a face's normal and the line of sight from which it is turned away; towards the
+ * camera below its negative, in between the object's outline shows it. */
+inline constexpr double kTurnedAway = 0.25;
+
 /** How far an object reaches, on average, beyond its outermost cells [m]: half a cell, and more
  * where its surface is seen at a flat angle, because depth is missing along edges.
  * \param away Cosine between the face's normal and the line of sight: > 0 faces away.
  * \param perCell Step of one cell along the normal [m]. */
 inline double outlineShift(double away, double perCell)
 {
-  if (away < -0.25)
+  if (away < -kTurnedAway)
     return 0.0;  // the outermost point is no end of a line, but a point nearer to us
-  return (away > 0.25 ? 1.0 : 0.5) * perCell;
+  return (away > kTurnedAway ? 1.0 : 0.5) * perCell;
 }
 
 /** How far depth noise moves the n-th outermost (0: the outermost) of `count` points along a face's
@@ -26,7 +30,7 @@ inline double outlineShift(double away, double perCell)
  * \param away Cosine between the face's normal and the line of sight. */
 inline double outlineNoise(double away, double depthSigma, std::size_t n, std::size_t count)
 {
-  if (std::abs(away) < 0.25) return 0.0;
+  if (std::abs(away) < kTurnedAway) return 0.0;
   const double beyond = (static_cast<double>(n) + 0.625) / (static_cast<double>(count) + 0.25);
   const double sigmas = 4.91 * (std::pow(1.0 - beyond, 0.14) - std::pow(beyond, 0.14));
   return sigmas * std::abs(away) * depthSigma;
