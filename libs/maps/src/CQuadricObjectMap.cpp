@@ -2,7 +2,6 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/core/format.h>
-#include <mrpt/core/initializer.h>
 
 #include <ostream>
 #include <stdexcept>
@@ -16,8 +15,6 @@ IMPLEMENTS_SERIALIZABLE(CQuadricObjectMap, CMetricMap, quadmap)
 MAP_DEFINITION_REGISTER(
     "CQuadricObjectMap,quadricObjectMap,quadmap::CQuadricObjectMap", quadmap::CQuadricObjectMap)
 
-MRPT_INITIALIZER(registerQuadmapMaps) { quadmap::registerMapClasses(); }
-
 namespace quadmap
 {
 void registerMapClasses()
@@ -25,6 +22,17 @@ void registerMapClasses()
   registerObsClasses();
   mrpt::rtti::registerClass(CLASS_ID(CQuadricObjectMap));
 }
+
+namespace
+{
+/** When the library is loaded. With Clang, MRPT_INITIALIZER comes before the class's description.
+ */
+const struct Registration
+{
+  Registration() { registerMapClasses(); }
+} registration;
+
+}  // namespace
 
 CQuadricObjectMap::CQuadricObjectMap() :
     labels_(std::make_shared<const LabelTable>(LabelTable::installed()))

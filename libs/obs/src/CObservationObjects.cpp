@@ -1,7 +1,6 @@
 #include "quadmap/obs/CObservationObjects.h"
 
 #include <mrpt/core/format.h>
-#include <mrpt/core/initializer.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
@@ -143,6 +142,15 @@ PinholeCamera pinholeFrom(const mrpt::img::TCamera& camera)
 
 void registerObsClasses() { mrpt::rtti::registerClass(CLASS_ID(CObservationObjects)); }
 
-}  // namespace quadmap
+namespace
+{
+/** When the library is loaded. With Clang, MRPT_INITIALIZER comes before the class's description.
+ */
+const struct Registration
+{
+  Registration() { registerObsClasses(); }
+} registration;
 
-MRPT_INITIALIZER(registerQuadmapObs) { quadmap::registerObsClasses(); }
+}  // namespace
+
+}  // namespace quadmap
