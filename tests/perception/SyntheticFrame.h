@@ -87,8 +87,9 @@ class SyntheticFrame
       for (unsigned u = 0; u < camera.ncols; ++u)
       {
         const auto [box, z] = look(u, v);
-        const bool seen = z < 6.5 && (box < 0 || boxes[static_cast<std::size_t>(box)].hasDepth);
         const double measured = z + noise * z * z * normal(generator);
+        const bool returns = box < 0 || boxes[static_cast<std::size_t>(box)].hasDepth;
+        const bool seen = returns && measured > 0 && measured < 6.5;
         out.rangeImage(static_cast<int>(v), static_cast<int>(u)) =
             seen ? static_cast<std::uint16_t>(measured / 1e-4) : std::uint16_t(0);
       }

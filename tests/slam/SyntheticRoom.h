@@ -83,7 +83,7 @@ struct SyntheticRoom
         scan->rangeImage(v, u) = static_cast<std::uint16_t>(std::lround(depth_mm));
         for (std::int8_t channel = 0; channel < 3; ++channel)
           scan->intensityImage.at<std::uint8_t>(u, v, channel) =
-              static_cast<std::uint8_t>(depth_mm / 20);
+              static_cast<std::uint8_t>(static_cast<int>(depth_mm / 20));
       }
     return scan;
   }
