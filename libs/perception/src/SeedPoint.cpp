@@ -15,8 +15,8 @@ constexpr double kMaxScreenCoverage = 0.5;
 /** Fewer cells with depth tell nothing. */
 constexpr std::size_t kMinCells = 12;
 
-/** Cells with depth in a box but not in its hole, as (x, y, 1) / z of their points: those of one
- * plane n . p = d have n . (x, y, 1) / z = d / z. */
+/** The depths in a box but not in its hole [m], and their rays, points of depth 1: on the plane
+ * n . p = 1 a ray's inverse depth is n . ray. */
 struct DepthsIn
 {
   std::vector<Eigen::Vector3d> rays;
@@ -43,7 +43,6 @@ std::optional<double> depthOnPlane(const DepthsIn& around, const Eigen::Vector3d
 {
   constexpr double kFlat = 0.04;   // of the depth, what a plane's points may be off by ...
   constexpr double kShare = 0.85;  // ... but for these, things that stand beside
-  // Inverse depth is linear in the image of a plane.
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < around.rays.size(); ++i)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "SupportRing.h"
+
 namespace quadmap
 {
 namespace
@@ -25,14 +27,15 @@ TolerantPoints withTolerances(
   return out;
 }
 
-/** What is seen around a box, without floors and table tops. */
-struct Surroundings
+/** Width of what is looked at around a box, of its size. */
+constexpr double kRing = 0.15;
+double ringOf(const ImageBox& box)
 {
-  TolerantPoints points = {};          //!< A regular sample
-  bool onLeft = true, onRight = true;  //!< The image goes on there
-};
+  return std::max(8.0, kRing * std::max(box.width(), box.height()));
+}
 
-Surroundings surroundings(
+/** Points around a box, a regular sample, without floors and table tops. */
+TolerantPoints surroundings(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const ImageBox& box,
@@ -44,22 +47,19 @@ Surroundings surroundings(
         planes.horizontal.begin(), planes.horizontal.end(),
         [&](int i) { return p.isOn(planes.plane(i).plane); });
   };
-  constexpr double kRing = 0.15;  // width, of the box's size
-  constexpr int kStep = 3;        // cells
-  const double width = std::max(8.0, kRing * std::max(box.width(), box.height()));
+  constexpr int kStep = 3;  // cells
+  const double width = ringOf(box);
   const auto outer =
       cloud.cellsOf({box.x1 - width, box.y1 - width, box.x2 + width, box.y2 + width});
   const auto inner = cloud.cellsOf(box);
-  Surroundings out;
-  out.onLeft = box.x1 - 0.5 * width > 0;
-  out.onRight = box.x2 + 0.5 * width < cloud.camera().width;
+  TolerantPoints out;
   for (int r = outer.r0; r < outer.r1; r += kStep)
     for (int c = outer.c0; c < outer.c1; c += kStep)
     {
       if (inner.contains(c, r) || !cloud.valid(c, r)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
       const TolerantPoint tolerant = {p, options.onPlane(p.z())};
-      if (!isOnTop(tolerant)) out.points.push_back(tolerant);
+      if (!isOnTop(tolerant)) out.push_back(tolerant);
     }
   return out;
 }
@@ -144,17 +144,36 @@ std::optional<Plane> wallThrough(const TolerantPoints& around, const Eigen::Vect
   return best;
 }
 
+/** The ends of a box, level in the room, beyond which the image goes on. */
+struct SeenEnds
+{
+  bool left, right;
+
+  SeenEnds(const PinholeCamera& camera, const Eigen::Vector3d& up, const ImageBox& box)
+  {
+    const Eigen::Vector2d down = downInImage(camera, up, box);
+    const bool isUpright = std::abs(down.y()) >= std::abs(down.x());
+    const double margin = 0.5 * ringOf(box);
+    const bool before = (isUpright ? box.x1 : box.y1) - margin > 0;
+    const bool after = isUpright ? box.x2 + margin < camera.width : box.y2 + margin < camera.height;
+    const bool isMirrored = isUpright ? down.y() < 0 : down.x() > 0;
+    left = isMirrored ? after : before;
+    right = isMirrored ? before : after;
+  }
+};
+
 /** Is a plane the wall behind the box? What of the candidates lies on it is enclosed by what of the
  * surroundings does, as far as the image goes; the side of a thing that stands beside the object
  * ends before it. */
 bool goesOnBehind(
     const Plane& wall,
     const Eigen::Vector3d& up,
-    const Surroundings& around,
+    const SeenEnds& seen,
+    const TolerantPoints& around,
     const TolerantPoints& points)
 {
-  constexpr double kSlack = 0.05;  // [m]
-  const Eigen::Vector3d along = up.cross(wall.n);
+  constexpr double kSlack = 0.05;                  // [m]
+  const Eigen::Vector3d along = up.cross(wall.n);  // to the right, as walls face the camera
   const auto rangeOf = [&](const TolerantPoints& cloud)
   {
     Eigen::AlignedBox1d range;
@@ -162,11 +181,10 @@ bool goesOnBehind(
       if (p.isOn(wall)) range.extend(Eigen::Matrix<double, 1, 1>(along.dot(p.point)));
     return range;
   };
-  const auto on = rangeOf(points), enclosing = rangeOf(around.points);
+  const auto on = rangeOf(points), enclosing = rangeOf(around);
   if (on.isEmpty() || enclosing.isEmpty()) return false;
-  // The wall faces the camera: along it is to the right.
-  return (!around.onLeft || on.min()[0] > enclosing.min()[0] - kSlack) &&
-         (!around.onRight || on.max()[0] < enclosing.max()[0] + kSlack);
+  return (!seen.left || on.min()[0] > enclosing.min()[0] - kSlack) &&
+         (!seen.right || on.max()[0] < enclosing.max()[0] + kSlack);
 }
 
 /** Could it be the object's own side, with most of the object on it, nothing before it, or
@@ -194,8 +212,9 @@ void dropWallsBehind(
     const PerceptionOptions& options,
     BoxCandidates& candidates)
 {
-  Surroundings around = surroundings(cloud, planes, box, options);
-  const auto walls = wallsAround(planes, around.points, candidates.rule);
+  TolerantPoints around = surroundings(cloud, planes, box, options);
+  const SeenEnds seen(cloud.camera(), planes.up, box);
+  const auto walls = wallsAround(planes, around, candidates.rule);
   const auto drop = [&](const Plane& wall)
   {
     candidates.rule.addWall(wall);
@@ -204,21 +223,22 @@ void dropWallsBehind(
         [&](std::size_t i)
         {
           const auto& p = candidates.points[i];
-          return std::abs(wall.signedDistance(p)) >= options.onPlane(p.z());
+          return !TolerantPoint{p, options.onPlane(p.z())}.isOn(wall);
         });
   };
   for (const auto& wall : walls)
-    if (goesOnBehind(wall, planes.up, around, withTolerances(candidates.points, options)))
+    if (goesOnBehind(wall, planes.up, seen, around, withTolerances(candidates.points, options)))
       drop(wall);
-  auto& rest = around.points;  // a corner of the room has two walls
-  for (const auto& wall : walls)
-    rest.erase(
-        std::remove_if(rest.begin(), rest.end(), [&](const auto& p) { return p.isOn(wall); }),
-        rest.end());
-  const auto wall = wallThrough(rest, planes.up);
+  // A corner of the room has two walls.
+  const auto isOnKnown = [&](const TolerantPoint& p) {
+    return std::any_of(walls.begin(), walls.end(), [&](const auto& wall) { return p.isOn(wall); });
+  };
+  around.erase(std::remove_if(around.begin(), around.end(), isOnKnown), around.end());
+  const auto wall = wallThrough(around, planes.up);
   if (!wall) return;
   const auto points = withTolerances(candidates.points, options);
-  if (!isOwnSide(*wall, points) && goesOnBehind(*wall, planes.up, around, points)) drop(*wall);
+  if (!isOwnSide(*wall, points) && goesOnBehind(*wall, planes.up, seen, around, points))
+    drop(*wall);
 }
 
 }  // namespace quadmap
