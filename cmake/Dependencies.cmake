@@ -2,7 +2,7 @@
 
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(Ceres 2.1 REQUIRED)
-foreach(module poses img obs maps opengl graphs tclap)
+foreach(module config io serialization poses img obs maps opengl graphs tclap)
   find_package(mrpt-${module} REQUIRED)
 endforeach()
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video features2d calib3d)

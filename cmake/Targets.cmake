@@ -33,20 +33,51 @@ function(quadmap_target_options target)
   endif()
 endfunction()
 
-# quadmap_precompile(<target> <header>...): heavy headers are read once per target. The flags make
-# what the compilers write reproducible, so that ccache recognises it.
-function(quadmap_precompile target)
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+# quadmap_precompile(<owner> LINK ... HEADERS ... OPTIONS ...): an object library that reads heavy headers once
+# for all targets that reuse it (quadmap_reuse_precompiled). The flags make what the compilers write
+# reproducible, so that ccache recognises it.
+function(quadmap_precompile owner)
+  cmake_parse_arguments(arg "" "" "LINK;HEADERS;OPTIONS" ${ARGN})
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${owner}.cpp CONTENT "")
+  add_library(${owner} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${owner}.cpp)
+  target_link_libraries(${owner} PRIVATE ${arg_LINK})
+  target_precompile_headers(${owner} PRIVATE ${arg_HEADERS})
+  quadmap_precompile_options(${owner})
+  quadmap_target_options(${owner})
+  target_compile_options(${owner} PRIVATE ${arg_OPTIONS})
+endfunction()
+
+function(quadmap_precompile_options target)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
     $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
 endfunction()
 
-# quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILE ...): target quadmap::<name>,
-# file libquadmap-<name>.so (shared: programs of MRPT load them as plug-ins), headers in
+# quadmap_reuse_precompiled(<target> <owner>): the headers that the owner has read.
+function(quadmap_reuse_precompiled target owner)
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+  quadmap_precompile_options(${target})
+endfunction()
+
+# What the libraries above geometry have in common.
+quadmap_precompile(quadmap_common_headers
+  LINK mrpt::maps mrpt::obs mrpt::poses Eigen3::Eigen
+  HEADERS
+    <mrpt/maps/CMetricMap.h>
+    <mrpt/obs/CObservation3DRangeScan.h>
+    <mrpt/poses/CPose3DPDFGaussian.h>
+    <Eigen/Dense>
+    <map>
+    <optional>
+    <string>
+    <vector>)
+set_target_properties(quadmap_common_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+
+# quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... [PRECOMPILED]): target quadmap::<name>, file
+# libquadmap-<name>.so (shared: programs of MRPT load them as plug-ins), headers in
 # include/quadmap/<name>, component <name> of the package.
 function(quadmap_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "PRECOMPILED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(quadmap_${name} SHARED ${arg_SOURCES})
   add_library(quadmap::${name} ALIAS quadmap_${name})
   set_target_properties(quadmap_${name} PROPERTIES
@@ -54,10 +85,11 @@ function(quadmap_add_library name)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   target_include_directories(quadmap_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(quadmap_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  if(arg_PRECOMPILE)
-    quadmap_precompile(quadmap_${name} ${arg_PRECOMPILE})
+  if(arg_PRECOMPILED)
+    quadmap_reuse_precompiled(quadmap_${name} quadmap_common_headers)
   endif()
   quadmap_target_options(quadmap_${name})
   install(TARGETS quadmap_${name} EXPORT quadmap-${name}
@@ -65,7 +97,10 @@ function(quadmap_add_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
   set_property(GLOBAL APPEND PROPERTY QUADMAP_COMPONENTS ${name})
-  set_property(GLOBAL PROPERTY QUADMAP_PUBLIC_${name} ${arg_PUBLIC})
+  # The linker looks for the libraries behind the interface, so that the package names them, too.
+  set(behind ${arg_PRIVATE})
+  list(FILTER behind INCLUDE REGEX "^quadmap::")
+  set_property(GLOBAL PROPERTY QUADMAP_PUBLIC_${name} ${arg_PUBLIC} ${behind})
 endfunction()
 
 add_custom_target(programs)  # all of them, without the tests
@@ -81,11 +116,12 @@ function(quadmap_add_program name)
   install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# quadmap_add_test(<name> SOURCES ... LINK ...): a GoogleTest program whose cases CTest lists one by one,
+# quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ...): a GoogleTest program whose cases CTest lists one by one,
 # with TIMEOUT seconds each (120) and the label <name>.
+# The private headers of the libraries in INTERNALS are found from their src folders.
 # Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -94,10 +130,12 @@ function(quadmap_add_test name)
     QUADMAP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" QUADMAP_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
     QUADMAP_LIB_DIR="${CMAKE_BINARY_DIR}/lib")
   target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest GTest::gtest_main)
-  if(arg_PRECOMPILE)
-    quadmap_precompile(${name} ${arg_PRECOMPILE})
-  endif()
+  foreach(library IN LISTS arg_INTERNALS)
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/libs/${library}/src)
+  endforeach()
+  quadmap_reuse_precompiled(${name} quadmap_test_headers)
   quadmap_target_options(${name})
+  target_compile_options(${name} PRIVATE ${QUADMAP_TEST_OPTIONS})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS ${name})
 endfunction()

@@ -13,10 +13,11 @@
 #include <sstream>
 
 #include "common/Subcommands.h"
-#include "quadmap/evaluation/benchmark/BenchmarkPlots.h"
-#include "quadmap/evaluation/benchmark/BenchmarkTables.h"
-#include "quadmap/evaluation/benchmark/GeneratedSections.h"
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/base/Json.h"
+#include "quadmap/base/OutputFile.h"
+#include "quadmap/benchmark/BenchmarkPlots.h"
+#include "quadmap/benchmark/BenchmarkTables.h"
+#include "quadmap/benchmark/GeneratedSections.h"
 #include "quadmap/slam/SlamOptions.h"
 
 // The parts of the benchmark that no existing program does; share/quadmap/benchmark/run calls them.
@@ -63,7 +64,7 @@ std::vector<std::string> knownMethods(const std::string& list)
   return known;
 }
 
-/** jobs: prints the job list. */
+/** Command `jobs`: prints the list of jobs. */
 void jobsCommand(int argc, char** argv)
 {
   cli::CommandLine line(
@@ -86,7 +87,7 @@ void jobsCommand(int argc, char** argv)
   BenchmarkPlan plan{
       itemsOf(scenes->getValue()), itemsOf(observed->getValue()), itemsOf(recordings->getValue()),
       seedsOf(seeds->getValue()), knownMethods(methods->getValue())};
-  if (!observed->isSet())  // then only scenes that are mapped
+  if (!observed->isSet())  // without it only scenes that are mapped are measured
     plan.observedScenes.erase(
         std::remove_if(
             plan.observedScenes.begin(), plan.observedScenes.end(),
@@ -112,13 +113,13 @@ std::string entryOf(const char* file, const std::string& key, char separator)
   return "unknown";
 }
 
-/** "6.18.44" of "6.18.44-amd64": what a builder calls its kernel says nothing. */
+/** "6.18.44" for "6.18.44-amd64". */
 std::string releaseNumbers(const std::string& release)
 {
   return release.substr(0, release.find_first_not_of("0123456789."));
 }
 
-/** machine: prints what the figures depend on beside the code. */
+/** Command `machine`: prints what the figures depend on beside the code. */
 void machineCommand(int argc, char** argv)
 {
   cli::CommandLine line(
@@ -132,7 +133,7 @@ void machineCommand(int argc, char** argv)
                         static_cast<double>(sysconf(_SC_PAGESIZE)) / kBytesPerGb;
   utsname kernel{};
   uname(&kernel);
-  nlohmann::ordered_json json;
+  Json json;
   json["processor"] = entryOf("/proc/cpuinfo", "model name", ':');
   json["cores"] = std::to_string(sysconf(_SC_NPROCESSORS_ONLN));
   json["memory"] = std::to_string(std::lround(memory)) + " GB";
@@ -145,10 +146,10 @@ void machineCommand(int argc, char** argv)
 #endif
   json["program"] = "quadmap " QUADMAP_VERSION;
   if (commit.isSet()) json["commit"] = commit.getValue();
-  std::cout << json.dump(2) << "\n";
+  std::cout << jsonText(json, 2) << "\n";
 }
 
-/** "pictures": every plot as an image of the page, with what it shows in words. */
+/** Section "pictures": every plot as an image of the page, with its title. */
 std::string pictureSection(
     const std::map<std::string, Picture>& plots, const fs::path& folder, const fs::path& page)
 {
@@ -160,7 +161,7 @@ std::string pictureSection(
   return text;
 }
 
-/** merge: from the results to tables and plots. */
+/** Command `merge`: makes tables and plots from the results. */
 void mergeCommand(int argc, char** argv)
 {
   cli::CommandLine line(

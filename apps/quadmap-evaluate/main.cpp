@@ -3,8 +3,8 @@
 #include <string>
 
 #include "common/CommandLine.h"
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/evaluation/EvaluationReport.h"
-#include "quadmap/obs/OutputFile.h"
 
 namespace
 {

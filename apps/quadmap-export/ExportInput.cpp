@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "common/MapFile.h"
+#include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/review/KeyframeContent.h"
 
@@ -33,7 +33,9 @@ SceneContent readExportInput(const ExportInput& input)
     throw std::runtime_error(mapPath.string() + ": is missing; is this a folder of quadmap-slam?");
 
   SceneContent content;
-  content.objects = readMapFile(mapPath.string())->toRecords();
+  CQuadricObjectMap map;
+  map.loadFromFile(mapPath.string());
+  content.objects = map.toRecords();
   if (input.truthPath) content.truth = readObjectsJson(*input.truthPath);
   if (!isFolder) return content;
   content.trajectory = posesOf(path / "trajectory.tum");

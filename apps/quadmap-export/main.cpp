@@ -5,7 +5,7 @@
 
 #include "ExportInput.h"
 #include "common/CommandLine.h"
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/review/PlyFile.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/review/SceneRenderer.h"
@@ -69,7 +69,7 @@ void checkUsage(Cli& cli)
   throw cli::UsageError("nothing to write: give --scene, --png, --top, --ply or --json");
 }
 
-/** Runs a writer when its file was asked for, and says so. */
+/** Runs a writer if its file was asked for, and prints the name of the file. */
 template <typename Write>
 void writeIfSet(TCLAP::ValueArg<std::string>& argument, Write&& write)
 {
@@ -96,10 +96,10 @@ void run(Cli& cli)
   writeIfSet(cli.scene, [&](const auto& path) { writeScene(*builder.scene(content), path); });
   if (!cli.png.isSet() && !cli.top.isSet()) return;
   SceneRenderer renderer(size);
-  const auto picture = [&](const std::string& path, const ViewPoint& view)
-  { writePicture(renderer.render(*builder.picture(content, view, size), view), path); };
-  writeIfSet(cli.png, [&](const auto& p) { picture(p, obliqueView(content, size.aspect())); });
-  writeIfSet(cli.top, [&](const auto& p) { picture(p, topView(content, size.aspect())); });
+  const auto picture = [&](const std::string& path, const RenderCamera& camera)
+  { writePicture(renderer.render(*builder.picture(content, camera, size), camera), path); };
+  writeIfSet(cli.png, [&](const auto& p) { picture(p, obliqueCamera(content, size.aspect())); });
+  writeIfSet(cli.top, [&](const auto& p) { picture(p, cameraFromAbove(content, size.aspect())); });
 }
 }  // namespace
 

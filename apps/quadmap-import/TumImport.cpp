@@ -14,10 +14,10 @@ namespace
 struct LoadedFrame
 {
   mrpt::obs::CObservation3DRangeScan::Ptr scan;
-  CObservationObjects::Ptr boxes;  // null: nobody looked
+  CObservationObjects::Ptr boxes;  // null when no detector looked
 };
 
-/** Throws, or with keepGoing notes what is dropped. */
+/** Notes what is left out with keepGoing, and throws without it. */
 void drop(TumImportReport& report, const TumImportOptions& options, const std::string& what)
 {
   if (!options.keepGoing) throw std::runtime_error(what);
@@ -70,7 +70,7 @@ TumImportReport importTum(
 {
   TumImportReport report;
   const auto& frames = dataset.frames();
-  std::optional<double> lastTime;  // [s]
+  std::optional<double> lastTime;  // of a frame [s]
   for (std::size_t i = 0; i < frames.size(); i += options.every)
   {
     progress(static_cast<double>(i) / static_cast<double>(frames.size()));

@@ -21,21 +21,21 @@ enum class PosesAs
 struct TumImportOptions
 {
   PosesAs posesAs = PosesAs::Odometry;
-  std::size_t every = 1;   //!< Every n-th frame only, >= 1
-  bool keepGoing = false;  //!< Drop frames and boxes that cannot be used instead of throwing
+  std::size_t every = 1;   //!< Only every n-th frame, >= 1
+  bool keepGoing = false;  //!< Leave out what cannot be used instead of throwing
 };
 
 struct TumImportReport
 {
-  std::size_t frames = 0, poses = 0, boxes = 0;  //!< Written
-  std::vector<std::string> dropped;              //!< With keepGoing: one text each
+  std::size_t frames = 0, poses = 0, boxes = 0;  //!< Numbers of what was written
+  std::vector<std::string> dropped;              //!< One text for each that keepGoing left out
 };
 
-/** Called with the share done, in [0, 1]. */
+/** Called with the share that is done, in [0, 1]. */
 using ProgressCallback = std::function<void(double)>;
 
-/** Writes a recording into a rawlog; the caller finishes it.
- * \exception std::runtime_error What is wrong with a frame; names its file. */
+/** Writes a recording into a rawlog, which the caller finishes.
+ * \exception std::runtime_error For a frame that cannot be used. The message names its file. */
 TumImportReport importTum(
     const TumDataset& dataset,
     const TumImportOptions& options,

@@ -1,10 +1,8 @@
-#include <mrpt/system/progress.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "../common/ProgressBar.h"
 #include "TumImport.h"
 #include "quadmap/sensors/TumCheck.h"
 
@@ -49,13 +47,6 @@ struct Cli
       "", "keep-going", "Drop what cannot be used, say so, and go on.", line.args()};
 };
 
-/** A bar on a terminal, nothing elsewhere. */
-void showProgress(double share)
-{
-  if (!isatty(STDERR_FILENO)) return;
-  std::cerr << "\r" << mrpt::system::progress(share, 40) << (share >= 1 ? "\n" : "") << std::flush;
-}
-
 PosesAs posesAs(const std::string& name)
 {
   if (name == "odometry") return PosesAs::Odometry;
@@ -71,7 +62,7 @@ void import(const TumDataset& dataset, Cli& cli)
   RawlogWriterOptions writing;
   writing.external = cli.external.getValue();
   RawlogWriter writer(cli.output.getValue(), writing);
-  const auto report = importTum(dataset, options, writer, showProgress);
+  const auto report = importTum(dataset, options, writer, cli::ProgressBar());
   for (const auto& what : report.dropped) std::cerr << "quadmap-import: dropped: " << what << "\n";
   if (report.frames == 0)
     throw std::runtime_error(dataset.folder() + ": no frame could be imported");
@@ -82,14 +73,14 @@ void import(const TumDataset& dataset, Cli& cli)
   std::cout << "\n";
 }
 
-/** Prints what is wrong, by kind. \return The exit status: 1 when something is. */
+/** Prints the problems of a recording, by kind. \return The exit status, 1 if there are any. */
 int checkOnly(const TumDataset& dataset, Cli& cli)
 {
   constexpr std::size_t kExamples = 3;
   TumCheckOptions options;
   options.maxGap = cli.maxGap.getValue();
   options.maxSpeed = cli.maxSpeed.getValue();
-  const auto problems = checkTum(dataset, options, showProgress);
+  const auto problems = checkTum(dataset, options, cli::ProgressBar());
   const auto& frames = dataset.frames();
   std::cout << dataset.folder() << ": " << frames.size() << " frames in "
             << frames.back().time - frames.front().time << " s, " << dataset.trajectory().size()

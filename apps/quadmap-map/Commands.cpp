@@ -6,7 +6,6 @@
 
 #include "ObjectTable.h"
 #include "common/CommandLine.h"
-#include "common/MapFile.h"
 
 namespace quadmap
 {
@@ -26,7 +25,7 @@ struct EditCli
   /** Writes the changed map and says so. */
   void write(const CQuadricObjectMap& map)
   {
-    writeMapFile(output.getValue(), map);
+    map.saveToFile(output.getValue());
     std::cout << "wrote " << output.getValue() << " with " << map.confirmedObjects().size()
               << " objects\n";
   }
@@ -52,7 +51,9 @@ void infoCommand(int argc, char** argv)
   TCLAP::UnlabeledValueArg<std::string> file(
       "FILE", "An objects.quadmap.", true, "", "FILE", line.args());
   if (!line.parse(argc, argv)) return;
-  std::cout << mapSummary(*readMapFile(file.getValue()), file.getValue());
+  CQuadricObjectMap map;
+  map.loadFromFile(file.getValue());
+  std::cout << mapSummary(map, file.getValue());
 }
 
 void relabelCommand(int argc, char** argv)
@@ -62,10 +63,11 @@ void relabelCommand(int argc, char** argv)
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
   if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
-  const auto map = readMapFile(cli.file.getValue());
-  requireObject(*map, id.getValue(), cli.file.getValue());
-  map->relabel(id.getValue(), label.getValue());
-  cli.write(*map);
+  CQuadricObjectMap map;
+  map.loadFromFile(cli.file.getValue());
+  requireObject(map, id.getValue(), cli.file.getValue());
+  map.relabel(id.getValue(), label.getValue());
+  cli.write(map);
 }
 
 void removeCommand(int argc, char** argv)
@@ -74,13 +76,14 @@ void removeCommand(int argc, char** argv)
   TCLAP::MultiArg<unsigned> ids(
       "", "id", "An object; may be given several times.", true, "N", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
-  const auto map = readMapFile(cli.file.getValue());
+  CQuadricObjectMap map;
+  map.loadFromFile(cli.file.getValue());
   for (const unsigned id : ids.getValue())
   {
-    requireObject(*map, id, cli.file.getValue());
-    map->remove(id);
+    requireObject(map, id, cli.file.getValue());
+    map.remove(id);
   }
-  cli.write(*map);
+  cli.write(map);
 }
 
 void mergeCommand(int argc, char** argv)
@@ -91,11 +94,12 @@ void mergeCommand(int argc, char** argv)
   if (!cli.line.parse(argc, argv)) return;
   if (kept.getValue() == absorbed.getValue())
     throw cli::UsageError("--keep and --absorb: must be two objects");
-  const auto map = readMapFile(cli.file.getValue());
-  requireObject(*map, kept.getValue(), cli.file.getValue());
-  requireObject(*map, absorbed.getValue(), cli.file.getValue());
-  map->merge(kept.getValue(), absorbed.getValue());
-  cli.write(*map);
+  CQuadricObjectMap map;
+  map.loadFromFile(cli.file.getValue());
+  requireObject(map, kept.getValue(), cli.file.getValue());
+  requireObject(map, absorbed.getValue(), cli.file.getValue());
+  map.merge(kept.getValue(), absorbed.getValue());
+  cli.write(map);
 }
 
 }  // namespace quadmap

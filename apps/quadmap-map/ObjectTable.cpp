@@ -32,8 +32,8 @@ std::string rowText(const ObjectRow& row)
 std::string footprintText(const CQuadricObjectMap& map, ObjectId id)
 {
   std::string text = "       footprint [m]:";
-  for (const Eigen::Vector2d& corner : map.footprint(id))
-    text += mrpt::format(" (%.3f, %.3f)", corner.x(), corner.y());
+  for (const mrpt::math::TPoint2D& corner : map.footprint(id))
+    text += mrpt::format(" (%.3f, %.3f)", corner.x, corner.y);
   return text + "\n";
 }
 
@@ -75,20 +75,18 @@ std::string mapSummary(const CQuadricObjectMap& map, const std::string& path)
   text += "\n";
   if (confirmed.empty()) return text;
 
-  Eigen::AlignedBox3d bounds;
   auto first = confirmed.front()->firstSeen, last = confirmed.front()->lastSeen;
   for (const MapObject* object : confirmed)
   {
-    const Eigen::Matrix<double, 3, 8> corners = object->object.cuboidCorners();
-    for (int i = 0; i < 8; ++i) bounds.extend(corners.col(i));
     first = std::min(first, object->firstSeen);
     last = std::max(last, object->lastSeen);
   }
-  const Eigen::Vector3d a = bounds.min(), b = bounds.max();
+  const auto bounds = map.boundingBox();
+  const auto a = bounds.min.cast<double>(), b = bounds.max.cast<double>();
   text += "labels: " + labelCounts(confirmed) + "\n";
   text += mrpt::format(
-      "extent: x %.2f ... %.2f, y %.2f ... %.2f, z %.2f ... %.2f m\n", a.x(), b.x(), a.y(), b.y(),
-      a.z(), b.z());
+      "extent: x %.2f ... %.2f, y %.2f ... %.2f, z %.2f ... %.2f m\n", a.x, b.x, a.y, b.y, a.z,
+      b.z);
   text += "seen:   " + mrpt::system::dateTimeToString(first) + " ... " +
           mrpt::system::dateTimeToString(last) + " UTC\n\n";
   std::vector<ObjectRow> rows;

@@ -7,8 +7,7 @@
 #include "Commands.h"
 #include "ObjectTable.h"
 #include "common/CommandLine.h"
-#include "common/MapFile.h"
-#include "quadmap/obs/ConfigCheck.h"
+#include "quadmap/base/ConfigCheck.h"
 
 namespace quadmap
 {
@@ -85,8 +84,9 @@ std::vector<ObjectRow> rowsOf(Cli& cli, const CQuadricObjectMap& map)
   if (cli.region.isSet())
   {
     const std::vector<double> v = numbersOf(cli.region, 6);
-    const Eigen::Vector3d a(v[0], v[1], v[2]), b(v[3], v[4], v[5]);
-    intersect(objects, map.inRegion(a.cwiseMin(b), a.cwiseMax(b)));
+    intersect(
+        objects, map.inRegion(mrpt::math::TBoundingBox::FromUnsortedPoints(
+                     {v[0], v[1], v[2]}, {v[3], v[4], v[5]})));
   }
   std::vector<ObjectRow> rows;
   for (const MapObject* object : objects) rows.push_back({object, std::nullopt});
@@ -119,11 +119,12 @@ void queryCommand(int argc, char** argv)
   if (!cli.line.parse(argc, argv)) return;
   if (cli.json.getValue() && cli.footprint.getValue())
     throw cli::UsageError("--footprint and --json: the form of objects.json has no footprints");
-  const auto map = readMapFile(cli.file.getValue());
-  const std::vector<ObjectRow> rows = rowsOf(cli, *map);
+  CQuadricObjectMap map;
+  map.loadFromFile(cli.file.getValue());
+  const std::vector<ObjectRow> rows = rowsOf(cli, map);
   std::cout
-      << (cli.json.getValue() ? jsonOf(*map, rows)
-                              : objectTable(*map, rows, cli.footprint.getValue()));
+      << (cli.json.getValue() ? jsonOf(map, rows)
+                              : objectTable(map, rows, cli.footprint.getValue()));
 }
 
 }  // namespace quadmap

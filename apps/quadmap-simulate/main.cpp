@@ -1,13 +1,12 @@
 #include <mrpt/core/format.h>
-#include <mrpt/system/progress.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <iostream>
 
 #include "../common/CommandLine.h"
-#include "quadmap/obs/ConfigCheck.h"
-#include "quadmap/sensors/simulator/Simulator.h"
+#include "../common/ProgressBar.h"
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/simulator/Simulator.h"
 
 namespace
 {
@@ -97,7 +96,7 @@ simulator::DetectorOutput detectorOutput(const std::string& name)
   return *output;
 }
 
-/** A number the user typed. \exception cli::UsageError */
+/** A whole number that the user typed. \exception cli::UsageError If it is none. */
 unsigned long long wholeNumber(
     const std::string& option,
     const std::string& text,
@@ -113,7 +112,7 @@ unsigned long long wholeNumber(
   return value;
 }
 
-/** A number the user typed. \exception cli::UsageError */
+/** A number that the user typed. \exception cli::UsageError If it is none. */
 double number(const std::string& option, const std::string& text, double min, double max)
 {
   const auto value = parseNumber(text);
@@ -134,8 +133,8 @@ simulator::NoiseFactors noiseFactors(Cli& cli)
   return factors;
 }
 
-/** The way and its duration stay those of the scene; how many images are taken on it is said by
- * their number or by their rate. */
+/** Sets how many images are taken, by their number or by their rate. The way and its duration stay
+ * those of the scene. */
 void setFrames(Cli& cli, simulator::TrajectoryOptions& trajectory)
 {
   if (cli.frames.isSet() && cli.rate.isSet())
@@ -158,13 +157,6 @@ void setResolution(const std::string& text, simulator::SimulatorOptions& options
   const auto width = wholeNumber("--resolution", text.substr(0, x), 64, 4096);
   const auto height = wholeNumber("--resolution", text.substr(x + 1), 64, 4096);
   options.resize(static_cast<int>(width), static_cast<int>(height));
-}
-
-/** A bar on a terminal, nothing elsewhere. */
-void showProgress(double share)
-{
-  if (!isatty(STDERR_FILENO)) return;
-  std::cerr << "\r" << mrpt::system::progress(share, 40) << (share >= 1 ? "\n" : "") << std::flush;
 }
 
 void report(const std::string& file, const simulator::SimulationSummary& summary)
@@ -190,7 +182,7 @@ void run(Cli& cli)
 
   const simulator::Simulator simulator(std::move(scene), LabelTable::installed(), seed);
   const std::string& output = cli.output.getValue();
-  report(output, simulator::simulateToFiles(simulator, output, showProgress));
+  report(output, simulator::simulateToFiles(simulator, output, cli::ProgressBar()));
 }
 }  // namespace
 

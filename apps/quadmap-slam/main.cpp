@@ -1,12 +1,9 @@
-#include <mrpt/system/progress.h>
-#include <unistd.h>
-
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 
 #include "../common/CommandLine.h"
-#include "../common/MapFile.h"
+#include "../common/ProgressBar.h"
 #include "quadmap/review/KeyframeContent.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/slam/PoseNodes.h"
@@ -16,13 +13,20 @@ namespace
 {
 using namespace quadmap;
 
-volatile std::sig_atomic_t stopSignal = 0;  //!< That asked to stop; 0: none
+volatile std::sig_atomic_t stopSignal = 0;  //!< Signal that asked to stop, or 0
 
 /** Ctrl-C or SIGTERM ends the run after the current frame; a second one ends it at once. */
 void requestStop(int signal)
 {
   stopSignal = signal;
   std::signal(signal, SIG_DFL);
+}
+
+/** Does the command line ask for the defaults alone? The arguments that a run requires are then not
+ * needed. */
+bool asksForDefaults(int argc, char** argv)
+{
+  return argc == 2 && argv[1] == std::string("--defaults");
 }
 
 /** The arguments of the program. */
@@ -44,6 +48,10 @@ struct Cli
   TCLAP::ValueArg<std::string> config{
       "c",        "config",   "Options; share/quadmap/quadmap.ini lists them all.", false, "",
       "FILE.ini", line.args()};
+  TCLAP::SwitchArg defaults{
+      "", "defaults",
+      "Given alone: print the options that --config takes, with their defaults and what they do.",
+      line.args()};
   TCLAP::ValueArg<std::string> method{
       "",
       "method",
@@ -104,7 +112,7 @@ struct Cli
       line.args()};
 };
 
-/** Options that a setter checks; it names them as the command line does. */
+/** Sets an option by its setter. An error names the option as the command line does. */
 template <typename Value>
 void set(SlamOptions& options, void (SlamOptions::*setter)(Value), Value value)
 try
@@ -135,19 +143,8 @@ SlamConfiguration configurationOf(Cli& cli)
   return configuration;
 }
 
-/** A bar on a terminal, nothing elsewhere. */
-void showProgress(double share)
-{
-  static int shownPercent = -1;
-  const int percent = static_cast<int>(100 * share);
-  if (percent == shownPercent || !isatty(STDERR_FILENO)) return;
-  shownPercent = percent;
-  std::cerr << "\r" << mrpt::system::progress(share, 40) << (percent >= 100 ? "\n" : "")
-            << std::flush;
-}
-
-/** Coarser than the defaults, which take twice as long: every run writes a scene, few are looked at
- * closely. */
+/** Options of the scene's cloud. It is coarser than by default, which saves half of the time: every
+ * run writes a scene, but few are looked at closely. */
 CloudOptions sceneCloud()
 {
   CloudOptions cloud;
@@ -157,7 +154,7 @@ CloudOptions sceneCloud()
   return cloud;
 }
 
-/** scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time. */
+/** Writes scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time. */
 std::string writeSceneOf(const SlamResult& result, const std::string& directory)
 {
   SceneContent content;
@@ -209,6 +206,7 @@ void printSummary(const RawlogRunSummary& summary)
 
 int run(Cli& cli)
 {
+  if (cli.defaults.isSet()) throw cli::UsageError("--defaults: must be given alone");
   RawlogRunRequest request;
   request.rawlog = cli.rawlog.getValue();
   request.outputDirectory = cli.output.getValue();
@@ -219,7 +217,9 @@ int run(Cli& cli)
   if (cli.map.isSet())
   {
     request.mapFile = cli.map.getValue();
-    request.map = readMapFile(request.mapFile);
+    const auto map = CQuadricObjectMap::Create();
+    map->loadFromFile(request.mapFile);
+    request.map = map;
   }
   request.version = QUADMAP_VERSION;
   const auto verbosity = cli.line.verbosity();
@@ -229,12 +229,12 @@ int run(Cli& cli)
   {
     if (level < verbosity) return;
     if (level == mrpt::system::LVL_INFO && verbosity == mrpt::system::LVL_INFO)
-      notes.push_back(text);  // of a run that succeeds
+      notes.push_back(text);  // they are printed when the run succeeds
     else
       std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "") << text
                 << "\n";
   };
-  request.onProgress = showProgress;
+  request.onProgress = cli::ProgressBar();
   request.shouldStop = [] { return stopSignal != 0; };
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
@@ -246,7 +246,7 @@ int run(Cli& cli)
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;
   std::cerr << "quadmap-slam: interrupted, the files hold what was done\n";
-  return 128 + stopSignal;  // as a shell reports it
+  return 128 + stopSignal;  // the exit status by which shells report a signal
 }
 
 }  // namespace
@@ -257,6 +257,11 @@ int main(int argc, char** argv)
       "quadmap-slam",
       [&]
       {
+        if (asksForDefaults(argc, argv))
+        {
+          std::cout << SlamConfiguration().documentedIni();
+          return 0;
+        }
         Cli cli;
         return cli.line.parse(argc, argv) ? run(cli) : 0;
       });

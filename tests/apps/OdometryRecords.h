@@ -35,7 +35,7 @@ inline Records readRecords(const std::string& path)
     }
 }
 
-/** A moment of a recording: where odometry thinks the robot is, and its images. */
+/** A moment of a recording, with the pose by odometry and the images. */
 struct Moment
 {
   double time = 0;  // [s]
@@ -43,7 +43,7 @@ struct Moment
   std::vector<mrpt::obs::CObservation::Ptr> images;
 };
 
-/** Pose or movement of a moment, `before` the moment before it. */
+/** Makes the record of the pose of a moment. */
 using PoseRecord = std::function<mrpt::obs::CObservation::Ptr(const Moment&)>;
 using MoveRecord =
     std::function<void(const Moment& before, const Moment&, mrpt::obs::CActionCollection& actions)>;
@@ -70,7 +70,7 @@ inline mrpt::obs::CObservationOdometry::Ptr wheels(const Moment& m)
   return o;
 }
 
-/** Its counters jump, as when they overflow: the pose is what counts. */
+/** Odometry of wheels whose counters jump, as when they overflow. Only the pose counts. */
 inline mrpt::obs::CObservation::Ptr wheelsWithTicks(const Moment& m)
 {
   auto o = wheels(m);
@@ -105,7 +105,7 @@ inline void thrunMove(const Moment& a, const Moment& b, mrpt::obs::CActionCollec
   planarMove(a, b, actions, mrpt::obs::CActionRobotMovement2D::mmThrun);
 }
 
-/** Of matched laser scans, beside a poor one of the wheels. */
+/** Adds a motion by matched laser scans, beside a poor one by wheels. */
 inline void matchedMove(const Moment& a, const Moment& b, mrpt::obs::CActionCollection& actions)
 {
   Moment slipped = b;
@@ -129,7 +129,7 @@ inline void spatialMove(const Moment& a, const Moment& b, mrpt::obs::CActionColl
   actions.insert(move);
 }
 
-/** One observation after the other. */
+/** A rawlog of observations. */
 inline Records observationLog(
     const std::vector<Moment>& moments, const std::vector<PoseRecord>& poses)
 {
@@ -142,7 +142,7 @@ inline Records observationLog(
   return records;
 }
 
-/** Actions and sensory frames in turn; poses are observations of the frames. */
+/** A rawlog of actions and sensory frames in turn. Poses are observations of the frames. */
 inline Records actionLog(
     const std::vector<Moment>& moments,
     const MoveRecord& move,

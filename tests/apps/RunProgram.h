@@ -12,7 +12,7 @@ namespace quadmap
 struct ProgramResult
 {
   int status = -1;       //!< Exit status; -1 when a signal ended it
-  std::string out, err;  //!< What it printed
+  std::string out, err;  //!< What the program printed
 };
 
 /** Runs a command as typed in a shell to its end. */
@@ -27,8 +27,7 @@ inline ProgramResult runCommand(const std::string& command)
       readFile(folder.path("err"))};
 }
 
-/** Runs one of our programs to its end.
- * \param arguments As typed in a shell. */
+/** Runs one of our programs to its end. \param arguments Arguments as typed in a shell. */
 inline ProgramResult runProgram(const std::string& program, const std::string& arguments)
 {
   return runCommand(std::string(QUADMAP_BIN_DIR) + "/" + program + " " + arguments);

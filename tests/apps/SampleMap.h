@@ -2,11 +2,18 @@
 
 #include <string>
 
-#include "../../apps/common/MapFile.h"
 #include "../maps/SyntheticScene.h"
+#include "quadmap/maps/CQuadricObjectMap.h"
 
 namespace quadmap
 {
+inline CQuadricObjectMap mapFrom(const std::string& file)
+{
+  CQuadricObjectMap map;
+  map.loadFromFile(file);
+  return map;
+}
+
 /** A chair, a couch and a refrigerator, seen from all around with millimetres of noise. */
 inline CQuadricObjectMap sampleMap()
 {

@@ -14,7 +14,7 @@ namespace
 {
 constexpr auto kNotFound = std::string::npos;
 
-/** A folder as quadmap-slam leaves it, and its truth: all perfect but one missed object. */
+/** A folder as quadmap-slam writes it, and its truth. All is perfect except one missed object. */
 class QuadmapEvaluate : public testing::Test
 {
  protected:

@@ -19,13 +19,13 @@ namespace
 {
 constexpr auto kNotFound = std::string::npos;
 
-/** A folder as quadmap-slam leaves it, as far as the program looks at it. */
+/** A folder as quadmap-slam writes it, with the files that the program reads. */
 class QuadmapExport : public ::testing::Test
 {
  protected:
   QuadmapExport()
   {
-    writeMapFile(folder_.path("objects.quadmap"), sampleMap());
+    sampleMap().saveToFile(folder_.path("objects.quadmap"));
     Trajectory trajectory, odometry;
     mrpt::maps::CSimpleMap keyframes;
     for (int i = 0; i < 8; ++i)

@@ -16,7 +16,7 @@ constexpr auto kNotFound = std::string::npos;
 class QuadmapMap : public ::testing::Test
 {
  protected:
-  QuadmapMap() : map_(sampleMap()) { writeMapFile(folder_.path("objects.quadmap"), map_); }
+  QuadmapMap() : map_(sampleMap()) { map_.saveToFile(folder_.path("objects.quadmap")); }
 
   /** Arguments with MAP for the file of the map and DIR for its folder. */
   ProgramResult run(std::string arguments) const
@@ -104,30 +104,30 @@ TEST_F(QuadmapMap, RelabelRemoveAndMergeWriteANewMap)
 {
   ASSERT_EQ(
       run("relabel MAP" + option("id", "chair") + " --label bench -o DIR/a.quadmap").status, 0);
-  const auto relabelled = readMapFile(folder_.path("a.quadmap"));
-  EXPECT_EQ(relabelled->withLabel("bench").size(), 1u);
-  EXPECT_TRUE(relabelled->withLabel("chair").empty());
+  const auto relabelled = mapFrom(folder_.path("a.quadmap"));
+  EXPECT_EQ(relabelled.withLabel("bench").size(), 1u);
+  EXPECT_TRUE(relabelled.withLabel("chair").empty());
 
   const std::string two = option("id", "chair") + option("id", "couch");
   ASSERT_EQ(run("remove MAP" + two + " -o DIR/b.quadmap").status, 0);
-  const auto removed = readMapFile(folder_.path("b.quadmap"));
-  ASSERT_EQ(removed->confirmedObjects().size(), 1u);
-  EXPECT_EQ(removed->confirmedObjects().front()->label(), "refrigerator");
+  const auto removed = mapFrom(folder_.path("b.quadmap"));
+  ASSERT_EQ(removed.confirmedObjects().size(), 1u);
+  EXPECT_EQ(removed.confirmedObjects().front()->label(), "refrigerator");
 
   const std::string pair = option("keep", "couch") + option("absorb", "chair");
   ASSERT_EQ(run("merge MAP" + pair + " -o DIR/c.quadmap").status, 0);
-  const auto merged = readMapFile(folder_.path("c.quadmap"));
-  EXPECT_EQ(merged->objects().size(), map_.objects().size() - 1);
-  EXPECT_FALSE(merged->find(idOf("chair")));
+  const auto merged = mapFrom(folder_.path("c.quadmap"));
+  EXPECT_EQ(merged.objects().size(), map_.objects().size() - 1);
+  EXPECT_FALSE(merged.find(idOf("chair")));
 
-  EXPECT_EQ(readMapFile(folder_.path("objects.quadmap"))->confirmedObjects().size(), 3u)
+  EXPECT_EQ(mapFrom(folder_.path("objects.quadmap")).confirmedObjects().size(), 3u)
       << "the input is as it was";
 }
 
 TEST_F(QuadmapMap, ChangesAMapInPlace)
 {
   ASSERT_EQ(run("remove MAP" + option("id", "couch") + " -o MAP").status, 0);
-  EXPECT_EQ(readMapFile(folder_.path("objects.quadmap"))->confirmedObjects().size(), 2u);
+  EXPECT_EQ(mapFrom(folder_.path("objects.quadmap")).confirmedObjects().size(), 2u);
   EXPECT_EQ(folder_.fileCount(), 1u);
 }
 

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace
 {
-/** A quick tour of the home, in which boxes say which object they show, or do not. */
+/** A short way through the home, with boxes that may say which object they show. */
 class QuadmapSlamAssociation : public testing::Test
 {
  protected:

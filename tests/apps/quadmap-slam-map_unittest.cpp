@@ -1,5 +1,5 @@
-// A run in the map of an earlier one: another way through the room, from another start, with drift,
-// and with things moved, taken away and brought.
+// Tests a run in the map of an earlier one. It takes another way from another start, with drift,
+// and things were moved, taken away and brought.
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFile.h>
 
@@ -25,7 +25,7 @@ const std::string kRoom =
 
 const std::string kWay = "[trajectory]\nframes = 100\n";
 
-/** With much drift, and not as it was. */
+/** The room at a later time, with changes and much drift. */
 const std::string kLater = R"(
 [odometry]
 translationPerMetre = 0.03
@@ -90,7 +90,7 @@ class EarlierMap : public testing::Test
     writeObjects(path(name + ".rawlog"), records);
   }
 
-  /** Of the positions of a run, in the frame of the truth as they are [m]. */
+  /** Root mean square error of the positions of a run, without alignment [m]. */
   double rmse(const std::string& run, const std::string& truth) const
   {
     const auto world = readTumTrajectory(path(truth));
@@ -113,7 +113,7 @@ class EarlierMap : public testing::Test
     return json::parse(readFile(path("evaluation.json")))["trajectory"]["ate_rmse_m"];
   }
 
-  /** The object of a map that is one of the truth; its label is that. */
+  /** Id of the object of a map at the place of a true one. It must have its label. */
   json idOf(const std::string& run, const std::string& truth, const Eigen::Vector3d& at) const
   {
     const auto nearest = [&](const std::string& file)

@@ -1,5 +1,5 @@
-// Every kind of odometry of both rawlog formats, as a user meets it: one recording, written anew
-// with each kind by MRPT's own classes, mapped by the program.
+// Tests every kind of odometry in both formats of rawlogs. One recording is written anew with each
+// kind by MRPT's own classes, and the program maps it.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,7 +19,7 @@ namespace
 constexpr auto kNotFound = std::string::npos;
 constexpr double kText = 1e-5;  // [m], [rad]; of the decimals in trajectories
 
-/** What a simulated robot recorded, and odometry that drifts in the plane. */
+/** A simulated recording, with odometry that drifts in the plane. */
 std::vector<Moment> simulated(const TemporaryFolder& folder)
 {
   const auto file = folder.path("simulated.rawlog");
@@ -91,7 +91,7 @@ class EveryOdometry : public testing::Test
     return json::parse(readFile(folder_->path("out/report.json")))["input"]["odometry"];
   }
 
-  /** The program finds this odometry by itself, says so, and moves as it does. */
+  /** Expects that the program finds this odometry by itself, says so, and follows it. */
   static void expectFound(const Records& records, const std::string& kind)
   {
     const auto result = run(records);

@@ -56,7 +56,7 @@ class QuadmapSlam : public testing::Test
     return dynamic_cast<CObservationObjects&>(*r.at(3 * frame + 2)).objects.at(0).box;
   }
 
-  /** A robot that stands still for so many frames, 0.1 s apart. */
+  /** Writes a recording of a robot that stands still for so many frames, 0.1 s apart. */
   void writeLong(int frames) const
   {
     const SyntheticRoom room;
@@ -72,8 +72,8 @@ class QuadmapSlam : public testing::Test
     }
   }
 
-  /** Fails with one line that has all of `parts`, and writes nothing; with --keep-going it
-   * succeeds, says what it left out, and has that many keyframes. */
+  /** Expects that the program fails with one line that has all of `parts`, and writes nothing. With
+   * --keep-going it must succeed, say what it left out, and have that many keyframes. */
   void expectProblem(const std::vector<std::string>& parts, std::size_t keyframesLeft) const
   {
     const auto strict = run("IN -o DIR/out --every 1");
@@ -182,6 +182,13 @@ TEST_F(QuadmapSlam, WrongUsage)
   }
   EXPECT_EQ(run("--help").status, 0);
   EXPECT_EQ(run("--version").out.find("quadmap-slam "), 0u);
+}
+
+TEST_F(QuadmapSlam, PrintsTheOptionsItTakes)
+{
+  const auto result = run("--defaults");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, readFile(QUADMAP_SOURCE_DIR "/share/quadmap/quadmap.ini"));
 }
 
 TEST_F(QuadmapSlam, SaysWhyItCannotStartInAMap)
@@ -316,7 +323,7 @@ TEST_F(QuadmapSlam, FilesThatCannotBeReadOrWritten)
 TEST_F(QuadmapSlam, FullDisk)
 {
   write(records());
-  const FileSizeLimit limit(20000);  // inherited by the program
+  const FileSizeLimit limit(20000);  // the program inherits it
   const auto result = run("IN -o DIR/out");
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(isOneLine(result.err)) << result.err;

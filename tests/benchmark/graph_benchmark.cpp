@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <ctime>
 
-#include "../slam/graph/GraphWorld.h"
-#include "quadmap/maps/Association.h"
+#include "../graph/GraphWorld.h"
+#include "quadmap/estimation/Association.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -61,7 +61,7 @@ struct Measured
 {
   std::size_t pose;
   std::size_t truth;  // index of the object
-  RobotView view;
+  BoxMeasurement view;
 };
 
 /** Every measurement joins the most probable object, frame by frame. */
@@ -159,7 +159,7 @@ void finalRounds()
     const double ofObjects = cpu_s();
     std::printf("marginals of %zu objects: %.2f s\n", marginals.objects.size(), ofObjects - done);
     const std::size_t poseMarginals = graph.poseMarginals().size(),
-                      edges = graph.poseEdges().size();
+                      edges = graph.graphEdges().size();
     std::printf(
         "marginals of %zu poses and %zu edges of the pose graph: %.2f s\n", poseMarginals, edges,
         cpu_s() - ofObjects);

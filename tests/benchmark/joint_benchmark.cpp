@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "../maps/SyntheticScene.h"
-#include "quadmap/slam/backend/JointBackEnd.h"
+#include "backend/JointBackEnd.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;

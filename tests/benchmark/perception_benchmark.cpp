@@ -13,9 +13,9 @@
 
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/FramePerception.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/perception/RoomPerception.h"
 #include "quadmap/sensors/TumDataset.h"
-#include "quadmap/sensors/simulator/Simulator.h"
+#include "quadmap/simulator/Simulator.h"
 
 // Time and memory of FramePerception per frame, on one core: frames are in memory, the result is
 // thrown away.
@@ -181,17 +181,13 @@ void measureFrames(benchmark::State& state, const Frames& frames)
  * resident. */
 void measureMemory(benchmark::State& state, const Frames& frames)
 {
-  const FramePerception perception(PerceptionOptions(), LabelTable::installed());
-  RoomPlanes room;
+  RoomPerception perception(PerceptionOptions(), LabelTable::installed());
   int done = 0;
   for (auto _ : state)
   {
     const Frame& frame = frames[static_cast<std::size_t>(done) % frames.size()];
     CObservationObjects measured = frame.boxes;
-    room.add(
-        perception.measure(
-            *frame.scan, measured, frame.up_sensor(), room.around(frame.T_world_sensor)),
-        frame.T_world_sensor);
+    perception.measure(*frame.scan, measured, frame.T_world_sensor);
     ++done;
     for (const int look : kLooksAtMemory)
       if (done == look)

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "../slam/points/PointWorld.h"
+#include "../points/PointWorld.h"
 
 namespace
 {

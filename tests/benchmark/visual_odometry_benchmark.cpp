@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/odometry/VisualOdometry.h"
 #include "quadmap/sensors/TumDataset.h"
-#include "quadmap/sensors/simulator/Simulator.h"
-#include "quadmap/slam/visual/VisualOdometry.h"
+#include "quadmap/simulator/Simulator.h"
 
 // Time of visual odometry per 640x480 image, on one core: images are in memory, one after the
 // other.

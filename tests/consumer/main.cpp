@@ -1,7 +1,5 @@
 // The object map in a program of your own: insert what a camera saw, ask, save, load.
-#include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/serialization/CArchive.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <iostream>
 #include <stdexcept>
@@ -67,7 +65,13 @@ void run(const std::string& file)
   for (int i = 0; i < 10; ++i)
   {
     const CPose3D T_map_robot(-0.1 * i, 0, 0, 0, 0, 0);
-    map.insertObservation(chairSeenFrom(T_map_robot), T_map_robot);
+    mrpt::poses::CPose3DPDFGaussian uncertain(T_map_robot);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      uncertain.cov(axis, axis) = 1e-4;          // x, y, z [m^2]
+      uncertain.cov(3 + axis, 3 + axis) = 1e-4;  // yaw, pitch, roll [rad^2]
+    }
+    map.insertObservation(chairSeenFrom(T_map_robot), uncertain);
   }
   map.consolidate();
   require(map.confirmedObjects().size() == 1, "ten views of one chair are one object");
@@ -78,13 +82,9 @@ void run(const std::string& file)
   require(error.norm() < 0.02, "the chair is where it was seen, to the 0.02 m of its faces");
   std::cout << "the chair stands at " << chair->object.center().transpose() << " m\n";
 
-  {
-    mrpt::io::CFileGZOutputStream out(file);
-    mrpt::serialization::archiveFrom(out) << map;
-  }
+  map.saveToFile(file);
   quadmap::CQuadricObjectMap loaded;
-  mrpt::io::CFileGZInputStream in(file);
-  mrpt::serialization::archiveFrom(in) >> loaded;
+  loaded.loadFromFile(file);
   require(loaded.withLabel("chair").size() == 1, "the chair is in the file");
 }
 }  // namespace

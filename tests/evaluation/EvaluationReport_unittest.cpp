@@ -14,8 +14,9 @@ using nlohmann::json;
 
 namespace
 {
-/** A run whose map is displaced from the true world, with known errors: the trajectory's poses are
- * alternately 0.1 m too high and too low at the corners of a square, the odometry's 0.2 m. */
+/** A run whose map is displaced from the true world, with known errors. At the corners of a square,
+ * the poses of the trajectory are alternately 0.1 m too high and too low, and those of the odometry
+ * 0.2 m. */
 class EvaluatedRun : public testing::Test
 {
  protected:

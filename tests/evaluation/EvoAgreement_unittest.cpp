@@ -54,7 +54,7 @@ struct Points
   Eigen::Matrix3Xd truth, estimated;  //!< A pair per column [m]
 };
 
-/** Every pose of the shorter trajectory with the nearest in time, looked for among all. */
+/** Pairs every pose of the shorter trajectory with the nearest in time among all. */
 Points pairsOf(const Trajectory& truth, const Trajectory& estimated, double limit)
 {
   const bool truthIsShorter = truth.size() < estimated.size();

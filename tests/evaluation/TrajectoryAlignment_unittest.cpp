@@ -18,7 +18,7 @@ Eigen::Matrix3d rotationOf(const CPose3D& T) { return T.getRotationMatrix().asEi
 
 CPose3D at(double x, double y, double z) { return CPose3D(x, y, z, 0, 0, 0); }
 
-/** Pairs whose estimated poses are the true ones seen from a displaced world, plus position noise.
+/** Pairs whose estimated poses are the true ones in a displaced world, with noise of the positions.
  */
 std::vector<PosePair> displacedPairs(
     RandomGeometry& random, const CPose3D& T_truth_estimated, double noise, int count = 40)

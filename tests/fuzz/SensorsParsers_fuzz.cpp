@@ -8,10 +8,11 @@
 #include "../obs/TemporaryFolder.h"
 #include "../sensors/SampleRawlog.h"
 #include "Fuzz.h"
+#include "quadmap/base/ShareFiles.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/sensors/TumDataset.h"
-#include "quadmap/sensors/simulator/Scene.h"
+#include "quadmap/simulator/Scene.h"
 
 using namespace quadmap;
 

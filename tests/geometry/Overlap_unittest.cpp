@@ -20,7 +20,7 @@ bool inCuboid(const Ellipsoid& object, const Eigen::Vector3d& p)
   return (q.cwiseAbs() - object.semiAxes()).maxCoeff() <= 0;
 }
 
-/** Share of a's cuboid that lies in b's, by counting random points of a. */
+/** Share of the cuboid of a that is in the cuboid of b, by counting random points of a. */
 double sampledShare(const Ellipsoid& a, const Ellipsoid& b, RandomGeometry& random, int samples)
 {
   int hits = 0;

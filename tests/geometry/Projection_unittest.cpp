@@ -14,8 +14,9 @@ namespace
 {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/** Bounds of many projected surface points. The nearest of n random directions to a true extreme is
- * within sqrt(10/n) rad of it: boxes come out too small by up to 5/n of their size. */
+/** Bounds of many projected points of the surface. Of n random directions the nearest one to a true
+ * extreme is within sqrt(10/n) rad of it. The boxes are therefore too small by up to 5/n of their
+ * size. */
 struct SampledBox
 {
   ImageBox box{kInfinity, kInfinity, -kInfinity, -kInfinity};
@@ -35,7 +36,8 @@ ImageBox sampledEllipsoidBox(
   return sampled.box;
 }
 
-/** A dense grid on the 6 sides of the cuboid, points nearer than `nearPlane` left out. */
+/** Bounds of a dense grid on the six faces of the cuboid, without points nearer than `nearPlane`.
+ */
 ImageBox sampledCuboidBox(const PinholeCamera& camera, const Ellipsoid& object, double nearPlane)
 {
   constexpr int kSteps = 200;

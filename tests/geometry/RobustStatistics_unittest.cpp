@@ -109,11 +109,3 @@ TEST(MadSigma, EstimatesTheSpreadOfNormalDataInSpiteOfOutliers)
   for (std::size_t i = 0; i < 1000; ++i) values[i] = 1e6;
   EXPECT_NEAR(madSigma(values), 0.2, 0.02) << "5 % outliers shift it by about 6 %";
 }
-
-TEST(HuberWeight, IsOneInsideAndFallsAsTheInverseOutside)
-{
-  EXPECT_EQ(huberWeight(0, 1.5), 1);
-  EXPECT_EQ(huberWeight(-1.5, 1.5), 1);
-  EXPECT_DOUBLE_EQ(huberWeight(3, 1.5), 0.5);
-  EXPECT_DOUBLE_EQ(huberWeight(-6, 1.5), 0.25);
-}

@@ -15,6 +15,7 @@ using mrpt::poses::CPose3D;
 namespace
 {
 constexpr int kMoments = 5;
+const UncertainPose kExact(CPose3D(), {0, 0});
 
 CPose3D poseAt(int moment) { return fourCameras()[0].robotAt(0.3 * moment); }
 
@@ -62,10 +63,46 @@ TEST(FramePairing, ManySensorsMayWaitForTheirBoxes)
   FramePairing pairing;
   for (int c = 0; c < 10; ++c) EXPECT_FALSE(pairing.add(*sampleScan(kStart, std::to_string(c))));
   for (int c = 0; c < 10; ++c)
-    EXPECT_TRUE(pairing.add(*sampleBoxes(kStart, std::to_string(c)), CPose3D())) << c;
-  EXPECT_FALSE(pairing.add(*sampleBoxes(kStart, "0"), CPose3D())) << "each scan serves once";
+    EXPECT_TRUE(pairing.add(*sampleBoxes(kStart, std::to_string(c)), kExact)) << c;
+  EXPECT_FALSE(pairing.add(*sampleBoxes(kStart, "0"), kExact)) << "each scan serves once";
   for (int i = 0; i < 100; ++i) pairing.add(*sampleScan(kStart + i, "camera"));
-  EXPECT_FALSE(pairing.add(*sampleBoxes(kStart, "camera"), CPose3D())) << "memory is bounded";
+  EXPECT_FALSE(pairing.add(*sampleBoxes(kStart, "camera"), kExact)) << "memory is bounded";
+}
+
+TEST(FramePairing, RefusesPairsThatCannotBelongTogether)
+{
+  const SyntheticRoom room;
+  const auto scan = room.scanFrom(poseAt(0), kStart);
+  const auto good = room.boxesOf(*scan, poseAt(0));
+  CObservationObjects moved = *good, zoomed = *good, scaled = *good;
+  moved.sensorPose = moved.sensorPose + CPose3D(0, 0.1, 0, 0, 0, 0);
+  zoomed.cameraParams.fx(zoomed.cameraParams.fx() * 2);
+  scaled.cameraParams.ncols *= 2;
+  for (const auto& [wrong, expected] : {
+           std::pair{ moved,  "sensorPose"},
+           {zoomed, "calibration"},
+           {scaled,       "image"}
+  })
+    for (const bool scanFirst : {true, false})
+    {
+      CQuadricObjectMap map;
+      const std::vector<const mrpt::obs::CObservation*> frame = {scan.get(), &wrong};
+      map.insertObservation(*frame[scanFirst ? 0 : 1], poseAt(0));
+      try
+      {
+        map.insertObservation(*frame[scanFirst ? 1 : 0], poseAt(0));
+        ADD_FAILURE() << expected << " was not looked at";
+      }
+      catch (const std::invalid_argument& e)
+      {
+        const std::string text = e.what();
+        EXPECT_NE(text.find("\"camera\""), std::string::npos) << text;
+        EXPECT_NE(text.find(expected), std::string::npos) << text;
+      }
+      EXPECT_TRUE(map.isEmpty());
+      map.insertObservation(*scan, poseAt(0));
+      EXPECT_TRUE(map.insertObservation(*good, poseAt(0))) << "the wrong pair is forgotten";
+    }
 }
 
 TEST(FramePairing, AnEmptyListOfBoxesCountsAsAMiss)

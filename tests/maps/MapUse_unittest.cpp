@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <random>
 
 #include "ObjectMapFixture.h"
 
@@ -55,8 +54,20 @@ TEST(MapQueries, FindObjects)
   ASSERT_EQ(map.confirmedObjects().size(), 2u);
   EXPECT_EQ(map.withLabel("tvmonitor").size(), 1u) << "any spelling";
   EXPECT_TRUE(map.withLabel("cat").empty());
-  EXPECT_EQ(map.inRegion({-0.5, -0.5, 0}, {0.5, 0.5, 1}).size(), 1u);
-  EXPECT_EQ(map.inRegion({-5, -5, 0}, {5, 5, 2}).size(), 2u);
+  EXPECT_EQ(
+      map.inRegion({
+                       {-0.5, -0.5, 0},
+                       { 0.5,  0.5, 1}
+  })
+          .size(),
+      1u);
+  EXPECT_EQ(
+      map.inRegion({
+                       {-5, -5, 0},
+                       { 5,  5, 2}
+  })
+          .size(),
+      2u);
   EXPECT_EQ(map.nearest({1, 1, 1})->label(), "tv");
   EXPECT_EQ(map.nearest({1, 1, 1}, "suitcase")->label(), "suitcase");
   EXPECT_FALSE(map.nearest({0, 0, 0}, "cat"));
@@ -75,11 +86,50 @@ TEST(MapQueries, FootprintIsTheOutlineCounterClockwise)
   for (std::size_t i = 0; i < 4; ++i)
   {
     const auto &p = outline[i], &q = outline[(i + 1) % 4];
-    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
+    area += 0.5 * (p.x * q.y - p.y * q.x);
   }
   const Eigen::Vector3d s = object->object.semiAxes();
   EXPECT_NEAR(area, 4 * s.x() * s.y(), 1e-9) << "positive: counter-clockwise";
   EXPECT_THROW(map.footprint(99), std::out_of_range);
+}
+
+TEST(MapQueries, BoundingBoxHoldsTheCuboidsOfConfirmedObjects)
+{
+  const auto nothing = CQuadricObjectMap().boundingBox();
+  EXPECT_EQ(nothing.min, mrpt::math::TPoint3Df());
+  EXPECT_EQ(nothing.max, mrpt::math::TPoint3Df());
+
+  CQuadricObjectMap map;
+  MapObject object;
+  object.object =
+      Ellipsoid(mrpt::poses::CPose3D(1, 2, 0.5, M_PI / 4, 0, 0), Eigen::Vector3d(1, 1, 0.5));
+  object.covariance *= 1e-6;
+  object.labelCounts = {
+      {"couch", 9}
+  };
+  object.completeCount = 9;
+  object.existenceLogOdds = 9;
+  map.addObject(object);
+  object.existenceLogOdds = 0;  // not confirmed
+  object.object = Ellipsoid(mrpt::poses::CPose3D(9, 9, 9, 0, 0, 0), Eigen::Vector3d(1, 1, 1));
+  map.addObject(object);
+  ASSERT_EQ(map.confirmedObjects().size(), 1u);
+  const auto box = map.boundingBox();
+  const float half = std::sqrt(2.0f);  // of the diagonal of the square
+  EXPECT_LT((box.min - mrpt::math::TPoint3Df(1 - half, 2 - half, 0)).norm(), 1e-5f);
+  EXPECT_LT((box.max - mrpt::math::TPoint3Df(1 + half, 2 + half, 1)).norm(), 1e-5f);
+}
+
+TEST(MapQueries, PointersShowTheLatestEstimate)
+{
+  CQuadricObjectMap map = smallMap();
+  const MapObject* suitcase = map.nearest({0, 0, 0.3}, "suitcase");
+  const unsigned before = suitcase->observations();
+  SyntheticCamera camera(1);
+  walkAround(map, camera, {cuboid("suitcase", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4)}, 6);
+  map.consolidate();
+  EXPECT_EQ(map.find(suitcase->id), suitcase);
+  EXPECT_EQ(suitcase->observations(), before + 6);
 }
 
 TEST(MapEditing, AddedObjectIsKeptAsItWasEstimated)
@@ -92,7 +142,7 @@ TEST(MapEditing, AddedObjectIsKeptAsItWasEstimated)
   map.consolidate();  // estimates anew, from what was put in
   for (const auto& [id, object] : source.objects())
   {
-    const MapObject* added = map.nearest(object.object.center());
+    const MapObject* added = map.nearest(pointOf(object.object.center()));
     EXPECT_EQ(added->labelCounts, object.labelCounts);
     EXPECT_EQ(added->observations(), object.observations());
     EXPECT_EQ(added->orientationDefined, object.orientationDefined);
@@ -199,71 +249,6 @@ TEST(MapMatching, PairsAMovedMap)
   const mrpt::maps::CMultiMetricMap other;
   EXPECT_FLOAT_EQ(here.compute3DMatchingRatio(&other, {}, ratio), 0.0f);
   EXPECT_THROW(here.determineMatching3D(&other, {}, pairs, params, extra), std::invalid_argument);
-}
-
-// Likelihood -----------------------------------------------------------------------------------
-
-TEST(MapLikelihood, PeaksAtTheTruePose)
-{
-  CQuadricObjectMap map;
-  SyntheticCamera camera(1);
-  walkAround(map, camera, kitchen(), 40, {0, 0, 0.5}, 2.8);
-  for (const double partial : {0.0, 1.0})
-  {
-    camera.disturbances.partialProbability = partial;
-    const auto T = SyntheticCamera::lookAt({2.5, 1.0, 1.5}, {0, 0, 0.5});
-    const auto obs = camera.observe(T, kitchen());
-    ASSERT_TRUE(map.canComputeObservationLikelihood(obs));
-    const double best = map.computeObservationLikelihood(obs, T);
-    for (const double step : {-1.0, -0.5, -0.25, 0.25, 0.5, 1.0})
-    {
-      EXPECT_LT(
-          map.computeObservationLikelihood(obs, mrpt::poses::CPose3D(step, 0, 0, 0, 0, 0) + T),
-          best);
-      EXPECT_LT(
-          map.computeObservationLikelihood(obs, mrpt::poses::CPose3D(0, step, 0, 0, 0, 0) + T),
-          best);
-      const mrpt::poses::CPose3D turned(T.x(), T.y(), T.z(), T.yaw() + 0.5 * step, T.pitch(), 0);
-      EXPECT_LT(map.computeObservationLikelihood(obs, turned), best) << step << " yaw";
-    }
-  }
-}
-
-TEST(MapLikelihood, LocalisesByImportanceSampling)
-{
-  // What a particle filter does in one step: weight poses in a room, take the mean.
-  CQuadricObjectMap map;
-  SyntheticCamera camera(2);
-  walkAround(map, camera, kitchen(), 40, {0, 0, 0.5}, 2.8);
-  const auto T = SyntheticCamera::lookAt({2.5, 1.0, 1.5}, {0, 0, 0.5});
-  const auto obs = camera.observe(T, kitchen());
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> around(-1, 1);
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  double total = 0;
-  for (int i = 0; i < 4000; ++i)
-  {
-    const mrpt::poses::CPose3D sample(
-        T.x() + 1.5 * around(random), T.y() + 1.5 * around(random), T.z(),
-        T.yaw() + 0.5 * around(random), T.pitch(), 0);
-    const double weight = std::exp(map.computeObservationLikelihood(obs, sample));
-    mean += weight * Eigen::Vector3d(sample.x(), sample.y(), sample.yaw());
-    total += weight;
-  }
-  mean /= total;
-  EXPECT_NEAR(mean.x(), T.x(), 0.15);
-  EXPECT_NEAR(mean.y(), T.y(), 0.15);
-  EXPECT_NEAR(mean.z(), T.yaw(), 0.08);
-}
-
-TEST(MapLikelihood, SaysWhatItCannotCompute)
-{
-  const CQuadricObjectMap map = smallMap();
-  EXPECT_FALSE(map.canComputeObservationLikelihood(mrpt::obs::CObservation3DRangeScan()));
-  EXPECT_FALSE(map.canComputeObservationLikelihood(CObservationObjects()));
-  CObservationObjects unmeasured;
-  unmeasured.objects.emplace_back();
-  EXPECT_FALSE(map.canComputeObservationLikelihood(unmeasured));
 }
 
 // Drawing and files ----------------------------------------------------------------------------

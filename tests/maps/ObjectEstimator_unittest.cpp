@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "SyntheticScene.h"
+#include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/geometry/RotationDistance.h"

@@ -11,6 +11,8 @@
 
 namespace quadmap::testing
 {
+inline mrpt::math::TPoint3D pointOf(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
 /** One of several poses on a circle, from where a camera looks at its centre. */
 inline mrpt::poses::CPose3D poseAround(
     int i,
@@ -49,7 +51,7 @@ inline void expectMapOf(
   EXPECT_EQ(map.confirmedObjects().size(), world.size()) << map.asString();
   for (const auto& truth : world)
   {
-    const MapObject* found = map.nearest(truth.object.center(), truth.label);
+    const MapObject* found = map.nearest(pointOf(truth.object.center()), truth.label);
     ASSERT_TRUE(found) << truth.label << "\n" << map.asString();
     EXPECT_LT((found->object.center() - truth.object.center()).norm(), meters) << truth.label;
   }

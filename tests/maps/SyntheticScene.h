@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/estimation/MapObject.h"
 #include "quadmap/geometry/Projection.h"
-#include "quadmap/maps/MapObject.h"
 #include "quadmap/obs/CObservationObjects.h"
 
 namespace quadmap::testing

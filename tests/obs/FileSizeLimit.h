@@ -6,8 +6,8 @@
 
 namespace quadmap
 {
-/** While it lives, no file can grow beyond a size: writes fail as on a full disk. Programs that are
- * started meanwhile inherit it. */
+/** While it lives, no file can grow beyond a size, so that writes fail as on a full disk. Programs
+ * that are started meanwhile inherit the limit. */
 class FileSizeLimit
 {
  public:

@@ -1,12 +1,15 @@
 #include "quadmap/obs/LabelTable.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <set>
 
 #include "TemporaryFolder.h"
 #include "TestData.h"
+#include "quadmap/base/ShareFiles.h"
 
 using namespace quadmap;
 
@@ -275,6 +278,35 @@ TEST(LabelTable, ErrorsNameFileSectionAndKey)
   EXPECT_NE(
       errorOf([] { LabelTable::fromFile("/none/labels.ini"); }).find("/none/labels.ini"),
       std::string::npos);
+}
+
+TEST(LabelTable, RoundTripsThroughAnArchive)
+{
+  const auto table = LabelTable::installed();
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  table.writeTo(archive);
+  stream.Seek(0);
+  const auto copy = LabelTable::readFrom(archive);
+  ASSERT_EQ(copy.all().size(), table.all().size());
+  for (const auto& [name, a] : table.all())
+  {
+    const LabelProperties b = copy.properties(name);
+    EXPECT_TRUE(b.known);
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.shapeExponent, b.shapeExponent);
+    EXPECT_EQ(a.dominantDirection, b.dominantDirection);
+    EXPECT_EQ(a.levelTop, b.levelTop);
+    EXPECT_EQ(a.support, b.support);
+    EXPECT_EQ(a.typicalSize, b.typicalSize);
+    EXPECT_EQ(a.sizeSpread, b.sizeSpread);
+    EXPECT_EQ(a.confusedWith, b.confusedWith);
+  }
+  EXPECT_EQ(copy.canonical("TV_monitor 3"), "tv") << "aliases are kept";
+
+  mrpt::io::CMemoryStream cut(stream.getRawBufferData(), stream.getTotalBytesCount() / 2);
+  auto half = mrpt::serialization::archiveFrom(cut);
+  EXPECT_ANY_THROW(LabelTable::readFrom(half));
 }
 
 TEST(FindShareFile, TheUsersFolderComesFirstAndErrorsNameThePlaces)

@@ -30,7 +30,7 @@ ObjectRecord sampleRecord()
   return r;
 }
 
-/** A valid file but for one field of its object. */
+/** A valid file except for one field of its object. */
 std::string fileWith(const std::string& field, const std::string& value)
 {
   const std::vector<std::pair<std::string, std::string>> fields = {

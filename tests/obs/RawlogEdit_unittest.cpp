@@ -16,7 +16,7 @@ const std::string kPlugin = std::string(QUADMAP_LIB_DIR) + "/libquadmap-obs.so";
 /** Runs a shell command. \return Its exit status. */
 int run(const std::string& command) { return WEXITSTATUS(std::system(command.c_str())); }
 
-/** Why Debian's program cannot be run here; empty when it can. */
+/** The reason why Debian's program cannot be run here, or an empty text when it can. */
 std::string whyNot()
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

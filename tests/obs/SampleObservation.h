@@ -43,8 +43,8 @@ inline ObjectMeasurement completeMeasurement()
   return m;
 }
 
-/** Every field of it differs from its default: one complete, one partial, one rejected object and
- * one nobody has looked at. */
+/** An observation of which every field differs from its default. It has a complete, a partial and a
+ * rejected object, and one that perception has not looked at. */
 inline CObservationObjects sampleObservation()
 {
   CObservationObjects obs;

@@ -9,7 +9,7 @@
 
 namespace quadmap
 {
-/** A folder of its own for one test, removed with everything in it at the end. */
+/** A folder for one test, which is removed at its end with everything in it. */
 class TemporaryFolder
 {
  public:
@@ -38,7 +38,7 @@ class TemporaryFolder
     return path(name);
   }
 
-  /** Names of all files, hidden ones too. */
+  /** Number of all files, including hidden ones. */
   std::size_t fileCount() const
   {
     std::size_t count = 0;
@@ -58,7 +58,7 @@ inline std::string readFile(const std::string& path)
   return content.str();
 }
 
-/** The message of the std::exception that `f` throws; empty when it throws none. */
+/** The message of the std::exception that `f` throws, or an empty text when it throws none. */
 template <typename F>
 std::string errorOf(F&& f)
 {

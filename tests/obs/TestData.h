@@ -6,8 +6,9 @@
 
 namespace quadmap
 {
-/** A file or folder of the real recordings, which are not part of the project: below
- * $QUADMAP_TEST_DATA, else beside the source tree. Empty when it is not there. */
+/** A file or folder of the real recordings, which are not part of the project. It is looked for
+ * below $QUADMAP_TEST_DATA or, without this variable, beside the source tree. It is empty when it
+ * does not exist. */
 inline std::string testData(const std::string& name)
 {
   const char* fromUser = std::getenv("QUADMAP_TEST_DATA");

@@ -63,7 +63,7 @@ TEST(PerceptionOptions, SavesWhatItReads)
   mrpt::config::CConfigFileMemory again(text);
   PerceptionOptions copy;
   copy.loadFromConfigFile(again, "perception");
-  EXPECT_NEAR(copy.maxRange, 3.25, 1e-6);
+  EXPECT_EQ(copy.maxRange, 3.25);
   EXPECT_EQ(copy.minPoints, 77);
   EXPECT_EQ(copy.models, ObservationModels::Partial);
 }

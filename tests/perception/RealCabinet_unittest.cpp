@@ -8,8 +8,7 @@
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/obs/ObjectList.h"
-#include "quadmap/perception/FramePerception.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/perception/RoomPerception.h"
 #include "quadmap/sensors/TumDataset.h"
 
 using namespace quadmap;
@@ -33,8 +32,7 @@ TEST(RealCabinet, EachCompleteMeasurementHasItsShape)
   if (recording.empty()) GTEST_SKIP() << "recording tum_fr3_cabinet is not there";
   const TumDataset dataset(recording);
   const auto truth = readObjectsJson(recording + "/objects_gt.json").at(0);
-  const FramePerception perception(PerceptionOptions(), LabelTable::installed());
-  RoomPlanes room;
+  RoomPerception perception(PerceptionOptions(), LabelTable::installed());
   std::vector<double> shapes;
   for (std::size_t i = 0; i < dataset.frames().size(); ++i)
   {
@@ -43,10 +41,7 @@ TEST(RealCabinet, EachCompleteMeasurementHasItsShape)
     if (!boxes || !T_world_robot) continue;
     const auto scan = dataset.scan(i);
     const auto T_world_sensor = *T_world_robot + scan->sensorPose;
-    const Eigen::Vector3d up_sensor =
-        T_world_sensor.getRotationMatrix().asEigen().row(2).transpose();
-    room.add(
-        perception.measure(*scan, *boxes, up_sensor, room.around(T_world_sensor)), T_world_sensor);
+    perception.measure(*scan, *boxes, T_world_sensor);
     for (const auto& object : boxes->objects)
     {
       if (!object.measurement.complete) continue;

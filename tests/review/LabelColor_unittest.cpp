@@ -1,4 +1,4 @@
-#include "quadmap/review/LabelColor.h"
+#include "LabelColor.h"
 
 #include <gtest/gtest.h>
 

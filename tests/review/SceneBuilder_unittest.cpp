@@ -83,8 +83,8 @@ TEST(SceneBuilder, PicturesHideTheCeilingScenesDoNot)
   SceneContent content = sampleContent();
   content.cloud = floorAndCeiling();
   EXPECT_EQ(pointsOf(*SceneBuilder().scene(content)), 2u);
-  EXPECT_EQ(pointsOf(*SceneBuilder().picture(content, obliqueView(content, 1.6))), 1u);
-  EXPECT_EQ(pointsOf(*SceneBuilder().picture(content, topView(content, 1.6))), 1u);
+  EXPECT_EQ(pointsOf(*SceneBuilder().picture(content, obliqueCamera(content, 1.6))), 1u);
+  EXPECT_EQ(pointsOf(*SceneBuilder().picture(content, cameraFromAbove(content, 1.6))), 1u);
 }
 
 TEST(SceneBuilder, KeepsFarPointsOut)
@@ -100,7 +100,7 @@ TEST(SceneBuilder, MakesAnEmptySceneOfNothing)
   const auto scene = SceneBuilder().scene({});
   EXPECT_EQ(childrenOf(*scene, "objects"), 0u);
   EXPECT_TRUE(scene->getByName("floor"));
-  EXPECT_GT(obliqueView({}, 1.6).distance, 0);
+  EXPECT_GT(obliqueCamera({}, 1.6).distance, 0);
 }
 
 TEST(SceneBuilder, FloorIsUnderTheObjects)

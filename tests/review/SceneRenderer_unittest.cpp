@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "../obs/TemporaryFolder.h"
+#include "LabelColor.h"
 #include "SampleScene.h"
-#include "quadmap/review/LabelColor.h"
 #include "quadmap/review/SceneBuilder.h"
 
 using namespace quadmap;
@@ -18,16 +18,17 @@ namespace
 constexpr PictureSize kSize{320, 200};
 
 /** Pixel of a map point, by the look-at construction of OpenGL's textbooks. */
-Eigen::Vector2i pixelOf(const ViewPoint& view, const PictureSize& size, const Eigen::Vector3d& p)
+Eigen::Vector2i pixelOf(
+    const RenderCamera& camera, const PictureSize& size, const Eigen::Vector3d& p)
 {
   const Eigen::Vector3d toEye(
-      std::cos(view.elevation) * std::cos(view.azimuth),
-      std::cos(view.elevation) * std::sin(view.azimuth), std::sin(view.elevation));
+      std::cos(camera.elevation) * std::cos(camera.azimuth),
+      std::cos(camera.elevation) * std::sin(camera.azimuth), std::sin(camera.elevation));
   const Eigen::Vector3d forward = -toEye;
   const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
   const Eigen::Vector3d up = right.cross(forward);
-  const Eigen::Vector3d d = p - (view.target + view.distance * toEye);
-  const double f = 0.5 * size.height / std::tan(0.5 * view.verticalFov);  // [px]
+  const Eigen::Vector3d d = p - (camera.target + camera.distance * toEye);
+  const double f = 0.5 * size.height / std::tan(0.5 * camera.verticalFov);  // [px]
   const double x = 0.5 * size.width + f * d.dot(right) / d.dot(forward);
   const double y = 0.5 * size.height - f * d.dot(up) / d.dot(forward);
   return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
@@ -40,7 +41,7 @@ Eigen::Vector3i rgbAt(const mrpt::img::CImage& picture, const Eigen::Vector2i& p
   return {bgr[2], bgr[1], bgr[0]};
 }
 
-/** The channels' deviations from their mean: what is left of a colour that is mixed with grey. */
+/** Deviations of the channels from their mean, which mixing with grey only scales. */
 Eigen::Vector3d hueOf(const Eigen::Vector3i& rgb)
 {
   const Eigen::Vector3d v = rgb.cast<double>();
@@ -59,19 +60,19 @@ TEST_F(SceneRendererTest, ObjectsAppearWhereTheyProjectInTheirColours)
   SceneContent content = sampleContent();
   content.truth.clear();
   SceneRenderer renderer(kSize);
-  for (const ViewPoint& view :
-       {obliqueView(content, kSize.aspect()), topView(content, kSize.aspect())})
+  for (const RenderCamera& camera :
+       {obliqueCamera(content, kSize.aspect()), cameraFromAbove(content, kSize.aspect())})
   {
-    const auto scene = SceneBuilder().picture(content, view, kSize);
-    const mrpt::img::CImage picture = renderer.render(*scene, view);
+    const auto scene = SceneBuilder().picture(content, camera, kSize);
+    const mrpt::img::CImage picture = renderer.render(*scene, camera);
     ASSERT_EQ(picture.getWidth(), kSize.width);
     ASSERT_EQ(picture.getHeight(), kSize.height);
     for (const ObjectRecord& record : content.objects)
     {
-      // Below the centre: the label may cover what is above it.
+      // The point is below the centre, as the label may cover what is above it.
       const Eigen::Vector3d p =
-          record.object.center() - 0.6 * record.object.semiAxes().minCoeff() * view.axes().col(1);
-      const auto seen = hueOf(rgbAt(picture, pixelOf(view, kSize, p)));
+          record.object.center() - 0.6 * record.object.semiAxes().minCoeff() * camera.axes().col(1);
+      const auto seen = hueOf(rgbAt(picture, pixelOf(camera, kSize, p)));
       const auto color = labelColor(record.label);
       const auto expected = hueOf({color.R, color.G, color.B});
       EXPECT_GT(seen.norm(), 20) << record.label << ": something coloured";
@@ -97,8 +98,8 @@ TEST_F(SceneRendererTest, OneRendererPerThreadCanLive)
 TEST_F(SceneRendererTest, RendersAnEmptyMap)
 {
   SceneRenderer renderer(kSize);
-  const ViewPoint view = obliqueView({}, kSize.aspect());
-  const auto picture = renderer.render(*SceneBuilder().picture({}, view, kSize), view);
+  const RenderCamera camera = obliqueCamera({}, kSize.aspect());
+  const auto picture = renderer.render(*SceneBuilder().picture({}, camera, kSize), camera);
   EXPECT_GT(rgbAt(picture, {160, 100}).minCoeff(), 150);
 }
 

@@ -1,4 +1,4 @@
-#include "quadmap/review/SimpleMapReader.h"
+#include "SimpleMapReader.h"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST_F(SimpleMapFile, TakesOnlySomeKeyframesWhenThereAreMany)
 
 TEST_F(SimpleMapFile, TakesSomeOfEachCamera)
 {
-  mrpt::maps::CSimpleMap map;  // two cameras take turns
+  mrpt::maps::CSimpleMap map;  // with two cameras that take turns
   for (int i = 0; i < 8; ++i)
   {
     const auto scan = scanOfWall();

@@ -20,12 +20,13 @@
 
 namespace quadmap
 {
-constexpr int kColumns = 64, kRows = 48;  // of the sample images [px]
+constexpr int kColumns = 64, kRows = 48;  // size of the sample images [px]
 constexpr double kStart = 1000.0;         // time of the first sample [s]
 
 inline mrpt::Clock::time_point stamp(double time) { return mrpt::Clock::fromDouble(time); }
 
-/** A slope of depths in millimetres with a colour gradient; small, so that tests are quick. */
+/** A scan of a slope of depths in millimetres, with a gradient of colours. It is small, so that
+ * tests are quick. */
 inline mrpt::obs::CObservation3DRangeScan::Ptr sampleScan(
     double time, const std::string& label = "camera")
 {
@@ -62,7 +63,7 @@ inline CObservationObjects::Ptr sampleBoxes(double time, const std::string& labe
   boxes->objects[0].score = 0.75;
   boxes->objects[0].box = {10, 12, 30, 40};
   boxes->objects[1].label = "cup";
-  boxes->objects[1].box = {-3, 20, 8, 28};  // reaches over the border: usable
+  boxes->objects[1].box = {-3, 20, 8, 28};  // reaches over the border, and can be used
   return boxes;
 }
 
@@ -76,7 +77,7 @@ inline mrpt::obs::CObservationRobotPose::Ptr samplePose(
   return o;
 }
 
-/** Writes objects as any MRPT program would. \return The path. */
+/** Writes objects as any MRPT program does. \return The path. */
 inline std::string writeObjects(
     const std::string& path,
     const std::vector<mrpt::serialization::CSerializable::Ptr>& objects,
@@ -94,7 +95,7 @@ inline std::string writeObjects(
   return path;
 }
 
-/** Reads to the end. */
+/** Reads all frames. */
 inline std::vector<RgbdFrame> readAll(RawlogSource& source)
 {
   std::vector<RgbdFrame> frames;

@@ -10,8 +10,9 @@
 
 namespace quadmap
 {
-/** A small recording in the TUM layout: frames 0.1 s apart, 64x48 pixels, the camera moving along x
- * at 0.5 m/s, a wall 2 m ahead, one box in every image. Tests then spoil single files. */
+/** A small recording in the TUM layout. Its frames are 0.1 s apart and have 64x48 pixels. The
+ * camera moves along x at 0.5 m/s and sees a wall 2 m ahead. Every image has one box. Tests then
+ * spoil single files. */
 class SampleRecording
 {
  public:
@@ -44,7 +45,7 @@ class SampleRecording
     const cv::Mat image(rows, columns, CV_8UC3, cv::Scalar(40, 80, 120));
     cv::imwrite(files.path(mrpt::format("rgb/f%d.png", i)), image);
   }
-  /** \param value Of all pixels; 5000 is 1 m. */
+  /** Writes a depth image. \param value Value of all pixels; 5000 is 1 m. */
   void writeDepth(int i, int value) const
   {
     const cv::Mat image(48, 64, CV_16UC1, cv::Scalar(value));
@@ -55,7 +56,7 @@ class SampleRecording
     files.write("calibration.yaml", "%YAML:1.0\n---\n" + text);
   }
 
-  /** Lines of associations.txt and groundtruth.txt. \param time [s] \param x [m] */
+  /** Lines of associations.txt and groundtruth.txt, with time [s] and x [m]. */
   static std::string line(int i, double time)
   {
     return mrpt::format("%.4f rgb/f%d.png %.4f depth/f%d.png\n", time, i, time, i);
@@ -65,7 +66,7 @@ class SampleRecording
     return mrpt::format("%.4f %.4f 0 0 0 0 0 1\n", kStart + kInterval * i, x);
   }
 
-  /** world_up is -y: the optical frame's up. */
+  /** world_up is -y, which is up in `optical`. */
   static constexpr const char* kCalibration =
       "fx: 60.0\nfy: 62.0\ncx: 31.5\ncy: 23.5\nwidth: 64\nheight: 48\ndepth_factor: 5000.0\n"
       "world_up: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ 0., -1., 0. ]\n";

@@ -8,8 +8,8 @@
 
 namespace quadmap
 {
-/** The room through the four cameras of a robot: two of them upright as on the robot of the
- * Robot@Home data set, one upside down with another resolution, one that looks the other way. */
+/** The room as the four cameras of a robot see it. Two are turned upright, as on the robot of the
+ * Robot@Home data set. One is upside down and has another resolution. One looks the other way. */
 inline std::vector<SyntheticRoom> fourCameras()
 {
   using mrpt::DEG2RAD;

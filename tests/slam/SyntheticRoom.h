@@ -12,8 +12,8 @@
 
 namespace quadmap
 {
-/** A box on an infinite floor, seen by a camera on a robot that drives around it: depth by exact
- * intersection of rays, detector boxes from the projected corners. */
+/** A cuboid on an infinite floor, seen by a camera on a robot that drives around it. Depth comes
+ * from exact intersections of rays, and the detector's boxes from the projected corners. */
 struct SyntheticRoom
 {
   Ellipsoid box{
@@ -24,7 +24,8 @@ struct SyntheticRoom
   mrpt::poses::CPose3D T_robot_camera{0.1, 0, 1.3, 0, 0.45, 0};  // looks down a little
   PinholeCamera camera{260, 260, 159.5, 119.5, 320, 240};
 
-  /** The robot on a circle around the box, looking at it. \param angle [rad] */
+  /** Pose of the robot on a circle around the cuboid, facing it. \param angle Place on the circle
+   *  [rad]. */
   mrpt::poses::CPose3D robotAt(double angle) const
   {
     constexpr double kRadius = 2.3;  // [m]
@@ -117,7 +118,7 @@ struct SyntheticRoom
   }
 };
 
-/** What a synthetic recording has. */
+/** Options of a synthetic recording. */
 struct SyntheticRecording
 {
   int frames = 6;
@@ -125,7 +126,7 @@ struct SyntheticRecording
   double step = 0.25;  // between frames, along the circle [rad]
 };
 
-/** All objects of a recording in the order of a rawlog, boxes embedded. */
+/** All records of a recording in the order of a rawlog, with embedded boxes. */
 inline std::vector<mrpt::serialization::CSerializable::Ptr> recordsOf(
     const SyntheticRoom& room, const SyntheticRecording& recording)
 {
@@ -143,7 +144,7 @@ inline std::vector<mrpt::serialization::CSerializable::Ptr> recordsOf(
   return records;
 }
 
-/** Writes it. \return The path. */
+/** Writes a recording. \return The path. */
 inline std::string writeRecording(
     const std::string& path,
     const SyntheticRecording& recording = {},

@@ -10,7 +10,7 @@ namespace quadmap
 {
 namespace
 {
-/** The default of evo_ape [s]. */
+/** Most time between two poses by default in evo_ape [s]. */
 constexpr double kMaxTimeDifferenceOfEvo = 0.01;
 
 std::string inFolder(const EvaluationInput& input, const char* file)
@@ -42,7 +42,8 @@ double ateOf(const std::vector<PosePair>& pairs, bool inPlace)
   return ateRmse(pairs, inPlace ? mrpt::poses::CPose3D() : alignPositions(pairs));
 }
 
-/** \param T_truth_estimated Receives the alignment; untouched when comparing in place. */
+/** Evaluates the trajectory.
+ * \param T_truth_estimated Receives the alignment, unless the comparison is in place. */
 TrajectoryEvaluation evaluateTrajectory(
     const EvaluationInput& input,
     mrpt::poses::CPose3D& T_truth_estimated,
@@ -76,7 +77,7 @@ std::optional<double> odometryAte(const EvaluationInput& input)
   return ateOf(pairsWithTruth(path, odometry, input), input.inPlace);
 }
 
-/** The true objects that stand there when the run ends. */
+/** The true objects that are there when the run ends. */
 std::vector<ObjectRecord> trueObjects(const EvaluationInput& input, std::vector<std::string>& notes)
 {
   auto truth = readObjectsJson(*input.trueObjectsPath);

@@ -5,16 +5,16 @@
 #include <memory>
 #include <stdexcept>
 
+#include "quadmap/estimation/Assignment.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RotationDistance.h"
-#include "quadmap/maps/Assignment.h"
 #include "quadmap/obs/LabelTable.h"
 
 namespace quadmap
 {
 namespace
 {
-std::string plainFolding(const std::string& label)
+std::string plainSpelling(const std::string& label)
 {
   std::string folded;
   for (const char c : label)
@@ -24,8 +24,8 @@ std::string plainFolding(const std::string& label)
   return first == std::string::npos ? std::string() : folded.substr(first, last - first + 1);
 }
 
-/** Shape IoU when the yaw means nothing: z against the axis it is nearest to, the two others in the
- * better order. */
+/** Shape when the yaw means nothing. The estimate's z is compared with the truth's axis nearest to
+ * it, and the two other axes in the better order. */
 double shapeIoUKeepingVertical(const Ellipsoid& truth, const Ellipsoid& estimated)
 {
   Eigen::Index vertical = 2;
@@ -37,15 +37,15 @@ double shapeIoUKeepingVertical(const Ellipsoid& truth, const Ellipsoid& estimate
       alignedIoU(upright, estimated.semiAxes()), alignedIoU(turned, estimated.semiAxes()));
 }
 
-/** The estimated object of each true one, or estimated.size(). */
+/** Index of the estimated object of each true one, or estimated.size() for none. */
 std::vector<std::size_t> assign(
     const std::vector<ObjectRecord>& truth,
     const std::vector<ObjectRecord>& estimated,
     const ObjectEvaluationOptions& options)
 {
   if (truth.empty()) return {};
-  // Beyond the estimated objects every true one has columns for "missed": dearer than all possible
-  // pairs together, so that the number of pairs comes first.
+  // After the estimated objects there are columns for "missed". They cost more than all possible
+  // pairs together, so that the assignment has as many pairs as possible.
   const double missedCost =
       1.0 + options.maxCenterDistance * static_cast<double>(truth.size() + estimated.size());
   const double impossibleCost = 10 * missedCost;
@@ -58,7 +58,7 @@ std::vector<std::size_t> assign(
       const double distance = (truth[i].object.center() - estimated[j].object.center()).norm();
       const bool possible =
           distance <= options.maxCenterDistance &&
-          options.foldLabel(truth[i].label) == options.foldLabel(estimated[j].label);
+          options.canonicalLabel(truth[i].label) == options.canonicalLabel(estimated[j].label);
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           possible ? distance : impossibleCost;
     }
@@ -90,16 +90,16 @@ std::optional<double> ratio(std::size_t part, std::size_t whole)
 }
 }  // namespace
 
-LabelFolding installedLabelFolding()
+LabelSpelling installedLabelSpelling()
 {
   try
   {
     return [table = LabelTable::installed()](const std::string& label)
-    { return plainFolding(table.canonical(label)); };
+    { return plainSpelling(table.canonical(label)); };
   }
   catch (const std::runtime_error&)
   {
-    return plainFolding;
+    return plainSpelling;
   }
 }
 

@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "quadmap/base/Json.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 
 namespace quadmap
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
-
-Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 std::optional<double> degrees(const std::optional<double>& radians)
 {
   if (!radians) return std::nullopt;
   return mrpt::RAD2DEG(*radians);
 }
 
-/** As objects.json writes it: a number when it is one. */
+/** The id as objects.json has it: a number when it is one. */
 Json idOf(const ObjectRecord& object)
 {
   const std::string& id = object.id;
@@ -80,7 +77,7 @@ std::string orDash(const std::optional<double>& value, const char* format)
   return value ? mrpt::format(format, *value) : "-";
 }
 
-/** One row of the table of matches; the widths hold for the heading too. */
+/** One row of the table of matches, or its heading. */
 std::string row(const std::string& label, const std::string& ids, const std::string (&figures)[4])
 {
   return mrpt::format(
@@ -147,7 +144,7 @@ std::string toJson(const EvaluationReport& report)
       {   "objects",    objectsJson(report)},
       {   "matches",    matchesJson(report)}
   };
-  return json.dump(2) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 std::string toTable(const EvaluationReport& report)

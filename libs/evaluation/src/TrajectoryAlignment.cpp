@@ -11,10 +11,10 @@ namespace quadmap
 {
 namespace
 {
-/** Weight of one radian between the bodies against one metre between their positions [m^2]. */
+/** Weight of the bodies' axes against positions: doc/mathematics.md, section 20 [m^2]. */
 constexpr double kOrientationWeight = 1.0;
 
-/** The optical axes are taken for the truth's only when they fit this much better. */
+/** The truth's axes are taken as optical only when the disagreement is less than this share. */
 constexpr double kClearlyBetter = 0.25;
 
 Eigen::Vector3d position(const mrpt::poses::CPose3D& T) { return {T.x(), T.y(), T.z()}; }
@@ -38,7 +38,7 @@ Centroids centroidsOf(const std::vector<PosePair>& pairs)
   return mean;
 }
 
-/** sum (p_truth - mean) (p_estimated - mean)^t / n [m^2]. */
+/** sum (p_truth - mean) (p_estimated - mean)^t / n [m^2]: doc/mathematics.md, (20.1). */
 Eigen::Matrix3d crossCovariance(const std::vector<PosePair>& pairs, const Centroids& mean)
 {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -58,7 +58,7 @@ Eigen::Matrix3d axesCovariance(const std::vector<PosePair>& pairs, const Eigen::
   return sum / static_cast<double>(pairs.size());
 }
 
-/** The rotation R that maximises tr(R^t M). */
+/** The rotation R that maximises tr(R^t M), by singular values: doc/mathematics.md, (20.1). */
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& M)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -67,11 +67,11 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& M)
          svd.matrixV().transpose();
 }
 
-/** Rotation from positions and axes together; see alignTrajectories. */
+/** Rotation from positions and axes together, see alignTrajectories(). */
 Eigen::Matrix3d rotationWithOrientations(
     const std::vector<PosePair>& pairs, const Eigen::Matrix3d& positions)
 {
-  // The largest trace possible is that of perfect agreement; what is missing is the disagreement.
+  // The largest possible trace means perfect agreement. The difference from it is the disagreement.
   const double perfect =
       Eigen::JacobiSVD<Eigen::Matrix3d>(positions).singularValues().sum() + 3 * kOrientationWeight;
   const auto solve = [&](const Eigen::Matrix3d& B, double& disagreement)

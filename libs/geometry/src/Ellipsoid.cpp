@@ -26,8 +26,8 @@ Ellipsoid::Ellipsoid(const mrpt::poses::CPose3D& T_ref_obj, const Eigen::Vector3
         "ellipsoid: half lengths (%g, %g, %g) must be finite and positive", semiAxes.x(),
         semiAxes.y(), semiAxes.z()));
   if (!isFinite(T_ref_obj)) throw std::invalid_argument("ellipsoid: pose is not finite");
-  // CPose3D fills its yaw-pitch-roll cache at the first reading, const or not: with the cache
-  // filled here, threads may share the object.
+  // CPose3D fills its cache of yaw, pitch and roll when they are first read, even in a const
+  // object. The cache is filled here, so that threads may share the object.
   pose_.yaw();
 }
 

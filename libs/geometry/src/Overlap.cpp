@@ -12,13 +12,13 @@ namespace
 {
 /** A solid bounded by a closed surface of triangles, counter-clockwise seen from outside.
  *
- * Clipping classifies each vertex once and cuts each edge once, so the surface stays closed
- * whatever rounding does: a vertex or face on the clipping plane costs a triangle without area,
- * never a hole, and the volume's error stays that of the coordinates. */
+ * Clipping classifies each vertex once and cuts each edge once. The surface therefore stays closed
+ * whatever rounding does: a vertex or face on the clipping plane makes a triangle without area but
+ * never a hole. The volume is as accurate as the coordinates. */
 class TriangleSolid
 {
  public:
-  /** Box [-s, s]. */
+  /** The cuboid [-s, s]. */
   explicit TriangleSolid(const Eigen::Vector3d& s)
   {
     for (int i = 0; i < 8; ++i)
@@ -42,7 +42,8 @@ class TriangleSolid
     for (const auto& p : vertices_) height.push_back(n.dot(p) - offset);
 
     std::vector<Triangle> kept;
-    std::vector<std::pair<std::size_t, std::size_t>> rim;  // edges of the cut, along the kept side
+    std::vector<std::pair<std::size_t, std::size_t>>
+        rim;  // edges of the cut, as the kept side has them
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> cuts;
     for (const Triangle& t : triangles_) clipTriangle(t, height, cuts, kept, rim);
     for (const auto& [from, to] : rim) kept.push_back({rim.front().first, to, from});
@@ -78,7 +79,7 @@ class TriangleSolid
       kept.push_back(t);
       return;
     }
-    // The corner that is alone on its side of the plane, and its two cut edges.
+    // `a` is the corner that is alone on its side of the plane; ab and ac cut its two edges.
     std::size_t alone = 0;
     while (inside(alone) != (count == 1)) ++alone;
     const std::size_t a = t[alone], b = t[(alone + 1) % 3], c = t[(alone + 2) % 3];
@@ -116,7 +117,7 @@ class TriangleSolid
 
 double cuboidIntersectionVolume(const Ellipsoid& a, const Ellipsoid& b)
 {
-  // In the frame of a: small numbers, and a is the box [-s, s].
+  // In the frame of a the numbers are small, and a is the cuboid [-s, s].
   const Eigen::Matrix3d R_a_b = a.rotation().transpose() * b.rotation();
   const Eigen::Vector3d t_a_b = a.rotation().transpose() * (b.center() - a.center());
   if (t_a_b.norm() >= a.semiAxes().norm() + b.semiAxes().norm()) return 0;

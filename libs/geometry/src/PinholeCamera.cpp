@@ -13,12 +13,12 @@ const mrpt::poses::CPose3D& T_sensor_optical()
 {
   static const mrpt::poses::CPose3D T = []
   {
-    // Columns: the optical axes (right, down, forward) in (forward, left, up).
+    // The columns are the optical axes (right, down, forward) in sensor axes (forward, left, up).
     mrpt::math::CMatrixDouble33 R;
     R.asEigen() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
     const auto pose = mrpt::poses::CPose3D::FromRotationAndTranslation(
         R, mrpt::math::CVectorFixedDouble<3>(mrpt::math::TPoint3D(0, 0, 0)));
-    pose.yaw();  // fills CPose3D's cache, so that threads may share it
+    pose.yaw();  // fills CPose3D's cache, so that threads may share the pose
     return pose;
   }();
   return T;

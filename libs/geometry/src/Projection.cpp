@@ -8,10 +8,11 @@ namespace quadmap
 {
 namespace
 {
-/** An object nearer to the camera plane than this has no finite outline [m]. */
+/** An object nearer to the camera plane than this has no finite outline [m]: doc/mathematics.md,
+ * (2.3). */
 constexpr double kMinimumGap = 1e-6;
 
-/** Grows while points are added; none yet: not valid. */
+/** A box that grows while points are added. It is not valid before the first one. */
 struct Bounds
 {
   ImageBox box{
@@ -27,18 +28,19 @@ struct Bounds
   }
 };
 
-/** R diag(s^2) R^t of an ellipsoid. */
+/** D = R diag(s^2) R^t of an ellipsoid: doc/mathematics.md, (1.2). */
 Eigen::Matrix3d shapeMatrix(const Ellipsoid& object)
 {
   const Eigen::Matrix3d R = object.rotation();
   return R * object.semiAxes().cwiseAbs2().asDiagonal() * R.transpose();
 }
 
-/** Both ends of the outline along one axis of the plane z = 1: the roots u of
+/** Both ends of the outline along one axis of the plane z = 1: doc/mathematics.md, (2.2). They are
+ * the roots u of
  *
- *   M_zz u^2 - 2 M_iz u + M_ii = 0,   M = D - t t^t (the dual conic for K = I),
+ *   M_zz u^2 - 2 M_iz u + M_ii = 0,   M = D - t t^t (the dual conic for K = I).
  *
- * whose discriminant is written out in D and t, so that t^4 cancels before it is computed. */
+ * The discriminant is written out in D and t, so that the terms in t^4 cancel in the formula. */
 std::array<double, 2> outlineRange(
     const Eigen::Matrix3d& D, const Eigen::Vector3d& t, Eigen::Index axis)
 {
@@ -97,7 +99,7 @@ std::optional<ImageBox> projectCuboidBox(
 
 Plane boxEdgePlane(const PinholeCamera& camera, const ImageBox& box, BoxEdge edge)
 {
-  // A point (x, y, z), z > 0, is right of u = x1 when fx x + (cx - x1) z > 0, and so on.
+  // doc/mathematics.md, (2.4): (x, y, z) with z > 0 is right of u = x1 if fx x + (cx - x1) z > 0.
   Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
   switch (edge)
   {

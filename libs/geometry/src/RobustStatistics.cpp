@@ -16,8 +16,9 @@ void dropInfinite(std::vector<double>& values)
   if (values.empty()) throw std::invalid_argument("quantile: no finite value");
 }
 
-/** \param values Finite, at least one; put into another order.
- * \param known As many are known to be first, with none of the others below them. */
+/** The p-quantile of finite values.
+ * \param values At least one; they are put into another order.
+ * \param known So many values at the start are known not to exceed any of the others. */
 double quantileOf(std::vector<double>& values, double p, std::size_t known = 0)
 {
   if (!(p >= 0 && p <= 1)) throw std::invalid_argument("quantile: p must be in [0, 1]");
@@ -56,12 +57,6 @@ double madSigma(const std::vector<double>& values)
   deviations.reserve(values.size());
   for (double v : values) deviations.push_back(std::abs(v - center));
   return 1.4826 * median(std::move(deviations));
-}
-
-double huberWeight(double normalisedResidual, double threshold)
-{
-  const double size = std::abs(normalisedResidual);
-  return size <= threshold ? 1.0 : threshold / size;
 }
 
 }  // namespace quadmap

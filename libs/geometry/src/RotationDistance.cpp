@@ -26,8 +26,8 @@ std::array<Eigen::Matrix3d, 24> properRelabelings()
   return all;
 }
 
-/** Angle between two rotations, exact for small angles too: |A - B|_F = 2 sqrt(2) sin(angle / 2).
- */
+/** Angle between two rotations, from |A - B|_F = 2 sqrt(2) sin(angle / 2), which is exact for small
+ * angles too: doc/mathematics.md, (20.4). */
 double angleBetween(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
 {
   return 2 * std::asin(std::min(1.0, (A - B).norm() / (2 * std::sqrt(2.0))));

@@ -32,7 +32,7 @@ Eigen::Vector3d rotationVectorOf(const Eigen::Quaterniond& q)
 Eigen::Matrix3d inverseLeftJacobian(const Eigen::Vector3d& v)
 {
   const double angle = v.norm();
-  // 1/a^2 - (1 + cos a)/(2 a sin a) = 1/12 + a^2/720 + ...
+  // With the angle a: 1/a^2 - (1 + cos a)/(2 a sin a) = 1/12 + a^2/720 + ...
   const double factor = angle < 1e-3 ? 1.0 / 12 + angle * angle / 720
                                      : 1 / (angle * angle) - 0.5 / (angle * std::tan(0.5 * angle));
   const Eigen::Matrix3d V = crossMatrix(v);

@@ -11,7 +11,7 @@ SupportWithDerivatives supportWithDerivatives(
     const double h = v.norm();
     return {h, v.cwiseProduct(s) / h, v.cwiseProduct(n_obj) / h};
   }
-  // h = S^(1/q), S = sum w_i^(q/2), w_i = v_i^2 + k^2, k^2 = smoothing^2 |s|^2.
+  // doc/mathematics.md, (3.2) to (3.4): h = S^(1/q), S = sum w_i^(q/2), w_i = v_i^2 + k^2.
   constexpr double smoothing2 = kSupportSmoothing * kSupportSmoothing;
   const Eigen::Array3d w = v.array().square() + smoothing2 * s.squaredNorm();
   const Eigen::Array3d powers = w.pow(0.5 * q);

@@ -1,12 +1,11 @@
 #include "quadmap/maps/CQuadricObjectMap.h"
 
 #include <mrpt/config/CConfigFileBase.h>
-#include <mrpt/core/format.h>
 
 #include <ostream>
-#include <stdexcept>
 
-#include "quadmap/obs/ConfigCheck.h"
+#include "LabelSource.h"
+#include "quadmap/base/ConfigCheck.h"
 
 // The base class's name must be visible to the macros.
 using mrpt::maps::CMetricMap;
@@ -34,10 +33,7 @@ const struct Registration
 
 }  // namespace
 
-CQuadricObjectMap::CQuadricObjectMap() :
-    labels_(std::make_shared<const LabelTable>(LabelTable::installed()))
-{
-}
+CQuadricObjectMap::CQuadricObjectMap() : labels_(std::make_shared<const LabelSource>()) {}
 
 // Map definition -----------------------------------------------------------------------------
 
@@ -68,7 +64,11 @@ void CQuadricObjectMap::TMapDefinition::dumpToTextStream_map_specific(std::ostre
   perceptionOpts.dumpToTextStream(out);
 }
 
-mrpt::maps::CMetricMap* CQuadricObjectMap::internal_CreateFromMapDefinition(
+/** A plain pointer before MRPT 2.11.3, a shared one since. */
+using CreatedMap = decltype(CQuadricObjectMap::internal_CreateFromMapDefinition(
+    std::declval<const mrpt::maps::TMetricMapInitializer&>()));
+
+CreatedMap CQuadricObjectMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& initializer)
 {
   const auto& definition = dynamic_cast<const TMapDefinition&>(initializer);
@@ -78,15 +78,17 @@ mrpt::maps::CMetricMap* CQuadricObjectMap::internal_CreateFromMapDefinition(
   map->likelihoodOptions = definition.likelihoodOpts;
   map->renderOptions = definition.renderOpts;
   map->perceptionOptions = definition.perceptionOpts;
-  return map.release();
+  return CreatedMap(map.release());
 }
 
 // State --------------------------------------------------------------------------------------
 
 void CQuadricObjectMap::setLabels(LabelTable labels)
 {
-  labels_ = std::make_shared<const LabelTable>(std::move(labels));
+  labels_ = std::make_shared<const LabelSource>(std::move(labels));
 }
+
+const LabelTable& CQuadricObjectMap::labels() const { return labels_->table(); }
 
 const CQuadricObjectMap::Objects& CQuadricObjectMap::objects() const { return objects_; }
 
@@ -100,8 +102,6 @@ bool CQuadricObjectMap::isEmpty() const { return objects_.empty(); }
 void CQuadricObjectMap::internal_clear()
 {
   objects_.clear();
-  estimators_.clear();
-  estimatedFrom_.clear();
   nextId_ = 1;
   waiting_.clear();
   pairing_.clear();
@@ -109,80 +109,6 @@ void CQuadricObjectMap::internal_clear()
   objectOfInstance_.clear();
   lastDecisions_.clear();
   unknownLabels_.clear();
-}
-
-MapObject& CQuadricObjectMap::require(ObjectId id)
-{
-  const auto it = objects_.find(id);
-  if (it == objects_.end()) throw std::out_of_range(mrpt::format("the map has no object %u", id));
-  return it->second;
-}
-
-// Editing ------------------------------------------------------------------------------------
-
-ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
-{
-  constexpr double kMaxTilt = 1e-4;  // [rad]: rounding
-  if (estimated.object.rotation().col(2).head<2>().norm() > kMaxTilt)
-    throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
-  if (estimated.covariance.llt().info() != Eigen::Success)
-    throw std::invalid_argument("the covariance of an object must be positive definite");
-  if (estimated.labelCounts.empty() || estimated.observations() == 0)
-    throw std::invalid_argument("an object of the map needs observations and their labels");
-
-  MapObject object = estimated;
-  object.id = nextId_++;
-  object.object = ellipsoidOf(uprightStateOf(estimated.object));
-  object.confirmed = isConfirmed(object);
-  estimators_[object.id] = ObjectEstimator::fromEstimate(
-      {uprightStateOf(object.object), object.covariance, 0, object.orientationDefined},
-      labels_->properties(object.label()), insertionOptions.estimator);
-  objects_[object.id] = object;
-  return object.id;
-}
-
-void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
-{
-  MapObject& a = require(kept);
-  const MapObject b = require(absorbed);
-  if (kept == absorbed)
-    throw std::out_of_range(mrpt::format("object %u cannot be merged with itself", kept));
-
-  estimators_.at(kept).absorb(
-      estimators_.at(absorbed), uprightStateOf(a.object), uprightStateOf(b.object));
-  for (const auto& [label, count] : b.labelCounts) a.labelCounts[label] += count;
-  a.completeCount += b.completeCount;
-  a.partialCount += b.partialCount;
-  a.missCount = std::min(a.missCount, b.missCount);
-  a.existenceLogOdds = std::max(a.existenceLogOdds, b.existenceLogOdds);
-  a.firstSeen = std::min(a.firstSeen, b.firstSeen);
-  a.lastSeen = std::max(a.lastSeen, b.lastSeen);
-  for (auto& [instance, object] : objectOfInstance_)
-    if (object == absorbed) object = kept;
-  for (auto& decision : lastDecisions_)
-    if (decision.object == absorbed) decision.object = kept;
-  objects_.erase(absorbed);
-  estimators_.erase(absorbed);
-  estimatedFrom_.erase(absorbed);
-  estimate(a, true);
-}
-
-void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
-{
-  MapObject& object = require(id);
-  object.labelCounts = {
-      {labels_->canonical(label), std::max(1u, object.observations())}
-  };
-}
-
-void CQuadricObjectMap::remove(ObjectId id)
-{
-  require(id);
-  objects_.erase(id);
-  estimators_.erase(id);
-  estimatedFrom_.erase(id);
-  for (auto it = objectOfInstance_.begin(); it != objectOfInstance_.end();)
-    it = it->second == id ? objectOfInstance_.erase(it) : std::next(it);
 }
 
 }  // namespace quadmap

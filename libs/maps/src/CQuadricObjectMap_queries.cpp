@@ -25,7 +25,7 @@ const MapObject* CQuadricObjectMap::find(ObjectId id) const
 
 std::vector<const MapObject*> CQuadricObjectMap::withLabel(const std::string& label) const
 {
-  const std::string wanted = labels_->canonical(label);
+  const std::string wanted = labels().canonical(label);
   std::vector<const MapObject*> found;
   for (const auto* object : confirmedObjects())
     if (object->label() == wanted) found.push_back(object);
@@ -33,26 +33,25 @@ std::vector<const MapObject*> CQuadricObjectMap::withLabel(const std::string& la
 }
 
 std::vector<const MapObject*> CQuadricObjectMap::inRegion(
-    const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) const
+    const mrpt::math::TBoundingBox& region) const
 {
   std::vector<const MapObject*> found;
   for (const auto* object : confirmedObjects())
   {
     const Eigen::Vector3d c = object->object.center();
-    if ((c.array() >= lower.array()).all() && (c.array() <= upper.array()).all())
-      found.push_back(object);
+    if (region.containsPoint({c.x(), c.y(), c.z()})) found.push_back(object);
   }
   return found;
 }
 
 const MapObject* CQuadricObjectMap::nearest(
-    const Eigen::Vector3d& p, const std::string& label) const
+    const mrpt::math::TPoint3D& p, const std::string& label) const
 {
   const MapObject* best = nullptr;
   double bestDistance = std::numeric_limits<double>::infinity();
   for (const auto* object : label.empty() ? confirmedObjects() : withLabel(label))
   {
-    const double distance = (object->object.center() - p).norm();
+    const double distance = (object->object.center() - Eigen::Vector3d(p.x, p.y, p.z)).norm();
     if (distance >= bestDistance) continue;
     best = object;
     bestDistance = distance;
@@ -60,14 +59,29 @@ const MapObject* CQuadricObjectMap::nearest(
   return best;
 }
 
-std::vector<Eigen::Vector2d> CQuadricObjectMap::footprint(ObjectId id) const
+mrpt::math::TPolygon2D CQuadricObjectMap::footprint(ObjectId id) const
 {
   const MapObject* object = find(id);
   if (!object) throw std::out_of_range(mrpt::format("the map has no object %u", id));
   const Eigen::Matrix<double, 3, 8> corners = object->object.cuboidCorners();
-  std::vector<Eigen::Vector2d> outline;
-  for (const Eigen::Index corner : {0, 1, 3, 2}) outline.push_back(corners.col(corner).head<2>());
+  mrpt::math::TPolygon2D outline;
+  for (const Eigen::Index corner : {0, 1, 3, 2})
+    outline.emplace_back(corners(0, corner), corners(1, corner));
   return outline;
+}
+
+mrpt::math::TBoundingBoxf CQuadricObjectMap::boundingBox() const
+{
+  const auto confirmed = confirmedObjects();
+  if (confirmed.empty()) return {};
+  auto box = mrpt::math::TBoundingBoxf::PlusMinusInfinity();
+  for (const auto* object : confirmed)
+  {
+    const Eigen::Matrix<float, 3, 8> corners = object->object.cuboidCorners().cast<float>();
+    for (Eigen::Index i = 0; i < 8; ++i)
+      box.updateWithPoint({corners(0, i), corners(1, i), corners(2, i)});
+  }
+  return box;
 }
 
 std::vector<ObjectRecord> CQuadricObjectMap::toRecords() const
@@ -130,7 +144,7 @@ void CQuadricObjectMap::determineMatching3D(
     for (const auto* here : confirmedObjects())
     {
       const double distance = (here->object.center() - moved.center()).norm();
-      if (distance > bestDistance || !labels_->compatible(here->label(), there->label())) continue;
+      if (distance > bestDistance || !labels().compatible(here->label(), there->label())) continue;
       best = here;
       bestDistance = distance;
     }

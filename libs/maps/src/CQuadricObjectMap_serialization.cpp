@@ -3,8 +3,9 @@
 
 #include <cmath>
 
+#include "LabelSource.h"
+#include "quadmap/base/ArchiveFields.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
-#include "quadmap/obs/ArchiveFields.h"
 
 namespace quadmap
 {
@@ -111,11 +112,12 @@ InformationPrior readPrior(CArchive& in)
 
 }  // namespace
 
-std::uint8_t CQuadricObjectMap::serializeGetVersion() const { return 0; }
+/** An archive of version 1 holds in this order: MRPT's generic parameters, the groups of options as
+ * INI text, the label table when there is one, the next id, the objects with the information their
+ * measurements gave, and the instances. Version 0 had no label table. What waits for a partner or
+ * for more views is not kept. */
+std::uint8_t CQuadricObjectMap::serializeGetVersion() const { return 1; }
 
-/** Version 0: generic parameters, the groups of options as INI text, the objects with the
- * information their measurements gave, instances. Waiting partial measurements and the label table
- * are not kept. */
 void CQuadricObjectMap::serializeTo(CArchive& out) const
 {
   out << genericMapParams;
@@ -123,13 +125,17 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
   writeOptions(out, likelihoodOptions);
   writeOptions(out, renderOptions);
   writeOptions(out, perceptionOptions);
+  // An empty map that was given no table need not read one for being stored.
+  const bool hasTable = labels_->isGiven() || !objects_.empty();
+  out << hasTable;
+  if (hasTable) labels().writeTo(out);
   out << nextId_ << static_cast<std::uint32_t>(objects_.size());
   for (const auto& [id, object] : objects_)
   {
     writeObject(out, object);
     writePrior(
-        out, estimators_.at(id).summary(
-                 uprightStateOf(object.object), labels_->properties(object.label()),
+        out, object.estimator.summary(
+                 uprightStateOf(object.object), labels().properties(object.label()),
                  insertionOptions.estimator));
   }
   out.WriteAs<std::uint32_t>(objectOfInstance_.size());
@@ -139,26 +145,34 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
 void CQuadricObjectMap::serializeFrom(CArchive& in, std::uint8_t version)
 try
 {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   internal_clear();
   in >> genericMapParams;
   readOptions(in, insertionOptions);
   readOptions(in, likelihoodOptions);
   readOptions(in, renderOptions);
   readOptions(in, perceptionOptions);
+  auto labels = labels_;
+  if (version >= 1)
+    labels = readBool(in) ? std::make_shared<const LabelSource>(LabelTable::readFrom(in))
+                          : std::make_shared<const LabelSource>();
   nextId_ = readScalar<ObjectId>(in);
   for (auto n = readCount(in, kMaxObjects, "objects"); n > 0; --n)
   {
     const MapObject object = readObject(in);
     requireStored(object.id < nextId_ && objects_.count(object.id) == 0, "an object's id is wrong");
-    estimators_[object.id] = ObjectEstimator::fromSummary(readPrior(in));
-    objects_[object.id] = object;
+    Entry& entry = objects_[object.id];
+    static_cast<MapObject&>(entry) = object;
+    entry.estimator = ObjectEstimator::fromSummary(readPrior(in));
   }
   for (auto n = readCount(in, kMaxObjects, "instances"); n > 0; --n)
   {
     const auto instance = readScalar<std::uint32_t>(in);
-    objectOfInstance_[instance] = readScalar<ObjectId>(in);
+    const auto id = readScalar<ObjectId>(in);
+    requireStored(objects_.count(id) != 0, "an instance belongs to no object");
+    objectOfInstance_[instance] = id;
   }
+  labels_ = labels;
 }
 catch (...)
 {

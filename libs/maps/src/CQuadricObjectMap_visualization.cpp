@@ -7,9 +7,9 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CText3D.h>
 
+#include "quadmap/base/GzipStream.h"
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
-#include "quadmap/obs/GzipStream.h"
-#include "quadmap/obs/OutputFile.h"
 
 namespace quadmap
 {

@@ -15,6 +15,7 @@ struct CQuadricObjectMap::Frame
   // All boxes of the observation; a label is empty where the detector is not sure enough.
   std::vector<ImageBox> allBoxes;
   std::vector<std::string> allLabels;
+  std::vector<std::size_t> boxesWithoutPlace;  // sure ones whose measurement gives no view
 
   // The usable measurements; `decisions` has the same order.
   std::vector<std::size_t> boxes;  // index in the observation

@@ -1,258 +1,241 @@
 #include "quadmap/maps/MapOptions.h"
 
-#include <mrpt/config/CConfigFileBase.h>
-#include <mrpt/core/format.h>
+#include "quadmap/base/OptionList.h"
 
-#include <ostream>
-#include <set>
-
-#include "quadmap/obs/ConfigCheck.h"
-
-// Every option has one line in a `visit` function: key, field, bounds. Loading, saving and printing
-// walk the same lines, so that they cannot disagree.
 namespace quadmap
 {
 namespace
 {
 constexpr double kLarge = 1e9, kSmall = 1e-9;
-constexpr double kRadiansPerDegree = M_PI / 180.0;
 
-template <typename Visitor, typename Options>
-void visitInsertion(Visitor& v, Options& o)
+void describeAssociation(InsertionOptions& o, OptionList& list)
 {
-  v.number("alpha", o.association.alpha, kSmall, kLarge);
-  v.number("beta", o.association.beta, kSmall, kLarge);
-  v.integer("labels", o.association.labels, 1, 1000000);
-  v.number("newObjectVolume", o.association.newObjectVolume, kSmall, kLarge);
-  v.number("minJoinPosterior", o.association.minJoinPosterior, 0, 1 - kSmall);
-  v.number("extentShare", o.agreement.extentShare, 0, 10);
-  v.number("sizeLogSigma", o.agreement.sizeLogSigma, kSmall, 100);
-  v.number("maxSizePenalty", o.agreement.maxSizePenalty, 0, 1000);
-  v.number("imageWeight", o.agreement.imageWeight, 0, 100);
-  v.number("minImageIoU", o.agreement.minImageIoU, kSmall, 1);
-  v.number("labelPenalty", o.agreement.labelPenalty, 0, 1000);
-  v.number("duplicateIoU", o.agreement.duplicateIoU, kSmall, 1);
-  v.integer("maxMeasurementsPerObject", o.estimator.maxMeasurements, 3, 1000000);
-  v.integer("maxIterations", o.estimator.maxIterations, 1, 1000);
-  v.number("huber", o.estimator.huber, kSmall, 1000);
-  v.number("edgeFloor", o.estimator.edgeFloor, 0, 10);
-  v.number("edgeShapeShare", o.estimator.edgeShapeShare, 0, 1);
-  v.flag("edgesOfComplete", o.estimator.edgesOfComplete);
-  v.number("roundnessSigma", o.estimator.roundnessSigma, kSmall, 100);
-  v.number("sizePriorSpread", o.estimator.sizePriorSpread, kSmall, 1000);
-  v.number("seedWeight", o.estimator.seedWeight, kSmall, 1);
-  v.number("posePositionSigma", o.poseNoise.position, 0, 10);
-  v.degrees("poseAngleSigma_deg", o.poseNoise.angle, 0, 90);
-  v.number("detectionProbability", o.existence.detectionProbability, 0.001, 0.999);
-  v.number("falseAlarmProbability", o.existence.falseAlarmProbability, 0.0001, 0.999);
-  v.degrees("independentViewAngle_deg", o.existence.independentViewAngle, 0.001, 180);
-  v.number("repeatedViewWeight", o.existence.repeatedViewWeight, kSmall, 1);
-  v.number("maxLogOdds", o.existence.maxLogOdds, kSmall, 1000);
-  v.number("confirmLogOdds", o.existence.confirmLogOdds, -1000, 1000);
-  v.integer("minComplete", o.existence.minComplete, 1, 1000000);
-  v.integer("minPartial", o.existence.minPartial, 1, 1000000);
-  v.number("maxCenterSigma", o.existence.maxCenterSigma, kSmall, 1000);
-  v.number("minLabelShare", o.existence.minLabelShare, 0, 1);
-  v.number("maxSizeDeviation", o.existence.maxSizeDeviation, kSmall, 1000);
-  v.number("maxSizeSigma", o.existence.maxSizeSigma, kSmall, 1000);
-  v.number("missMinRange", o.existence.minRange, 0, 1000);
-  v.number("missMaxRange", o.existence.maxRange, 0, 1000);
-  v.number("missMinBoxSize_px", o.existence.minBoxSize, 0, 10000);
-  v.number("missVisibleShare", o.existence.visibleShare, kSmall, 1);
-  v.number("missOccluderMargin", o.existence.occluderMargin, 0, 10);
-  v.number("missMaxHiddenShare", o.existence.maxHiddenShare, 0, 1);
-  v.number("mergeOverlap", o.merging.overlap, kSmall, 1);
-  v.number("mergeAnyLabelIoU", o.merging.anyLabelIoU, kSmall, 1);
-  v.number("mergePenetration", o.merging.penetration, 0, 10);
-  v.number("mergeMinLabelAgreement", o.merging.minLabelAgreement, 0, 1);
-  v.integer("waitingCapacity", o.waiting.capacity, 1, 1000000);
-  v.integer("waitingMinViews", o.waiting.minViews, 2, 1000);
-  v.degrees("waitingMinParallax_deg", o.waiting.minParallax, 0, 180);
-  v.number("waitingGateShare", o.waiting.gateShare, kSmall, 100);
-  v.number("estimateGrowth", o.estimateGrowth, 0, 10);
-  v.flag("useInstanceIds", o.useInstanceIds);
-  v.number("minScore", o.minScore, 0, 1);
+  list.number(
+      "alpha", o.association.alpha, {kSmall, kLarge}, "",
+      "Concentration of the Dirichlet process. More gives more objects.");
+  list.number("beta", o.association.beta, {kSmall, kLarge}, "", "Prior of the label histogram.");
+  list.integer("labels", o.association.labels, {1, 1000000}, "", "Number of classes.");
+  list.number(
+      "newObjectVolume", o.association.newObjectVolume, {kSmall, kLarge}, "m^3",
+      "Volume that a new object may lie in.");
+  list.number(
+      "minJoinPosterior", o.association.minJoinPosterior, {0, 1 - kSmall}, "",
+      "A box joins an object only with at least this posterior probability.");
 }
 
-template <typename Visitor, typename Options>
-void visitLikelihood(Visitor& v, Options& o)
+void describeAgreement(InsertionOptions& o, OptionList& list)
 {
-  v.number("positionSigma", o.positionSigma, kSmall, 1000);
-  v.degrees("yawSigma_deg", o.yawSigma, kSmall, 360);
-  v.degrees("angleSigma_deg", o.angleSigma, kSmall, 360);
-  v.number("outlierShare", o.outlierShare, kSmall, 1 - kSmall);
-  v.flag("onlyConfirmed", o.onlyConfirmed);
+  list.number(
+      "extentShare", o.agreement.extentShare, {0, 10}, "",
+      "Uncertainty of a seen centre, as a share of the object's half size.");
+  list.number(
+      "sizeLogSigma", o.agreement.sizeLogSigma, {kSmall, 100}, "ln",
+      "Standard deviation of ln(measured size / object's size).");
+  list.number(
+      "maxSizePenalty", o.agreement.maxSizePenalty, {0, 1000}, "ln",
+      "Upper bound of the log-likelihood lost by sizes that differ.");
+  list.number(
+      "imageWeight", o.agreement.imageWeight, {0, 100}, "",
+      "Factor on ln(IoU / 0.5) of the box and the projected object in the image.");
+  list.number("minImageIoU", o.agreement.minImageIoU, {kSmall, 1}, "", "Lower bound of that IoU.");
+  list.number(
+      "labelPenalty", o.agreement.labelPenalty, {0, 1000}, "ln",
+      "Log-likelihood lost by labels that are never taken for each other.");
+  list.number(
+      "duplicateIoU", o.agreement.duplicateIoU, {kSmall, 1}, "",
+      "Two boxes of one frame with at least this IoU show the same thing.");
 }
 
-template <typename Visitor, typename Options>
-void visitRender(Visitor& v, Options& o)
+void describeEstimation(InsertionOptions& o, OptionList& list)
 {
-  v.flag("cuboids", o.cuboids);
-  v.flag("ellipsoids", o.ellipsoids);
-  v.flag("labels", o.labels);
-  v.flag("unconfirmed", o.unconfirmed);
-  v.number("textHeight", o.textHeight, kSmall, 100);
-  v.number("opacity", o.opacity, 0, 1);
+  list.integer(
+      "maxMeasurementsPerObject", o.estimator.maxMeasurements, {3, 1000000}, "",
+      "Most measurements of an object that are kept. Redundant ones go.");
+  list.integer(
+      "maxIterations", o.estimator.maxIterations, {1, 1000}, "",
+      "Most iterations of the optimiser.");
+  list.number(
+      "huber", o.estimator.huber, {kSmall, 1000}, "sigmas",
+      "Residuals beyond this lose weight. Lower bounds of sizes lose most of it.");
+  list.number(
+      "edgeFloor", o.estimator.edgeFloor, {0, 10}, "m",
+      "Part of the standard deviation of every box edge that the outline adds.");
+  list.number(
+      "edgeShapeShare", o.estimator.edgeShapeShare, {0, 1}, "",
+      "The rest of that part, as a share of the object's mean half size.");
+  list.flag(
+      "edgesOfComplete", o.estimator.edgesOfComplete,
+      "True uses the box edges of complete measurements with unseen sides too.");
+  list.number(
+      "roundnessSigma", o.estimator.roundnessSigma, {kSmall, 100}, "ln",
+      "Standard deviation of ln(a / b) for labels without a dominant direction.");
+  list.number(
+      "sizePriorSpread", o.estimator.sizePriorSpread, {kSmall, 1000}, "",
+      "Factor on the label table's spread of sizes.");
+  list.number(
+      "seedWeight", o.estimator.seedWeight, {kSmall, 1}, "",
+      "Weight of the position that a partial measurement starts with. Many of them err alike.");
+  list.number(
+      "posePositionSigma", o.poseNoise.position, {0, 10}, "m",
+      "Uncertainty of each coordinate of a pose, or what remains of it where poses are "
+      "estimated.");
+  list.angle(
+      "poseAngleSigma_deg", o.poseNoise.angle, {0, 90},
+      "Uncertainty of the orientation of a pose, or what remains of it where poses are "
+      "estimated.");
 }
 
-struct Keys
+void describeExistence(InsertionOptions& o, OptionList& list)
 {
-  std::set<std::string> names;
-  void number(const char* key, const double&, double, double) { names.insert(key); }
-  void degrees(const char* key, const double&, double, double) { names.insert(key); }
-  template <typename Int>
-  void integer(const char* key, const Int&, int, int)
-  {
-    names.insert(key);
-  }
-  void flag(const char* key, const bool&) { names.insert(key); }
-};
-
-struct Loader
-{
-  const mrpt::config::CConfigFileBase& source;
-  const std::string& section;
-  void number(const char* key, double& value, double min, double max)
-  {
-    readNumber(source, section, key, value, min, max);
-  }
-  void degrees(const char* key, double& value, double min, double max)
-  {
-    if (!source.keyExists(section, key)) return;
-    double degrees = 0;
-    readNumber(source, section, key, degrees, min, max);
-    value = degrees * kRadiansPerDegree;
-  }
-  template <typename Int>
-  void integer(const char* key, Int& value, int min, int max)
-  {
-    int read = static_cast<int>(value);
-    readNumber(source, section, key, read, min, max);
-    value = static_cast<Int>(read);
-  }
-  void flag(const char* key, bool& value) { readFlag(source, section, key, value); }
-};
-
-/** The shortest text that reads back as the same number. */
-std::string exactText(double value)
-{
-  std::string text;
-  for (int digits = 6; digits <= 17; ++digits)
-  {
-    text = mrpt::format("%.*g", digits, value);
-    if (std::stod(text) == value) break;
-  }
-  return text;
+  list.number(
+      "detectionProbability", o.existence.detectionProbability, {0.001, 0.999}, "",
+      "A visible object is detected with this probability per frame.");
+  list.number(
+      "falseAlarmProbability", o.existence.falseAlarmProbability, {0.0001, 0.999}, "",
+      "A box appears where nothing is with this probability per frame.");
+  list.angle(
+      "independentViewAngle_deg", o.existence.independentViewAngle, {0.001, 180},
+      "A detection counts in full when the camera moved this far around the object since others.");
+  list.number(
+      "repeatedViewWeight", o.existence.repeatedViewWeight, {kSmall, 1}, "",
+      "Weight of a detection when the camera did not move at all.");
+  list.number(
+      "maxLogOdds", o.existence.maxLogOdds, {kSmall, 1000}, "ln",
+      "Bound of the evidence, so that it can turn.");
+  list.requireLess("falseAlarmProbability", "detectionProbability");
 }
 
-/** Hands each option on as text. */
-template <typename Write>
-struct Writer
+void describeConfirmation(InsertionOptions& o, OptionList& list)
 {
-  Write write;
-  void number(const char* key, double value, double, double) { write(key, exactText(value)); }
-  void degrees(const char* key, double value, double min, double max)
-  {
-    number(key, value / kRadiansPerDegree, min, max);
-  }
-  template <typename Int>
-  void integer(const char* key, Int value, int, int)
-  {
-    write(key, std::to_string(value));
-  }
-  void flag(const char* key, bool value) { write(key, std::string(value ? "true" : "false")); }
-};
-template <typename Write>
-Writer(Write) -> Writer<Write>;
-
-auto intoConfig(mrpt::config::CConfigFileBase& target, const std::string& section)
-{
-  return Writer{[&](const char* key, const std::string& text)
-                { target.write(section, key, text); }};
+  list.number(
+      "confirmLogOdds", o.existence.confirmLogOdds, {-1000, 1000}, "ln",
+      "Objects are reported above these log-odds of their existence.");
+  list.integer(
+      "minComplete", o.existence.minComplete, {1, 1000000}, "",
+      "Objects are reported with this many complete measurements.");
+  list.integer(
+      "minPartial", o.existence.minPartial, {1, 1000000}, "",
+      "Objects are reported with this many measurements of any kind too.");
+  list.number(
+      "maxCenterSigma", o.existence.maxCenterSigma, {kSmall, 1000}, "m",
+      "Objects are reported below this uncertainty of the centre per axis.");
+  list.number(
+      "minLabelShare", o.existence.minLabelShare, {0, 1}, "",
+      "Objects are reported when at least this share of the labels agrees with their own.");
+  list.number(
+      "maxSizeDeviation", o.existence.maxSizeDeviation, {kSmall, 1000}, "spreads of the label",
+      "Objects with sizes from partial measurements are reported within this of the label's size.");
+  list.number(
+      "maxSizeSigma", o.existence.maxSizeSigma, {kSmall, 1000}, "m",
+      "Such objects are reported below this uncertainty of the half sizes.");
 }
 
-auto intoText(std::ostream& out)
+void describeMisses(InsertionOptions& o, OptionList& list)
 {
-  return Writer{[&](const char* key, const std::string& text)
-                { out << mrpt::format("%-28s = %s\n", key, text.c_str()); }};
+  list.number(
+      "missMinRange", o.existence.minRange, {0, 1000}, "m", "Misses count from this distance on.");
+  list.number(
+      "missMaxRange", o.existence.maxRange, {0, 1000}, "m", "Misses count up to this distance.");
+  list.number(
+      "missMinBoxSize_px", o.existence.minBoxSize, {0, 10000}, "px of the actual image",
+      "Misses count for objects of at least this size in the image.");
+  list.number(
+      "missVisibleShare", o.existence.visibleShare, {kSmall, 1}, "",
+      "Misses count when at least this share of the object is inside the image.");
+  list.number(
+      "missOccluderMargin", o.existence.occluderMargin, {0, 10}, "m",
+      "Depth this much nearer than the object hides it.");
+  list.number(
+      "missMaxHiddenShare", o.existence.maxHiddenShare, {0, 1}, "",
+      "A miss does not count when more than this share of the object is hidden.");
+}
+
+void describeMerging(InsertionOptions& o, OptionList& list)
+{
+  list.number(
+      "mergeOverlap", o.merging.overlap, {kSmall, 1}, "",
+      "Two objects whose labels agree are one at this share of the smaller volume.");
+  list.number(
+      "mergeAnyLabelIoU", o.merging.anyLabelIoU, {kSmall, 1}, "",
+      "Two objects of any labels are one at this IoU.");
+  list.number(
+      "mergePenetration", o.merging.penetration, {0, 10}, "",
+      "Two objects whose labels agree are one with centres nearer than this share of both half "
+      "widths too.");
+  list.number(
+      "mergeMinLabelAgreement", o.merging.minLabelAgreement, {0, 1}, "",
+      "Labels agree when at least this share of the measurements does.");
+}
+
+void describeWaiting(InsertionOptions& o, OptionList& list)
+{
+  list.integer(
+      "waitingCapacity", o.waiting.capacity, {1, 1000000}, "",
+      "Most partial measurements without an object that are kept. With method quadric these are "
+      "tracks of boxes.");
+  list.integer(
+      "waitingMinViews", o.waiting.minViews, {2, 1000}, "",
+      "So many of them must agree to start an object.");
+  list.angle(
+      "waitingMinParallax_deg", o.waiting.minParallax, {0, 180},
+      "They must come from directions at least this different.");
+  list.number(
+      "waitingGateShare", o.waiting.gateShare, {kSmall, 100}, "",
+      "They agree within this share of the typical size, plus 0.1 m.");
 }
 
 }  // namespace
 
-void InsertionOptions::loadFromConfigFile(
-    const mrpt::config::CConfigFileBase& source, const std::string& section)
+void InsertionOptions::describe(OptionList& list)
 {
-  Keys known;
-  visitInsertion(known, *this);
-  rejectUnknownKeys(source, section, known.names);
-  Loader loader{source, section};
-  visitInsertion(loader, *this);
-  if (existence.falseAlarmProbability >= existence.detectionProbability)
-    throw std::invalid_argument(mrpt::format(
-        "[%s] falseAlarmProbability=%g: must be less than detectionProbability=%g", section.c_str(),
-        existence.falseAlarmProbability, existence.detectionProbability));
+  list.about("How measurements become objects: association, estimation, existence, merging.");
+  describeAssociation(*this, list);
+  describeAgreement(*this, list);
+  describeEstimation(*this, list);
+  describeExistence(*this, list);
+  describeConfirmation(*this, list);
+  describeMisses(*this, list);
+  describeMerging(*this, list);
+  describeWaiting(*this, list);
+  list.number(
+      "estimateGrowth", estimateGrowth, {0, 10}, "",
+      "An object is estimated anew when its measurements are more by this share.");
+  list.flag(
+      "useInstanceIds", useInstanceIds,
+      "True believes the instance ids of the boxes instead of associating.");
+  list.number(
+      "minScore", minScore, {0, 1}, "", "Boxes that the detector is less sure of are ignored.");
 }
 
-void InsertionOptions::saveToConfigFile(
-    mrpt::config::CConfigFileBase& target, const std::string& section) const
+void LikelihoodOptions::describe(OptionList& list)
 {
-  auto writer = intoConfig(target, section);
-  visitInsertion(writer, *this);
+  list.about(
+      "Log-likelihood of boxes from a pose. It is stored in the map for programs that localise in "
+      "it.");
+  list.number(
+      "positionSigma", positionSigma, {kSmall, 1000}, "m",
+      "Standard deviation of a measured centre, beyond the measurement's own.");
+  list.angle(
+      "yawSigma_deg", yawSigma, {kSmall, 360},
+      "Standard deviation of a measured yaw, beyond the measurement's own.");
+  list.angle(
+      "angleSigma_deg", angleSigma, {kSmall, 360},
+      "Standard deviation of a box edge as an angle, beyond the detector's.");
+  list.number(
+      "outlierShare", outlierShare, {kSmall, 1 - kSmall}, "",
+      "Share of the boxes that show nothing of the map.");
+  list.flag("onlyConfirmed", onlyConfirmed, "True compares with confirmed objects only.");
 }
 
-void InsertionOptions::dumpToTextStream(std::ostream& out) const
+void RenderOptions::describe(OptionList& list)
 {
-  out << "----------- [CQuadricObjectMap::TInsertionOptions] ------------\n";
-  auto writer = intoText(out);
-  visitInsertion(writer, *this);
-}
-
-void LikelihoodOptions::loadFromConfigFile(
-    const mrpt::config::CConfigFileBase& source, const std::string& section)
-{
-  Keys known;
-  visitLikelihood(known, *this);
-  rejectUnknownKeys(source, section, known.names);
-  Loader loader{source, section};
-  visitLikelihood(loader, *this);
-}
-
-void LikelihoodOptions::saveToConfigFile(
-    mrpt::config::CConfigFileBase& target, const std::string& section) const
-{
-  auto writer = intoConfig(target, section);
-  visitLikelihood(writer, *this);
-}
-
-void LikelihoodOptions::dumpToTextStream(std::ostream& out) const
-{
-  out << "----------- [CQuadricObjectMap::TLikelihoodOptions] ------------\n";
-  auto writer = intoText(out);
-  visitLikelihood(writer, *this);
-}
-
-void RenderOptions::loadFromConfigFile(
-    const mrpt::config::CConfigFileBase& source, const std::string& section)
-{
-  Keys known;
-  visitRender(known, *this);
-  rejectUnknownKeys(source, section, known.names);
-  Loader loader{source, section};
-  visitRender(loader, *this);
-}
-
-void RenderOptions::saveToConfigFile(
-    mrpt::config::CConfigFileBase& target, const std::string& section) const
-{
-  auto writer = intoConfig(target, section);
-  visitRender(writer, *this);
-}
-
-void RenderOptions::dumpToTextStream(std::ostream& out) const
-{
-  out << "----------- [CQuadricObjectMap::TRenderOptions] ------------\n";
-  auto writer = intoText(out);
-  visitRender(writer, *this);
+  list.about("What is drawn of the map. It is stored in the map for programs that draw it.");
+  list.flag("cuboids", cuboids, "True draws the wire frame of the circumscribed cuboid.");
+  list.flag("ellipsoids", ellipsoids, "True draws the transparent solid ellipsoid.");
+  list.flag("labels", labels, "True writes the name and the id above the object.");
+  list.flag("unconfirmed", unconfirmed, "True draws objects that are not confirmed too, in grey.");
+  list.number("textHeight", textHeight, {kSmall, 100}, "m", "Height of the text of the labels.");
+  list.number("opacity", opacity, {0, 1}, "", "Opacity of the ellipsoids.");
 }
 
 }  // namespace quadmap

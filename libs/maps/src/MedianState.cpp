@@ -12,7 +12,7 @@ namespace
 constexpr double kMinHalfSize = 0.005;  // [m]
 constexpr std::ptrdiff_t kFewCuboids = 3;
 
-/** Mean direction of angles that mean the same every 90 degrees. */
+/** Mean direction of angles that mean the same every 90 degrees, doc/mathematics.md, (11.15). */
 double commonYaw(const std::deque<ObjectView>& views)
 {
   double c = 0, s = 0;
@@ -28,7 +28,7 @@ double commonYaw(const std::deque<ObjectView>& views)
   return std::atan2(s, c) / 4;
 }
 
-/** Positions of one side along its outward normal: all measured ones, and the lower bounds. */
+/** Positions of one side along its outward normal [m]: all measured ones, and the lower bounds. */
 struct Side
 {
   std::vector<double> measured, atLeast;
@@ -98,7 +98,7 @@ std::optional<UprightState> medianState(
   const auto sides = collectSides(views, x[3]);
   ObjectView frame;  // for its face normals at the common yaw
   frame.yaw = x[3];
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis)  // (11.16)
   {
     const double plus = sides[2 * axis].position(), minus = sides[2 * axis + 1].position();
     x.head<3>() += 0.5 * (plus - minus) * frame.faceNormal(2 * axis);

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "quadmap/estimation/LabelPrior.h"
+#include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RotationDistance.h"
 
 namespace quadmap
@@ -14,38 +16,24 @@ namespace
 {
 /** What is known of an undefined yaw: it is somewhere within 45 degrees [rad]. */
 constexpr double kFreeYawSigma = M_PI / 4;
-/** What is known of a position that only inequalities bound: it is in this part of a room [m]. */
+/** What is known of a position that only inequalities bound: it is within this part of a room [m].
+ */
 constexpr double kFreePositionSigma = 2.0;
-/** Huber threshold of terms that are not measurements. */
-constexpr double kQuadratic = std::numeric_limits<double>::infinity();
 /** Share of the complete measurements that must show a direction. */
 constexpr double kYawShare = 0.25;
 
-/** Weak knowledge that does not depend on measurements: the label's sizes, roundness. */
+/** Adds what the label alone says of the sizes, doc/mathematics.md, (11.17) and (11.18). */
 void addLabelPrior(
     const UprightState& x,
     const LabelProperties& label,
     const EstimatorOptions& options,
     NormalEquations& eq)
 {
-  const Eigen::Vector3d typical = (0.5 * label.typicalSize).array().log();
-  const bool swap = (x[4] - x[5]) * (typical[0] - typical[1]) < 0;  // x and y are unordered
-  const Eigen::Vector3d expected =
-      swap ? Eigen::Vector3d(typical[1], typical[0], typical[2]) : typical;
-  const double spread = label.sizeSpread * options.sizePriorSpread;
-  for (Eigen::Index i = 0; i < 3; ++i)
-  {
-    UprightState J = UprightState::Zero();
-    J[4 + i] = 1.0 / spread;
-    eq.add((x[4 + i] - expected[i]) / spread, J, kQuadratic);
-  }
-  if (label.dominantDirection) return;
-  UprightState J = UprightState::Zero();
-  J[4] = 1.0 / options.roundnessSigma;
-  J[5] = -1.0 / options.roundnessSigma;
-  eq.add((x[4] - x[5]) / options.roundnessSigma, J, kQuadratic);
+  for (const ResidualRow& row : labelPriorRows(x.tail<3>(), label, options))
+    eq.add(row.r, row.byUprightState(), RobustKernel::quadratic());
 }
 
+/** Adds what a file knew, doc/mathematics.md, (11.19). */
 void addPrior(const InformationPrior& prior, const UprightState& x, NormalEquations& eq)
 {
   eq.H += prior.L;
@@ -53,31 +41,49 @@ void addPrior(const InformationPrior& prior, const UprightState& x, NormalEquati
   eq.cost += 0.5 * x.dot(prior.L * x) - prior.xi.dot(x);
 }
 
-/** The measured part only: views with their weights, and what a file knew. */
-NormalEquations evidence(
-    const std::deque<ObjectView>& views,
-    const std::vector<double>& weights,
-    const InformationPrior& prior,
-    const UprightState& x,
-    double shapeExponent,
-    const EstimatorOptions& options)
+/** The measured part of the cost (doc/mathematics.md, (11.1)): views with their weights, and what a
+ * file knew. */
+class Evidence
 {
-  NormalEquations eq;
-  for (std::size_t i = 0; i < views.size(); ++i)
-    addViewResiduals(views[i], x, shapeExponent, options, weights[i], eq);
-  if (!prior.empty()) addPrior(prior, x, eq);
-  return eq;
-}
+ public:
+  /** \param reference The weights of the views are taken there. \param prior Must outlive it. */
+  Evidence(
+      const std::deque<ObjectView>& views,
+      const InformationPrior& prior,
+      const UprightState& reference,
+      const EstimatorOptions& options) :
+      prior_(prior), huber_(options.huber)
+  {
+    measurements_.reserve(views.size());  // the placed ones refer to them
+    placed_.reserve(views.size());
+    for (const ObjectView& view : views)
+    {
+      measurements_.push_back(measurementInMap(view, options));
+      // A consensus needs a majority.
+      measurements_.back().weight = views.size() < 3 ? 1.0 : viewWeight(view, reference);
+      placed_.emplace_back(
+          measurements_.back(), RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
+    }
+  }
 
-std::vector<double> weightsAt(const std::deque<ObjectView>& views, const UprightState& reference)
-{
-  std::vector<double> weights;
-  // A consensus needs a majority.
-  for (const auto& v : views) weights.push_back(views.size() < 3 ? 1.0 : viewWeight(v, reference));
-  return weights;
-}
+  NormalEquations at(const UprightState& x, double shapeExponent) const
+  {
+    NormalEquations eq;
+    const ObjectShape object(x);
+    for (std::size_t i = 0; i < placed_.size(); ++i)
+      addViewResiduals(placed_[i], object, shapeExponent, huber_, measurements_[i].weight, eq);
+    if (!prior_.empty()) addPrior(prior_, x, eq);
+    return eq;
+  }
 
-/** What is known of position and yaw without any measurement. */
+ private:
+  const InformationPrior& prior_;
+  double huber_;
+  std::vector<BoxMeasurement> measurements_;
+  std::vector<ViewAtPose> placed_;
+};
+
+/** What is known of position and yaw without any measurement, doc/mathematics.md, (11.20). */
 UprightCovariance freeInformation()
 {
   UprightCovariance information = UprightCovariance::Zero();
@@ -94,7 +100,7 @@ UprightCovariance withoutNegative(const UprightCovariance& symmetric)
          eigen.eigenvectors().transpose();
 }
 
-/** Steps stay where the linearisation means something. */
+/** Shortens a step so that it stays where the linearisation means something. */
 UprightState limited(UprightState step)
 {
   constexpr double kMaxMove = 0.5, kMaxTurn = 0.35, kMaxScale = 0.5;  // [m], [rad], [-]
@@ -104,7 +110,8 @@ UprightState limited(UprightState step)
   return step / factor;
 }
 
-/** Levenberg-Marquardt. \return The minimum's normal equations; `x` becomes the minimum. */
+/** Minimises by Levenberg-Marquardt. \param x The start, which becomes the minimum.
+ * \return The normal equations at the minimum. */
 template <typename Linearise>
 NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIterations)
 {
@@ -132,7 +139,7 @@ NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIte
   return eq;
 }
 
-/** x -> P x + c: the same object with its axes renamed by a quarter turn, k times. */
+/** x -> P x + c: the same object with its axes renamed by a number of quarter turns. */
 struct AxisRenaming
 {
   UprightCovariance P = UprightCovariance::Identity();
@@ -152,8 +159,8 @@ AxisRenaming renaming(const UprightState& from, const UprightState& to)
   return r;
 }
 
-/** Index of the view that is missed least: the older one of the two whose cameras are nearest to
- * each other. */
+/** Index of the view that is missed least. It is the older one of the two whose cameras are nearest
+ * to each other. */
 std::ptrdiff_t mostRedundant(const std::deque<ObjectView>& views)
 {
   std::size_t redundant = 0;
@@ -188,10 +195,10 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   if (!start && !medians) throw std::logic_error("ObjectEstimator: nothing to estimate from");
   // With a prior the medians of the measurements are not a consensus of all.
   const UprightState reference = medians && prior_.empty() ? *medians : start.value_or(*medians);
-  const auto weights = weightsAt(views_, reference);
+  const Evidence evidence(views_, prior_, reference, options);
   const auto linearise = [&](const UprightState& x)
   {
-    NormalEquations eq = evidence(views_, weights, prior_, x, label.shapeExponent, options);
+    NormalEquations eq = evidence.at(x, label.shapeExponent);
     addLabelPrior(x, label, options, eq);
     return eq;
   };
@@ -240,8 +247,7 @@ void ObjectEstimator::absorb(
 InformationPrior ObjectEstimator::summary(
     const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
 {
-  const NormalEquations eq =
-      evidence(views_, weightsAt(views_, at), prior_, at, label.shapeExponent, options);
+  const NormalEquations eq = Evidence(views_, prior_, at, options).at(at, label.shapeExponent);
   InformationPrior all = prior_;
   all.L = eq.H;
   all.xi = eq.H * at - eq.g;

@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "ObjectsArchive.h"
-#include "quadmap/obs/ArchiveFields.h"
+#include "quadmap/base/ArchiveFields.h"
 
 using mrpt::obs::CObservation;
 IMPLEMENTS_SERIALIZABLE(CObservationObjects, CObservation, quadmap)
@@ -16,9 +16,9 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::uint32_t kMaxObjects = 100000;  //!< In one image
+constexpr std::uint32_t kMaxObjects = 100000;  //!< Most objects in one image
 
-/** One word for a column of text. */
+/** The text as one word, for a column. */
 std::string word(std::string text)
 {
   for (char& c : text)
@@ -47,7 +47,7 @@ void describe(std::ostream& o, const DetectedObject& object)
   o << "\n";
 }
 
-/** The columns of one object; "nan" where there is no such number. */
+/** The columns of one object, with "nan" where there is no such number. */
 std::string textColumns(const DetectedObject& o)
 {
   Eigen::Vector3d center = Eigen::Vector3d::Constant(NAN), size = center;
@@ -144,8 +144,8 @@ void registerObsClasses() { mrpt::rtti::registerClass(CLASS_ID(CObservationObjec
 
 namespace
 {
-/** When the library is loaded. With Clang, MRPT_INITIALIZER comes before the class's description.
- */
+/** Registers the class when the library is loaded. With Clang, MRPT_INITIALIZER would run before
+ * the description of the class exists. */
 const struct Registration
 {
   Registration() { registerObsClasses(); }

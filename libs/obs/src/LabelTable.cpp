@@ -8,7 +8,8 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "quadmap/obs/ConfigCheck.h"
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/ShareFiles.h"
 
 namespace quadmap
 {
@@ -16,7 +17,7 @@ namespace
 {
 using mrpt::config::CConfigFile;
 
-/** What two spellings of one class have in common: letters and digits, in lower case. */
+/** The letters and digits of a label in lower case, which all its spellings have in common. */
 std::string keyOf(const std::string& label)
 {
   std::string key;
@@ -32,7 +33,7 @@ std::string withoutInstanceNumber(std::string key)
   return key;
 }
 
-/** "a, b c, d" as {"a", "b c", "d"}. */
+/** Reads a list: "a, b c, d" is {"a", "b c", "d"}. */
 std::vector<std::string> readList(
     const CConfigFile& config, const std::string& section, const std::string& key)
 {
@@ -56,7 +57,7 @@ UsualSupport readSupport(const CConfigFile& config, const std::string& section)
 
 Eigen::Vector3d readSize(const CConfigFile& config, const std::string& section)
 {
-  constexpr double kLargest = 100.0;  // [m]
+  constexpr double kLargest = 100.0;  // largest size of an object [m]
   const auto text = config.read_string(section, "typicalSize", "");
   std::vector<std::string> words;
   mrpt::system::tokenize(text, " \t,", words);

@@ -2,21 +2,19 @@
 
 #include <Eigen/SVD>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/base/Json.h"
+#include "quadmap/base/OutputFile.h"
 
 namespace quadmap
 {
 namespace
 {
-using Json = nlohmann::ordered_json;  // keeps the order of insertion: files are reproducible
-
-/** How far a stored rotation may be from a true one before it is an error [-]. */
+/** Largest deviation of a stored matrix from a rotation [-]. */
 constexpr double kRotationTolerance = 1e-3;
 
 [[noreturn]] void reject(const std::string& what) { throw std::runtime_error(what); }
@@ -76,7 +74,7 @@ std::string readId(const Json& value)
   reject("\"id\" must be a whole number or a text");
 }
 
-/** The nearest true rotation. */
+/** Reads a matrix and returns the rotation nearest to it. */
 Eigen::Matrix3d readRotation(const Json& value)
 {
   const Eigen::Matrix3d r = readMatrix<3, 3>(value, "rotation");
@@ -135,18 +133,11 @@ ObjectRecord readRecord(const Json& object)
   return record;
 }
 
-Json parseFile(const std::string& path)
-{
-  std::ifstream file(path);
-  if (!file) reject("cannot be read (does the file exist?)");
-  return Json::parse(file);  // its errors give line and column
-}
-
 std::string describeRecord(const Json& object, std::size_t index)
 {
   std::string name = "object " + std::to_string(index);
   if (object.is_object() && object.contains("id") && object["id"].is_primitive())
-    name += " (id " + object["id"].dump(-1, ' ', false, Json::error_handler_t::replace) + ")";
+    name += " (id " + jsonText(object["id"]) + ")";
   return name;
 }
 
@@ -163,10 +154,10 @@ Json jsonOf(const Eigen::MatrixBase<Derived>& m)
   return rows;
 }
 
-/** The text of a whole number that reads back as the same text? */
+/** Whether the text is a whole number that reads back as the same text. */
 bool isPlainNumber(const std::string& id)
 {
-  constexpr std::size_t kExactInEveryReader = 15;  // digits of a double
+  constexpr std::size_t kExactInEveryReader = 15;  // digits that a double always keeps
   return !id.empty() && id.size() <= kExactInEveryReader &&
          id.find_first_not_of("0123456789") == std::string::npos && (id == "0" || id[0] != '0');
 }
@@ -197,12 +188,8 @@ Json jsonOf(const ObjectRecord& record)
   return j;
 }
 
-}  // namespace
-
-std::vector<ObjectRecord> readObjectsJson(const std::string& path)
-try
+std::vector<ObjectRecord> recordsOf(const Json& file)
 {
-  const Json file = parseFile(path);
   if (!file.is_object()) reject("expected {\"objects\": [...]}");
   const Json& objects = require(file, "objects");
   if (!objects.is_array()) reject("\"objects\" must be an array");
@@ -223,17 +210,27 @@ try
   }
   return records;
 }
-catch (const std::exception& e)
+
+}  // namespace
+
+std::vector<ObjectRecord> readObjectsJson(const std::string& path)
 {
-  throw std::runtime_error(path + ": " + e.what());
+  const Json file = readJson(path);
+  try
+  {
+    return recordsOf(file);
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(path + ": " + e.what());
+  }
 }
 
 std::string objectsToJson(const std::vector<ObjectRecord>& objects)
 {
   std::string text = "{\"objects\":[";
   for (std::size_t i = 0; i < objects.size(); ++i)
-    text += (i == 0 ? "\n " : ",\n ") +
-            jsonOf(objects[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += (i == 0 ? "\n " : ",\n ") + jsonText(jsonOf(objects[i]));
   return text + "\n]}\n";
 }
 

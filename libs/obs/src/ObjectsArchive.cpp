@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quadmap/obs/ArchiveFields.h"
+#include "quadmap/base/ArchiveFields.h"
 
 namespace quadmap
 {
@@ -12,10 +12,10 @@ namespace
 using mrpt::serialization::CArchive;
 
 constexpr std::uint32_t kMaxImageSide = 65536;      // [px]
-constexpr std::uint64_t kMaxMaskPixels = 1u << 26;  // 64 MB in memory
+constexpr std::uint64_t kMaxMaskPixels = 1u << 26;  // 64 MB of memory
 constexpr std::uint64_t kMaxDepthCells = 1u << 20;
 
-/** Which optional parts follow, one bit each. */
+/** Bits that say which optional parts follow. */
 enum Part : std::uint8_t
 {
   kMask = 1,
@@ -33,7 +33,7 @@ std::uint8_t partsOf(const DetectedObject& o)
       (o.measurement.edges ? kEdges : 0));
 }
 
-/** Lengths of runs of equal pixels, beginning with zeros (that first run may be empty). */
+/** Lengths of runs of equal pixels. The first run is of zeros and may be empty. */
 std::vector<std::uint32_t> runLengths(const std::vector<std::uint8_t>& pixels)
 {
   std::vector<std::uint32_t> runs(1, 0);

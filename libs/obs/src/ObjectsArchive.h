@@ -7,8 +7,10 @@
 
 namespace quadmap
 {
-/** Parts of version 0 of CObservationObjects in the stream. Reading throws std::runtime_error (or
- * MRPT's CExceptionEOF) for values that cannot be, and allocates no more than they allow. */
+/** Writes and reads parts of version 0 of CObservationObjects. Reading throws std::runtime_error
+ * (or MRPT's CExceptionEOF) for impossible values, and allocates no more memory than possible ones
+ * need.
+ */
 void writeCamera(mrpt::serialization::CArchive& out, const mrpt::img::TCamera& camera);
 mrpt::img::TCamera readCamera(mrpt::serialization::CArchive& in);
 
@@ -18,8 +20,9 @@ CoarseDepth readCoarseDepth(mrpt::serialization::CArchive& in);
 void writeDetectedObject(mrpt::serialization::CArchive& out, const DetectedObject& object);
 DetectedObject readDetectedObject(mrpt::serialization::CArchive& in);
 
-/** \exception std::runtime_error If a measurement breaks the rules of ObjectMeasurement.h: parts
- * that its kind promises are missing, or a number is not finite. */
+/** Checks a measurement by the rules of ObjectMeasurement.h.
+ * \exception std::runtime_error If a part is missing that its kind requires, or a number is not
+ * finite. */
 void checkMeasurement(const ObjectMeasurement& measurement);
 
 }  // namespace quadmap

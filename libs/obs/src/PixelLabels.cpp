@@ -42,12 +42,12 @@ LabelImage labelImageOf(const TPixelLabelInfoBase& labels)
   LabelImage image;
   const bool known = copyLabels<1>(labels, image) || copyLabels<2>(labels, image) ||
                      copyLabels<3>(labels, image) || copyLabels<4>(labels, image) ||
-                     copyLabels<8>(labels, image);  // all that MRPT has
+                     copyLabels<8>(labels, image);  // these are all sizes that MRPT has
   if (!known) throw std::runtime_error("its pixel labels are of an unknown kind");
   return image;
 }
 
-/** Up to half a pixel, by which a size may have been rounded. */
+/** Checks the proportions, up to half a pixel by which a size may have been rounded. */
 void requireSameProportions(const LabelImage& labels, cv::Size depth)
 {
   const int excess = std::abs(labels.width * depth.height - labels.height * depth.width);
@@ -57,7 +57,7 @@ void requireSameProportions(const LabelImage& labels, cv::Size depth)
         depth.width, depth.height));
 }
 
-/** Pixels with one label, 1 or 0, in the size of the depth image. */
+/** Image of 1 where pixels have a label and 0 elsewhere, in the size of the depth image. */
 cv::Mat pixelsWith(std::uint64_t bit, const LabelImage& labels, cv::Size depth)
 {
   cv::Mat pixels(labels.height, labels.width, CV_8U);
@@ -68,7 +68,7 @@ cv::Mat pixelsWith(std::uint64_t bit, const LabelImage& labels, cv::Size depth)
   return pixels;
 }
 
-/** "chair" of "chair_2"; the name itself when it has no number. */
+/** "chair" for "chair_2". A name without a number is returned as it is. */
 std::string withoutNumber(const std::string& name)
 {
   std::size_t end = name.size();
@@ -78,7 +78,7 @@ std::string withoutNumber(const std::string& name)
   return end == 0 ? name : name.substr(0, end);
 }
 
-/** FNV-1a: the same for a name in every image, file and run. */
+/** Hash FNV-1a of a name, which is the same in every image, file and run. */
 std::uint32_t hashOf(const std::string& name)
 {
   std::uint32_t hash = 2166136261U;
@@ -86,7 +86,8 @@ std::uint32_t hashOf(const std::string& name)
   return hash;
 }
 
-/** Pixels of these components of a connected component analysis. Null when thinner than a box. */
+/** Box and mask of some components of a connected component analysis. It is nothing when they are
+ * less than two pixels wide or high. */
 std::optional<DetectedObject> objectOf(
     const cv::Mat& componentOf, const cv::Mat& stats, const std::vector<int>& components)
 {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/base/OutputFile.h"
 
 namespace quadmap
 {
@@ -35,7 +35,7 @@ Eigen::Quaterniond quaternionOf(const mrpt::poses::CPose3D& T)
 
 Eigen::Vector3d translationOf(const mrpt::poses::CPose3D& T) { return {T.x(), T.y(), T.z()}; }
 
-/** \param place "file:line" for messages. */
+/** Reads a finite number. \param place "file:line" for messages. */
 double parseNumber(const std::string& word, const std::string& place)
 {
   double value = 0;

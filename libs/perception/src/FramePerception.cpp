@@ -1,24 +1,20 @@
 #include "quadmap/perception/FramePerception.h"
 
-#include <mrpt/core/format.h>
+#include <string>
+#include <utility>
 
-#include "CuboidFit.h"
-#include "EdgeMeasurements.h"
-#include "FacesInBox.h"
-#include "ModelChoice.h"
-#include "SeedPoint.h"
-#include "SupportChoice.h"
+#include "choice/KindChoice.h"
+#include "choice/SeedPoint.h"
+#include "cuboid/CuboidFit.h"
+#include "edges/EdgeMeasurements.h"
 #include "quadmap/geometry/Projection.h"
+#include "support/SupportChoice.h"
 
 namespace quadmap
 {
 namespace
 {
 constexpr unsigned kCoarseColumns = 32, kCoarseRows = 24;
-
-/** Share of the box's outline across which an object may go on. On simulated frames six of ten
- * measurements beyond are wrong by more than four sigmas, below one of ten. */
-constexpr double kMaxLeak = 0.2;
 
 Eigen::Vector3d toSensor(const Eigen::Vector3d& p_optical)
 {
@@ -27,6 +23,52 @@ Eigen::Vector3d toSensor(const Eigen::Vector3d& p_optical)
 Eigen::Vector3d toOptical(const Eigen::Vector3d& p_sensor)
 {
   return {-p_sensor.y(), -p_sensor.z(), p_sensor.x()};
+}
+std::vector<SurfacePatch> toOptical(const std::vector<SurfacePatch>& patches_sensor)
+{
+  std::vector<SurfacePatch> out;
+  for (const auto& patch : patches_sensor) out.push_back(transformed(patch, -T_sensor_optical()));
+  return out;
+}
+FrameSurfaces toSensor(const FrameSurfaces& surfaces_optical)
+{
+  FrameSurfaces out;
+  for (const auto& patch : surfaces_optical.seen)
+    out.seen.push_back(transformed(patch, T_sensor_optical()));
+  for (const auto& p : surfaces_optical.seenThrough)
+    out.seenThrough.push_back(transformed(p, T_sensor_optical()));
+  return out;
+}
+
+/** The up direction of the frame, in the optical frame: from the pose when there is one, else from
+ * the planes. */
+std::optional<Eigen::Vector3d> upOf(
+    const DepthCloud& cloud,
+    const PlaneSegmentation& pieces,
+    const std::optional<Eigen::Vector3d>& up_sensor)
+{
+  if (up_sensor) return toOptical(*up_sensor);
+  return upFromPlanes(cloud, pieces.planes);
+}
+
+/** The part of a box inside the image; nothing when there is none. */
+std::optional<ImageBox> insideImage(const DepthCloud& cloud, const ImageBox& box)
+{
+  const ImageBox visible = box.clipped(cloud.camera().width, cloud.camera().height);
+  if (!box.isValid() || !visible.isValid()) return {};
+  return visible;
+}
+
+/** Puts together what is known of each box before its object is cut out. */
+std::vector<ObjectTask> tasksOf(
+    const std::vector<DetectedObject>& detections,
+    const std::vector<BoxSupport>& supports,
+    const LabelTable& labels)
+{
+  std::vector<ObjectTask> tasks;
+  for (std::size_t i = 0; i < detections.size(); ++i)
+    tasks.push_back({&detections[i], labels.properties(detections[i].label), supports[i].plane});
+  return tasks;
 }
 
 /** The boxes of a frame that are mostly without depth: screens, glass. */
@@ -39,10 +81,31 @@ std::vector<BoxAtDepth> screensOf(
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     const ImageBox& box = tasks[i].detection->box;
-    const ImageBox visible = box.clipped(cloud.camera().width, cloud.camera().height);
-    if (!visible.isValid() || !looksLikeScreen(objects[i])) continue;
-    if (const auto depth = nearDepthOf(cloud, visible, objects[i])) out.push_back({box, *depth});
+    const auto visible = insideImage(cloud, box);
+    if (!visible || !looksLikeScreen(objects[i])) continue;
+    if (const auto depth = nearDepthOf(cloud, *visible, objects[i])) out.push_back({box, *depth});
   }
+  return out;
+}
+
+/** What is known of an object and its surroundings when the edges of its box are judged. */
+EdgeContext edgeContext(
+    const ScenePlanes& planes,
+    const ObjectTask& task,
+    const ObjectCloud& object,
+    const std::vector<BoxAtDepth>& screens)
+{
+  EdgeContext out{object, task.label, planes.up, 0, {}, screens};
+  if (object.support) out.surfaces.push_back(planes.plane(*object.support).plane);
+  if (planes.floor) out.surfaces.push_back(planes.plane(*planes.floor).plane);
+  return out;
+}
+
+ObjectMeasurement rejected(const std::string& reason)
+{
+  ObjectMeasurement out;
+  out.kind = MeasurementKind::Rejected;
+  out.reason = reason;
   return out;
 }
 
@@ -53,63 +116,60 @@ struct FramePerception::Impl
   PerceptionOptions options;
   LabelTable labels;
 
-  std::vector<ObjectTask> tasksOf(
-      const DepthCloud& cloud,
-      ScenePlanes& planes,
-      const std::vector<DetectedObject>& detections) const;
+  struct Result
+  {
+    CoarseDepth coarseDepth;
+    std::vector<ObjectMeasurement> boxes;  // one for each detection
+    FrameSurfaces surfaces;                // sensor frame
+  };
+
+  /** The algorithm, step by step. The numbers are those of the sections of doc/mathematics.md. */
+  Result measure(
+      const mrpt::obs::CObservation3DRangeScan& scan,
+      const std::vector<DetectedObject>& detections,
+      const std::optional<Eigen::Vector3d>& up_sensor,
+      const std::vector<SurfacePatch>& known_sensor) const;
+
+  /** The steps for one box. */
   ObjectMeasurement measureBox(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
       const ObjectTask& task,
       const ObjectCloud& object,
       const std::vector<BoxAtDepth>& screens) const;
-  void tryComplete(
-      const DepthCloud& cloud,
-      const ObjectCloud& object,
-      const ObjectTask& task,
-      CompleteMeasurement complete,
-      ObjectMeasurement& out) const;
-  /** Takes the edges over and chooses between partial and rejected. */
-  void setEdges(const std::array<EdgeMeasurement, 4>& edges, ObjectMeasurement& out) const;
 };
 
-std::vector<ObjectTask> FramePerception::Impl::tasksOf(
-    const DepthCloud& cloud,
-    ScenePlanes& planes,
-    const std::vector<DetectedObject>& detections) const
+auto FramePerception::Impl::measure(
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const std::vector<DetectedObject>& detections,
+    const std::optional<Eigen::Vector3d>& up_sensor,
+    const std::vector<SurfacePatch>& known_sensor) const -> Result
 {
-  std::vector<ObjectTask> tasks;
-  const auto supports = chooseSupports(cloud, planes, detections, labels, options);
-  for (std::size_t i = 0; i < detections.size(); ++i)
-    tasks.push_back({&detections[i], labels.properties(detections[i].label), supports[i].plane});
-  return tasks;
-}
-
-void FramePerception::Impl::tryComplete(
-    const DepthCloud& cloud,
-    const ObjectCloud& object,
-    const ObjectTask& task,
-    CompleteMeasurement complete,
-    ObjectMeasurement& out) const
-{
-  const ImageBox& box = task.detection->box;
-  const double tolerance = options.edgeToleranceIn(cloud.camera().width);
-  weakenFacesInsideBox(cloud.camera(), box, tolerance, complete);
-  const BoxFit fit = bestFit(cloud, complete.object_sensor, object, box, tolerance);
-  out.projectedIoU = fit.iou;
-  if (fit.tolerantIoU < options.minCompleteIoU)
-    out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);
-  else if (object.leak > kMaxLeak)
-    out.reason = "its surface goes on outside the box";
-  else if (out.depthCoverage < options.minDepthCoverage)
-    out.reason = mrpt::format("depth in only %.0f %% of the box", 100 * out.depthCoverage);
-  else
+  Result out;
+  // 4 Depth noise (4.1)
+  const DepthCloud cloud(scan, options);
+  out.coarseDepth = cloud.coarse(kCoarseColumns, kCoarseRows);
+  // 5 Planes: pieces (5.1), up and floor, main heights (5.2), known surfaces
+  auto pieces = segmentPlanes(cloud, options);
+  const auto up = upOf(cloud, pieces, up_sensor);
+  if (!up)
   {
-    out.kind = MeasurementKind::Complete;
-    out.reason = "cuboid fits the box";
-    complete.object_sensor = complete.object_sensor.transformed(T_sensor_optical());
-    out.complete = complete;
+    out.boxes.assign(
+        detections.size(), rejected("no up direction: neither a pose nor a plane in the frame"));
+    return out;
   }
+  auto planes = classifyPlanes(cloud, std::move(pieces), *up, toOptical(known_sensor), options);
+  out.surfaces = toSensor(surfacesOf(cloud, planes));
+  // 6 What the objects stand on (6.1) - (6.3)
+  const auto scene = chooseSupports(cloud, std::move(planes), detections, labels, options);
+  const auto tasks = tasksOf(detections, scene.supports, labels);
+  // 7 The objects' clouds (7.1) - (7.4)
+  const auto objects = segmentObjects(cloud, scene.planes, tasks, options);
+  const auto screens = screensOf(cloud, tasks, objects);
+  // 8 Cuboid, 9 Edges, 10 Choice and seed
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    out.boxes.push_back(measureBox(cloud, scene.planes, tasks[i], objects[i], screens));
+  return out;
 }
 
 ObjectMeasurement FramePerception::Impl::measureBox(
@@ -119,55 +179,25 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     const ObjectCloud& object,
     const std::vector<BoxAtDepth>& screens) const
 {
-  const DetectedObject& detection = *task.detection;
-  ObjectMeasurement out;
-  out.kind = MeasurementKind::Rejected;
-  const ImageBox visible = detection.box.clipped(cloud.camera().width, cloud.camera().height);
-  if (!detection.box.isValid() || !visible.isValid())
-  {
-    out.reason = detection.box.isValid() ? "box outside the image" : "box without area";
-    return out;
-  }
-  out.depthCoverage = object.coverage;
-
-  EdgeContext context{object, task.label, planes.up, 0, {}, screens};
-  if (object.support) context.surfaces.push_back(planes.plane(*object.support).plane);
-  if (planes.floor) context.surfaces.push_back(planes.plane(*planes.floor).plane);
-  if (object.empty())
-  {
-    out.reason = object.coverage > 0 ? "no separate surface in the box" : "no depth in the box";
-  }
-  else
-  {
-    const CompleteMeasurement complete = fitCuboid(cloud, planes, object, task.label, options);
-    context.cuboidBox = projectCuboidBox(cloud.camera(), complete.object_sensor);
-    if (options.models == ObservationModels::Partial)
-      out.reason = "complete models are switched off";
-    else
-      tryComplete(cloud, object, task, complete, out);
-  }
-  const auto seed = seedOf(cloud, visible, object, out.kind == MeasurementKind::Complete);
+  const ImageBox& box = task.detection->box;
+  const auto visible = insideImage(cloud, box);
+  if (!visible) return rejected(box.isValid() ? "box outside the image" : "box without area");
+  // 8 The cuboid: heading (8.1) - (8.5), faces (8.6) - (8.10)
+  std::optional<CompleteMeasurement> cuboid;
+  if (!object.empty()) cuboid = fitCuboid(cloud, planes, object, task.label, options);
+  // 10 Choice: fit of the cuboid (10.1)
+  const auto verdict = judgeCuboid(cloud, task, object, cuboid, options);
+  // 10 Seed
+  const auto seed = seedOf(cloud, *visible, object, verdict.complete.has_value());
+  // 9 Edges (9.1) - (9.5)
+  EdgeContext context = edgeContext(planes, task, object, screens);
   if (seed) context.depth = seed->z();
-  if (seed) out.seed_sensor = toSensor(*seed);
-  setEdges(measureEdges(cloud, detection.box, context, options), out);
-  return out;
-}
-
-void FramePerception::Impl::setEdges(
-    const std::array<EdgeMeasurement, 4>& edges, ObjectMeasurement& out) const
-{
-  int usable = 0;
-  for (const auto& edge : edges) usable += edge.state == EdgeState::Usable ? 1 : 0;
-  if (out.kind != MeasurementKind::Complete)
-  {
-    if (options.models == ObservationModels::Complete)
-      out.reason += ", and partial models are switched off";
-    else if (usable == 0)
-      out.reason += ", and no usable box edge";
-    else
-      out.kind = MeasurementKind::Partial;
-  }
-  if (out.kind != MeasurementKind::Rejected) out.edges = edges;
+  if (cuboid) context.cuboidBox = projectCuboidBox(cloud.camera(), cuboid->object_sensor);
+  const auto edges = measureEdges(cloud, box, context, options);
+  // 10 Choice
+  std::optional<Eigen::Vector3d> seed_sensor;
+  if (seed) seed_sensor = toSensor(*seed);
+  return chooseKind(verdict, object, seed_sensor, edges, options);
 }
 
 FramePerception::FramePerception(const PerceptionOptions& options, const LabelTable& labels) :
@@ -183,37 +213,11 @@ FrameSurfaces FramePerception::measure(
     const std::optional<Eigen::Vector3d>& up_sensor,
     const std::vector<SurfacePatch>& known_sensor) const
 {
-  const DepthCloud cloud(scan, impl_->options);
-  boxes.coarseDepth = cloud.coarse(kCoarseColumns, kCoarseRows);
-  PlaneSegmentation segmentation = segmentPlanes(cloud, impl_->options);
-  std::optional<Eigen::Vector3d> up;
-  if (up_sensor)
-    up = toOptical(*up_sensor);
-  else
-    up = upFromPlanes(cloud, segmentation.planes);
-  if (!up)
-  {
-    for (auto& object : boxes.objects)
-    {
-      object.measurement = {};
-      object.measurement.kind = MeasurementKind::Rejected;
-      object.measurement.reason = "no up direction: neither a pose nor a plane in the frame";
-    }
-    return {};
-  }
-  std::vector<SurfacePatch> known;
-  for (const auto& patch : known_sensor) known.push_back(transformed(patch, -T_sensor_optical()));
-  ScenePlanes planes = classifyPlanes(cloud, std::move(segmentation), *up, known, impl_->options);
-  const auto tasks = impl_->tasksOf(cloud, planes, boxes.objects);
-  const auto objects = segmentObjects(cloud, planes, tasks, impl_->options);
-  const auto screens = screensOf(cloud, tasks, objects);
-  for (std::size_t i = 0; i < tasks.size(); ++i)
-    boxes.objects[i].measurement = impl_->measureBox(cloud, planes, tasks[i], objects[i], screens);
-
-  FrameSurfaces out = surfacesOf(cloud, planes);
-  for (auto& patch : out.seen) patch = transformed(patch, T_sensor_optical());
-  for (auto& p : out.seenThrough) p = transformed(p, T_sensor_optical());
-  return out;
+  auto result = impl_->measure(scan, boxes.objects, up_sensor, known_sensor);
+  boxes.coarseDepth = std::move(result.coarseDepth);
+  for (std::size_t i = 0; i < boxes.objects.size(); ++i)
+    boxes.objects[i].measurement = std::move(result.boxes[i]);
+  return std::move(result.surfaces);
 }
 
 }  // namespace quadmap

@@ -1,98 +1,116 @@
 #include "quadmap/perception/PerceptionOptions.h"
 
-#include <mrpt/core/bits_math.h>
-
-#include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "quadmap/obs/ConfigCheck.h"
+#include "quadmap/base/OptionList.h"
 
 namespace quadmap
 {
 namespace
 {
-/** One row per number: name, member, bounds. Reading, writing and the check of keys all use it. */
-struct NumberOption
+constexpr std::pair<ObservationModels, const char*> kModels[] = {
+    {    ObservationModels::Both,     "both"},
+    {ObservationModels::Complete, "complete"},
+    { ObservationModels::Partial,  "partial"},
+};
+
+void describeDepth(PerceptionOptions& o, OptionList& list)
 {
-  const char* key;
-  double PerceptionOptions::*member;
-  double min, max;
-};
-
-constexpr NumberOption kNumbers[] = {
-    {              "minRange",               &PerceptionOptions::minRange, 1e-3,  100},
-    {              "maxRange",               &PerceptionOptions::maxRange, 1e-3, 1000},
-    {       "depthSigmaFloor",        &PerceptionOptions::depthSigmaFloor, 1e-6,    1},
-    {      "depthSigmaGrowth",       &PerceptionOptions::depthSigmaGrowth,    0,    1},
-    {          "planeMinArea",           &PerceptionOptions::planeMinArea, 1e-5,    1},
-    {        "planeTolerance",         &PerceptionOptions::planeTolerance, 1e-4,    1},
-    {             "boxMargin",              &PerceptionOptions::boxMargin,    0,    1},
-    { "clusterToleranceShare",  &PerceptionOptions::clusterToleranceShare, 1e-3,    1},
-    {      "clusterTolerance",       &PerceptionOptions::clusterTolerance, 1e-3,    1},
-    {"clusterToleranceGrowth", &PerceptionOptions::clusterToleranceGrowth,    0,    1},
-    {       "yawMinDominance",        &PerceptionOptions::yawMinDominance,    0,    1},
-    {        "minCompleteIoU",         &PerceptionOptions::minCompleteIoU,    0,    1},
-    {      "minDepthCoverage",       &PerceptionOptions::minDepthCoverage,    0,    1},
-    {          "borderMargin",           &PerceptionOptions::borderMargin,    0, 1000},
-    {        "occlusionStrip",         &PerceptionOptions::occlusionStrip,    1,  200},
-    {  "maxHiddenProbability",   &PerceptionOptions::maxHiddenProbability,    0,    1},
-    {         "edgeTolerance",          &PerceptionOptions::edgeTolerance, 1e-3, 1000},
-    {             "edgeSigma",              &PerceptionOptions::edgeSigma, 1e-3, 1000},
-    {        "edgeSigmaShare",         &PerceptionOptions::edgeSigmaShare,    0,    1},
-};
-
-constexpr std::pair<const char*, ObservationModels> kModels[] = {
-    {    "both",     ObservationModels::Both},
-    {"complete", ObservationModels::Complete},
-    { "partial",  ObservationModels::Partial},
-};
-
-ObservationModels modelsFrom(const std::string& section, const std::string& name)
-{
-  for (const auto& [known, models] : kModels)
-    if (name == known) return models;
-  throw std::invalid_argument(
-      "[" + section + "] models=" + name + ": must be both, complete or partial");
+  list.number("minRange", o.minRange, {1e-3, 100}, "m", "Nearer depth is not trusted.");
+  list.number("maxRange", o.maxRange, {1e-3, 1000}, "m", "Farther depth is too noisy for shapes.");
+  list.number(
+      "depthSigmaFloor", o.depthSigmaFloor, {1e-6, 1}, "m",
+      "Depth noise at 0.4 m: sigma(z) = depthSigmaFloor + depthSigmaGrowth (z - 0.4 m)^2.");
+  list.number(
+      "depthSigmaGrowth", o.depthSigmaGrowth, {0, 1}, "1/m",
+      "Growth of the depth noise in that equation.");
 }
 
-const char* nameOf(ObservationModels models)
+void describePlanes(PerceptionOptions& o, OptionList& list)
 {
-  for (const auto& [name, known] : kModels)
-    if (known == models) return name;
-  return "";
+  list.number(
+      "planeMinArea", o.planeMinArea, {1e-5, 1}, "",
+      "Smallest plane that may be a support, as a share of the image.");
+  list.angle(
+      "planeMaxTilt_deg", o.planeMaxTilt, {0.1, 45},
+      "Largest angle between up and the normal of a horizontal plane.");
+  list.number(
+      "planeTolerance", o.planeTolerance, {1e-4, 1}, "m",
+      "A point this near to its support belongs to it.");
+}
+
+void describeCloud(PerceptionOptions& o, OptionList& list)
+{
+  list.number(
+      "boxMargin", o.boxMargin, {0, 1}, "",
+      "Detector boxes are enlarged by this share of their size.");
+  list.number(
+      "clusterToleranceShare", o.clusterToleranceShare, {1e-3, 1}, "",
+      "Largest gap between parts of one object, as a share of its size.");
+  list.number("clusterTolerance", o.clusterTolerance, {1e-3, 1}, "m", "Upper bound of that gap.");
+  list.number(
+      "clusterToleranceGrowth", o.clusterToleranceGrowth, {0, 1}, "",
+      "Lower bound of that gap, as a share of the range, where pixels are as far apart.");
+  list.integer(
+      "minPoints", o.minPoints, {10, 1000000}, "px of an image 320 px wide",
+      "Fewest points that are worth a fit.");
+  list.integer(
+      "minLabelPixels", o.minLabelPixels, {1, 1000000}, "px of the actual image",
+      "Groups of fewer pixels with one of a scan's pixelLabels are no object.");
+}
+
+void describeChoice(PerceptionOptions& o, OptionList& list)
+{
+  list.number(
+      "yawMinDominance", o.yawMinDominance, {0, 1}, "",
+      "Share of the surface that makes a direction. An even spread gives 0.22.");
+  list.number(
+      "minCompleteIoU", o.minCompleteIoU, {0, 1}, "",
+      "Least IoU of the projected cuboid and the box for a complete measurement.");
+  list.number(
+      "minDepthCoverage", o.minDepthCoverage, {0, 1}, "",
+      "Least share of valid depth in the box for a complete measurement.");
+  list.choice(
+      "models", o.models, kModels,
+      "What is made of a box. complete makes cuboids from depth. partial makes box edges. both "
+      "makes whichever fits.");
+}
+
+void describeEdges(PerceptionOptions& o, OptionList& list)
+{
+  constexpr const char* kPixels = "px of an image 640 px wide";
+  list.number(
+      "borderMargin", o.borderMargin, {0, 1000}, kPixels,
+      "Box edges this near to the image border are cut. 0 turns the rule off.");
+  list.number(
+      "occlusionStrip", o.occlusionStrip, {1, 200}, kPixels,
+      "Width of the strip outside an edge in which something may hide the object.");
+  list.number(
+      "maxHiddenProbability", o.maxHiddenProbability, {0, 1}, "",
+      "An edge is not used when the object goes on beyond it with more than this probability. 1 "
+      "turns the rule off.");
+  list.number(
+      "edgeTolerance", o.edgeTolerance, {1e-3, 1000}, kPixels,
+      "What a box edge may be off by when boxes are compared with what the depth shows.");
+  list.number(
+      "edgeSigma", o.edgeSigma, {1e-3, 1000}, kPixels,
+      "Fixed part of the standard deviation of a detector's box edge.");
+  list.number(
+      "edgeSigmaShare", o.edgeSigmaShare, {0, 1}, "",
+      "The rest of it, as a share of the box's size across the edge.");
 }
 
 }  // namespace
 
-void PerceptionOptions::loadFromConfigFile(
-    const mrpt::config::CConfigFileBase& config, const std::string& section)
+void PerceptionOptions::describe(OptionList& list)
 {
-  std::set<std::string> known = {"planeMaxTilt_deg", "minPoints", "minLabelPixels", "models"};
-  for (const auto& option : kNumbers) known.insert(option.key);
-  rejectUnknownKeys(config, section, known);
-
-  for (const auto& option : kNumbers)
-    readNumber(config, section, option.key, this->*option.member, option.min, option.max);
-  double tilt_deg = mrpt::RAD2DEG(planeMaxTilt);
-  readNumber(config, section, "planeMaxTilt_deg", tilt_deg, 0.1, 45);
-  planeMaxTilt = mrpt::DEG2RAD(tilt_deg);
-  readNumber(config, section, "minPoints", minPoints, 10, 1000000);
-  readNumber(config, section, "minLabelPixels", minLabelPixels, 1, 1000000);
-  models = modelsFrom(section, config.read_string(section, "models", nameOf(models)));
-  if (maxRange <= minRange)
-    throw std::invalid_argument(
-        "[" + section + "] maxRange=" + std::to_string(maxRange) + ": must be > minRange");
-}
-
-void PerceptionOptions::saveToConfigFile(
-    mrpt::config::CConfigFileBase& config, const std::string& section) const
-{
-  for (const auto& option : kNumbers) config.write(section, option.key, this->*option.member);
-  config.write(section, "planeMaxTilt_deg", mrpt::RAD2DEG(planeMaxTilt));
-  config.write(section, "minPoints", minPoints);
-  config.write(section, "minLabelPixels", minLabelPixels);
-  config.write(section, "models", std::string(nameOf(models)));
+  list.about("How one frame and its boxes become measurements.");
+  describeDepth(*this, list);
+  describePlanes(*this, list);
+  describeCloud(*this, list);
+  describeChoice(*this, list);
+  describeEdges(*this, list);
+  list.requireLess("minRange", "maxRange");
 }
 
 }  // namespace quadmap

@@ -10,13 +10,13 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kGrowth = 1.25;  // of the cells' edge, at a time
+constexpr double kGrowth = 1.25;  // factor by which cells grow at a time
 
-/** The points of a frame in the order of its pixels; (0, 0, 0) where there is no depth. */
+/** The points of a frame in the order of its pixels, with (0, 0, 0) where there is no depth. */
 struct OrganizedPoints
 {
   int width = 0, height = 0;
-  mrpt::maps::CColouredPointsMap points;  // robot frame
+  mrpt::maps::CColouredPointsMap points;  // in the frame of the robot
 
   bool isValid(int row, int column) const { return !at(row, column).isZero(); }
   std::size_t index(int row, int column) const
@@ -46,8 +46,8 @@ OrganizedPoints unproject(mrpt::obs::CObservation3DRangeScan& scan)
   return out;
 }
 
-/** Unit normal of the surface at a pixel, from its right and lower neighbours `step` away; zero
- * where they are missing or lie on another surface. */
+/** Unit normal of the surface at a pixel, from its neighbours at the distance `step` to the right
+ * and below. It is zero where they are missing or lie on another surface. */
 Eigen::Vector3f normalAt(const OrganizedPoints& frame, int row, int column, int step)
 {
   const Eigen::Vector3f zero = Eigen::Vector3f::Zero();
@@ -55,7 +55,7 @@ Eigen::Vector3f normalAt(const OrganizedPoints& frame, int row, int column, int 
   const Eigen::Vector3f p = frame.at(row, column);
   const Eigen::Vector3f right = frame.at(row, column + step) - p;
   const Eigen::Vector3f down = frame.at(row + step, column) - p;
-  constexpr float kLargestStep = 0.15F;  // [m]
+  constexpr float kLargestStep = 0.15F;  // between neighbours on one surface [m]
   if (right.norm() > kLargestStep || down.norm() > kLargestStep) return zero;
   return right.cross(down).normalized();
 }
@@ -86,8 +86,8 @@ void CloudCollector::add(
     const mrpt::poses::CPose3D& T_map_robot,
     const Selection& selection)
 {
-  constexpr float kLookWeight = 0.4F;  // the direction of view steadies noisy normals
-  constexpr int kNormalStep = 8;       // [px], wide against the noise of the depth
+  constexpr float kLookWeight = 0.4F;  // of the direction to the camera, against noise
+  constexpr int kNormalStep = 8;       // wide because depth is noisy [px]
   const OrganizedPoints frame = unproject(scan);
   const Eigen::Matrix4f T =
       T_map_robot.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().cast<float>();
@@ -121,7 +121,7 @@ void CloudCollector::add(
 
 void CloudCollector::closeGaps(double largest)
 {
-  constexpr double kSeveral = 8;  // hits of a cell, on average
+  constexpr double kSeveral = 8;  // mean number of points per cell
   double hits = 0;
   for (const auto& entry : cells_) hits += static_cast<double>(entry.second.count);
   while (hits < kSeveral * static_cast<double>(cells_.size()) && cellSize_ * kGrowth <= largest)
@@ -146,7 +146,8 @@ void CloudCollector::growCells()
 
 Cloud CloudCollector::points() const
 {
-  // Points that only one pixel ever saw are mostly the noise of edges; few frames cannot tell.
+  // Cells with a single point are mostly noise at jumps in depth, but not when there are few
+  // frames.
   const float fewestHits = frames_ < 10 ? 1.0F : 2.0F;
   Cloud out;
   out.reserve(cells_.size());

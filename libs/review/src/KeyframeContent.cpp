@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "quadmap/review/SimpleMapReader.h"
+#include "SimpleMapReader.h"
 
 namespace quadmap
 {
@@ -30,11 +30,11 @@ CameraPose cameraOf(const CObservation3DRangeScan& scan, const mrpt::poses::CPos
   return camera;
 }
 
-/** As many pixels of each frame as are worth the time. */
+/** Chooses the share of pixels that is worth the time. */
 CloudCollector::Selection selectionOf(
     const CObservation3DRangeScan& scan, const CloudOptions& options, std::size_t keyframes)
 {
-  constexpr std::size_t kMany = 30;  // then each place is seen often enough
+  constexpr std::size_t kMany = 30;  // with so many frames each place is in several
   const double usefulPixels = keyframes < kMany ? 80e3 : 40e3;
   const auto pixels = static_cast<double>(scan.rangeImage.rows() * scan.rangeImage.cols());
   CloudCollector::Selection selection;
@@ -51,7 +51,7 @@ void addKeyframes(
   SimpleMapReader reader(simpleMapPath);
   CloudCollector collector(options.cellSize, options.maxPoints);
   const std::size_t step = (reader.size() + options.maxKeyframes - 1) / options.maxKeyframes;
-  std::map<std::string, std::size_t> imagesOfSensor;  // each camera contributes
+  std::map<std::string, std::size_t> imagesOfSensor;  // number of images by sensor
   for (std::size_t i = 0; const auto keyframe = reader.next(); ++i)
   {
     const mrpt::poses::CPose3D T_map_robot = keyframe->pose->getMeanVal();
@@ -63,11 +63,11 @@ void addKeyframes(
       if (imagesOfSensor[scan->sensorLabel]++ % step != 0) continue;
       try
       {
-        scan->load();  // images that are kept in files of their own
+        scan->load();  // reads images that are in external files
         if (scan->hasRangeImage)
           collector.add(*scan, T_map_robot, selectionOf(*scan, options, reader.size()));
       }
-      catch (const std::exception&)  // its text speaks of the library's insides
+      catch (const std::exception&)  // its text is about the inside of the library
       {
         throw std::runtime_error(mrpt::format(
             "%s: keyframe %zu, sensor '%s': the depth image cannot be used", simpleMapPath.c_str(),

@@ -1,4 +1,4 @@
-#include "quadmap/review/LabelColor.h"
+#include "LabelColor.h"
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace
 {
 using mrpt::img::TColor;
 
-/** Hues that are told apart at a glance, dark enough for text on white. */
+/** Colours that are easily told apart and dark enough for text on white. */
 const std::array<TColor, 14> kPalette = {
     TColor(0x0b, 0x7a, 0x62), TColor(0x1f, 0x77, 0xb4), TColor(0x2c, 0x94, 0x2c),
     TColor(0xd6, 0x4f, 0xa6), TColor(0xc0, 0x8a, 0x1a), TColor(0xe0, 0x6c, 0x00),
@@ -17,7 +17,7 @@ const std::array<TColor, 14> kPalette = {
     TColor(0x0f, 0x9f, 0xb0), TColor(0x3b, 0x3f, 0xb6), TColor(0x8c, 0x56, 0x4b),
     TColor(0xb0, 0x12, 0x5b), TColor(0x9c, 0x9a, 0x12)};
 
-/** FNV-1a, started so that the fourteen usual indoor labels get colours of their own. */
+/** Hash FNV-1a. Its start value gives the fourteen usual indoor labels different colours. */
 std::uint32_t hash(const std::string& text)
 {
   constexpr std::uint32_t kBasis = 93158u;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
+#include "LabelColor.h"
 #include "Mesh.h"
 #include "quadmap/geometry/ImageBox.h"
-#include "quadmap/review/LabelColor.h"
 
 namespace quadmap
 {
@@ -16,18 +16,18 @@ namespace
 {
 using mrpt::opengl::CSetOfObjects;
 
-constexpr double kLineSpacing = 1.5, kKerning = 0.06;  // in heights of a letter
+constexpr double kLineSpacing = 1.5, kKerning = 0.06;  // / height of a letter
 
-/** Pose of things drawn in the picture plane: x right, y up, z towards the eye. */
-mrpt::poses::CPose3D facing(const ViewPoint& view, const Eigen::Vector3d& p)
+/** Pose of a thing that faces the eye: x right, y up, z towards the eye. */
+mrpt::poses::CPose3D facing(const RenderCamera& camera, const Eigen::Vector3d& p)
 {
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
-  T.topLeftCorner<3, 3>() = view.axes();
+  T.topLeftCorner<3, 3>() = camera.axes();
   T.topRightCorner<3, 1>() = p;
   return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T));
 }
 
-/** Knows how wide its letters really are; CText3D's bounding box counts them only. */
+/** A text that knows its true width. CText3D's bounding box only counts letters. */
 struct MeasuredText : public mrpt::opengl::CText3D
 {
   explicit MeasuredText(const std::string& text) :
@@ -44,12 +44,12 @@ struct MeasuredText : public mrpt::opengl::CText3D
   }
 };
 
-/** Width of a text in letters of height 1. */
+/** Width of a text / height of its letters. */
 double textWidth(const std::string& text) { return MeasuredText(text).width(); }
 
-/** A white plate with the text on it, centred at `p`; `height` of the letters [m]. */
+/** A white plate with a text on it. Its centre is `p`, and its letters are `height` high [m]. */
 CSetOfObjects::Ptr plate(
-    const ObjectRecord& record, const ViewPoint& view, const Eigen::Vector3d& p, double height)
+    const ObjectRecord& record, const RenderCamera& camera, const Eigen::Vector3d& p, double height)
 {
   const double width = textWidth(record.label) * height;
   const double x = 0.5 * width + 0.35 * height, y = 0.75 * height;
@@ -63,14 +63,14 @@ CSetOfObjects::Ptr plate(
   text->setLocation(-0.5 * width, -0.45 * height, 0.05 * height);
 
   auto group = CSetOfObjects::Create();
-  group->setPose(facing(view, p));
+  group->setPose(facing(camera, p));
   group->setName(record.label + " " + record.id);
   group->insert(background.mesh());
   group->insert(text);
   return group;
 }
 
-/** Highest point of an object's axis. */
+/** The point above an object's centre at the height of its highest corner. */
 Eigen::Vector3d topOf(const ObjectRecord& record)
 {
   Eigen::Vector3d top = record.object.center();
@@ -78,12 +78,12 @@ Eigen::Vector3d topOf(const ObjectRecord& record)
   return top;
 }
 
-/** Where a label may stand in the picture: its box in parts of the picture's height, origin in
- * the middle, y up. */
+/** A label and its place in the picture. The unit of length is the height of the picture, the
+ * origin its middle, and y points up. */
 struct Placed
 {
   const ObjectRecord* record;
-  Eigen::Vector2d anchor;  // the object's top
+  Eigen::Vector2d anchor;  // top of the object
   ImageBox box;
 
   void moveTo(double x, double y)
@@ -93,14 +93,14 @@ struct Placed
   }
 };
 
-std::optional<Eigen::Vector2d> inPicture(const ViewPoint& view, const Eigen::Vector3d& p_map)
+std::optional<Eigen::Vector2d> inPicture(const RenderCamera& camera, const Eigen::Vector3d& p_map)
 {
-  const Eigen::Vector3d p = view.axes().transpose() * (p_map - view.eye());
+  const Eigen::Vector3d p = camera.axes().transpose() * (p_map - camera.eye());
   if (p.z() >= 0) return std::nullopt;
-  return Eigen::Vector2d(p.head<2>() / (-p.z() * 2 * std::tan(0.5 * view.verticalFov)));
+  return Eigen::Vector2d(p.head<2>() / (-p.z() * 2 * std::tan(0.5 * camera.verticalFov)));
 }
 
-/** Tries the place above the object first, then ever higher and lower ones. */
+/** Finds a place that no other label takes: above the object, or else higher or lower. */
 void findFreePlace(Placed& label, const std::vector<Placed>& others, double aspect)
 {
   const double h = label.box.height(), w = label.box.width();
@@ -122,22 +122,25 @@ void findFreePlace(Placed& label, const std::vector<Placed>& others, double aspe
 }  // namespace
 
 CSetOfObjects::Ptr standingLabels(
-    const std::vector<ObjectRecord>& objects, const ViewPoint& view, double height)
+    const std::vector<ObjectRecord>& objects, const RenderCamera& camera, double height)
 {
   auto group = CSetOfObjects::Create();
   group->setName("labels");
   for (const ObjectRecord& record : objects)
-    group->insert(plate(record, view, topOf(record) + Eigen::Vector3d(0, 0, 1.2 * height), height));
+    group->insert(
+        plate(record, camera, topOf(record) + Eigen::Vector3d(0, 0, 1.2 * height), height));
   return group;
 }
 
 CSetOfObjects::Ptr pictureLabels(
-    const std::vector<ObjectRecord>& objects, const ViewPoint& view, const PictureLabels& style)
+    const std::vector<ObjectRecord>& objects,
+    const RenderCamera& camera,
+    const PictureLabels& style)
 {
   std::vector<Placed> placed;
   for (const ObjectRecord& record : objects)
   {
-    const auto anchor = inPicture(view, topOf(record));
+    const auto anchor = inPicture(camera, topOf(record));
     if (!anchor) continue;
     const double width = (textWidth(record.label) + 0.7) * style.height;
     Placed label{
@@ -147,20 +150,20 @@ CSetOfObjects::Ptr pictureLabels(
     placed.push_back(label);
   }
 
-  // Everything is drawn on a plane near the eye, so that nothing hides it.
-  const double nearDistance = 0.05 * view.distance;
-  const double metresPerHeight = 2 * std::tan(0.5 * view.verticalFov) * nearDistance;
+  // The labels are drawn on a plane near the eye, so that nothing hides them.
+  const double nearDistance = 0.05 * camera.distance;
+  const double metresPerHeight = 2 * std::tan(0.5 * camera.verticalFov) * nearDistance;
   const auto onPlane = [&](double x, double y) -> Eigen::Vector3d
   {
-    return view.eye() +
-           view.axes() * Eigen::Vector3d(x * metresPerHeight, y * metresPerHeight, -nearDistance);
+    return camera.eye() +
+           camera.axes() * Eigen::Vector3d(x * metresPerHeight, y * metresPerHeight, -nearDistance);
   };
   auto group = CSetOfObjects::Create();
   group->setName("labels");
   for (const Placed& label : placed)
   {
     const Eigen::Vector3d p = onPlane(label.box.centerX(), label.box.centerY());
-    group->insert(plate(*label.record, view, p, style.height * metresPerHeight));
+    group->insert(plate(*label.record, camera, p, style.height * metresPerHeight));
   }
   return group;
 }

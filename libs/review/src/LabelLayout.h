@@ -5,23 +5,27 @@
 #include <vector>
 
 #include "quadmap/obs/ObjectList.h"
-#include "quadmap/review/ViewPoint.h"
+#include "quadmap/review/RenderCamera.h"
 
 namespace quadmap
 {
-/** The names of the objects above them, turned towards the eye, in letters of `height` [m]. */
+/** The names of the objects, above them and turned towards the eye. \param height Height of the
+ * letters [m]. */
 mrpt::opengl::CSetOfObjects::Ptr standingLabels(
-    const std::vector<ObjectRecord>& objects, const ViewPoint& view, double height);
+    const std::vector<ObjectRecord>& objects, const RenderCamera& camera, double height);
 
+/** How the labels of a picture look. */
 struct PictureLabels
 {
   double aspect;  //!< Width of the picture / its height
-  double height;  //!< Of the letters, as a part of the picture's height
+  double height;  //!< Height of the letters / height of the picture
 };
 
-/** The names of the objects for one picture: all of one size, in front of everything, moved apart
- * where they would overlap (a line then leads to the object). */
+/** The names of the objects for one picture. They have one size, are in front of everything, and
+ * are moved apart where they would overlap. */
 mrpt::opengl::CSetOfObjects::Ptr pictureLabels(
-    const std::vector<ObjectRecord>& objects, const ViewPoint& view, const PictureLabels& style);
+    const std::vector<ObjectRecord>& objects,
+    const RenderCamera& camera,
+    const PictureLabels& style);
 
 }  // namespace quadmap

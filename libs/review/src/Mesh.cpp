@@ -16,7 +16,7 @@ FlatMesh::FlatMesh(const std::string& name, const mrpt::img::TColor& color, Orde
   mesh_->setName(name);
   mesh_->setColor_u8(color);
   mesh_->enableLight(order == Order::BehindBodies);
-  constexpr float kFarBelow = -1e4F;  // [m], seen from above: farther than any body
+  constexpr float kFarBelow = -1e4F;  // farther than any body, seen from above [m]
   if (order == Order::BehindBodies) mesh_->setLocalRepresentativePoint({0, 0, kFarBelow});
 }
 
@@ -30,14 +30,15 @@ void FlatMesh::addTriangle(
   };
   mrpt::opengl::TTriangle triangle(vertex(a), vertex(b), vertex(c));
   triangle.setColor(mesh_->getColor_u8());
-  for (auto& corner : triangle.vertices) corner.normal = kTowardsLight;  // evenly bright
+  for (auto& corner : triangle.vertices)
+    corner.normal = kTowardsLight;  // gives all faces the same brightness
   mesh_->insertTriangle(triangle);
 }
 
 void FlatMesh::addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius)
 {
   constexpr int kSides = 6;
-  constexpr double kShortest = 1e-6;  // [m]
+  constexpr double kShortest = 1e-6;  // length below which there is no line [m]
   if ((to - from).norm() < kShortest) return;
   const Eigen::Vector3d along = (to - from).normalized();
   const Eigen::Vector3d u = along.unitOrthogonal(), v = along.cross(u);
@@ -46,7 +47,7 @@ void FlatMesh::addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, d
     const double angle = 2 * M_PI * i / kSides;
     return radius * (std::cos(angle) * u + std::sin(angle) * v);
   };
-  // A little longer than asked for, so that the lines of a corner meet.
+  // The line is a little longer than asked for, so that lines meet in corners.
   const Eigen::Vector3d a = from - 0.8 * radius * along, b = to + 0.8 * radius * along;
   for (int i = 0; i < kSides; ++i)
   {

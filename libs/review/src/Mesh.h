@@ -11,15 +11,16 @@
 
 namespace quadmap
 {
-/** Thick lines and faces of one colour for a scene. OpenGL's own lines are one pixel wide on most
- * machines. */
+/** Thick lines and faces of one colour for a scene. OpenGL's own lines are only one pixel wide on
+ * most machines. */
 class FlatMesh
 {
  public:
-  /** MRPT draws shaded triangles from the farthest to the nearest, then those without shading. */
+  /** When the mesh is drawn. MRPT draws shaded triangles from the farthest to the nearest, and then
+   * those without shading. */
   enum class Order
   {
-    BehindBodies,  //!< Before translucent bodies, which would hide what is drawn after them
+    BehindBodies,  //!< Before translucent bodies, which hide what is drawn after them
     OnTop          //!< After everything else
   };
 
@@ -28,12 +29,12 @@ class FlatMesh
 
   void addTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-  /** A straight line; nothing when it has no length. \param radius Half its width [m]. */
+  /** Adds a straight line, or nothing when it has no length. \param radius Half its width [m]. */
   void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
 
   void addPolyline(const std::vector<Eigen::Vector3d>& points, double radius);
 
-  /** The twelve edges of the cuboid around an object. */
+  /** Adds the twelve edges of the cuboid around an object. */
   void addEdges(const Ellipsoid& object, double radius);
 
   const mrpt::opengl::CSetOfTriangles::Ptr& mesh() const { return mesh_; }

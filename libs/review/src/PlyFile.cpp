@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "quadmap/obs/OutputFile.h"
-#include "quadmap/review/LabelColor.h"
+#include "LabelColor.h"
+#include "quadmap/base/OutputFile.h"
 
 namespace quadmap
 {
@@ -13,7 +13,7 @@ namespace
 {
 using Rgb = std::array<std::uint8_t, 3>;
 
-/** The two lists of a PLY file, as they lie in it. */
+/** The two lists of a PLY file, in its format. */
 class PlyBody
 {
  public:
@@ -56,7 +56,7 @@ class PlyBody
   std::uint32_t vertexCount_ = 0, faceCount_ = 0;
 };
 
-/** A net of meridians and parallels; the poles are rings of equal points. */
+/** Adds an ellipsoid as a net of meridians and parallels. The poles are rings of equal points. */
 void addEllipsoid(const ObjectRecord& record, PlyBody& ply)
 {
   constexpr std::uint32_t kMeridians = 32, kParallels = 16;

@@ -10,10 +10,10 @@
 #include <array>
 #include <cmath>
 
+#include "LabelColor.h"
 #include "LabelLayout.h"
 #include "Mesh.h"
-#include "quadmap/obs/GzipStream.h"
-#include "quadmap/review/LabelColor.h"
+#include "quadmap/base/GzipStream.h"
 
 namespace quadmap
 {
@@ -47,7 +47,7 @@ Eigen::AlignedBox3d boundsOf(const SceneContent& content)
 
 mrpt::opengl::CRenderizable::Ptr floorGrid(const SceneContent& content)
 {
-  constexpr double kSpacing = 0.5;  // [m]
+  constexpr double kSpacing = 0.5;  // of the lines on the floor [m]
   const Eigen::AlignedBox3d bounds = boundsOf(content);
   const auto down = [&](double v)
   { return static_cast<float>(kSpacing * std::floor(v / kSpacing) - kSpacing); };
@@ -66,7 +66,7 @@ mrpt::opengl::CEllipsoid3D::Ptr bodyOf(const ObjectRecord& record)
 {
   const Eigen::Vector3d s = record.object.semiAxes();
   auto body = mrpt::opengl::CEllipsoid3D::Create();
-  // A diagonal covariance and a pose: MRPT turns a full covariance wrongly.
+  // MRPT turns a full covariance wrongly. It is therefore diagonal, and the pose has the rotation.
   mrpt::math::CMatrixDouble33 covariance;
   covariance.setZero();
   for (int i = 0; i < 3; ++i) covariance(i, i) = s[i] * s[i];
@@ -80,7 +80,7 @@ mrpt::opengl::CEllipsoid3D::Ptr bodyOf(const ObjectRecord& record)
   return body;
 }
 
-/** Ellipsoids, each with its cuboid as wires around it. */
+/** The ellipsoids, each with the edges of its cuboid around it. */
 CSetOfObjects::Ptr objectsOf(const SceneContent& content, double lineRadius)
 {
   auto group = CSetOfObjects::Create();
@@ -117,7 +117,7 @@ mrpt::opengl::CSetOfTriangles::Ptr lineThrough(
   return line.mesh();
 }
 
-/** A pyramid with its tip in the camera's centre, opening in the direction of view. */
+/** A pyramid with its tip in the camera's centre, which opens to where the camera looks. */
 void addPyramid(const CameraPose& camera, double length, double lineRadius, FlatMesh& mesh)
 {
   const double y = length * std::tan(0.5 * camera.horizontalFov);
@@ -155,11 +155,11 @@ float paleColor(std::uint8_t value, double paleness)
   return static_cast<float>(v + paleness * (1.0 - v));
 }
 
-/** Is a point part of an object? A little outside counts, for depth is noisy; what the object
- * stands on does not. */
+/** Whether a point is part of an object. Points slightly outside count, because depth is noisy, but
+ * not those of the surface that the object stands on. */
 bool isInside(const Eigen::Vector3d& p_map, const std::vector<ObjectRecord>& objects)
 {
-  constexpr double kNoise = 0.06;  // [m]
+  constexpr double kNoise = 0.06;  // distance outside an object that still counts [m]
   return std::any_of(
       objects.begin(), objects.end(),
       [&](const ObjectRecord& record)
@@ -172,24 +172,25 @@ bool isInside(const Eigen::Vector3d& p_map, const std::vector<ObjectRecord>& obj
       });
 }
 
-/** Was the surface seen from the side of the eye? Not at a grazing angle: normals are noisy. */
-bool facesEye(const CloudPoint& p, const ViewPoint& view)
+/** Whether a surface faces the eye. At a grazing angle it does not, because normals are noisy. */
+bool facesEye(const CloudPoint& p, const RenderCamera& camera)
 {
-  constexpr double kGrazing = 0.15;  // cosine
-  const Eigen::Vector3d toEye = (view.eye() - p.position.cast<double>()).normalized();
+  constexpr double kGrazing = 0.15;  // cosine of the angle to the normal
+  const Eigen::Vector3d toEye = (camera.eye() - p.position.cast<double>()).normalized();
   return p.normal.cast<double>().dot(toEye) > kGrazing;
 }
 
-/** The cloud around the objects, and what belongs to them: few and small points, so that the
- * ellipsoids can be seen and compared with it. */
+/** The points around the objects, and those that belong to objects. The latter are few and small,
+ * so that the ellipsoids can be seen and compared with them. */
 struct CloudParts
 {
   mrpt::opengl::CPointCloudColoured::Ptr around = mrpt::opengl::CPointCloudColoured::Create();
   mrpt::opengl::CPointCloudColoured::Ptr inside = mrpt::opengl::CPointCloudColoured::Create();
 };
 
-/** \param view If given, only the points that face the eye. */
-CloudParts cloudOf(const SceneContent& content, const SceneOptions& options, const ViewPoint* view)
+/** \param camera If it is given, only the points that face its eye are taken. */
+CloudParts cloudOf(
+    const SceneContent& content, const SceneOptions& options, const RenderCamera* camera)
 {
   Eigen::AlignedBox3d shown = boundsOf(content);
   shown.min().array() -= options.cloudMargin;
@@ -202,7 +203,7 @@ CloudParts cloudOf(const SceneContent& content, const SceneOptions& options, con
   {
     const Eigen::Vector3d position = p.position.cast<double>();
     if (!shown.contains(position)) continue;
-    if (view && !facesEye(p, *view)) continue;
+    if (camera && !facesEye(p, *camera)) continue;
     const bool inside = isInside(position, content.objects);
     if (inside && insideCount++ % options.insideThinning != 0) continue;
     const double paleness = inside ? 0.0 : options.cloudPaleness;
@@ -214,17 +215,17 @@ CloudParts cloudOf(const SceneContent& content, const SceneOptions& options, con
   return parts;
 }
 
-/** Does correcting the trajectory show? Equal lines on top of each other would flicker. */
+/** Whether two trajectories differ visibly. Equal lines on top of each other would flicker. */
 bool differVisibly(const std::vector<CPose3D>& a, const std::vector<CPose3D>& b)
 {
-  constexpr double kVisible = 0.01;  // [m]
+  constexpr double kVisible = 0.01;  // least distance that can be seen [m]
   if (a.size() != b.size()) return true;
   for (std::size_t i = 0; i < a.size(); ++i)
     if ((a[i].translation() - b[i].translation()).norm() > kVisible) return true;
   return false;
 }
 
-/** What scenes and pictures have in common: all but cloud and labels.
+/** The parts that scenes and pictures have in common: all but cloud and labels.
  * \param lineRadius Half the width of the thickest lines [m]. */
 mrpt::opengl::COpenGLScene::Ptr commonParts(
     const SceneContent& content, const SceneOptions& options, double lineRadius)
@@ -251,26 +252,26 @@ mrpt::opengl::COpenGLScene::Ptr commonParts(
 
 mrpt::opengl::COpenGLScene::Ptr SceneBuilder::scene(const SceneContent& content) const
 {
-  const ViewPoint view = obliqueView(content, PictureSize().aspect());
+  const RenderCamera camera = obliqueCamera(content, PictureSize().aspect());
   auto scene = commonParts(content, options_, options_.lineRadius);
   const CloudParts cloud = cloudOf(content, options_, nullptr);
   cloud.around->setPointSize(3.0F);
   cloud.inside->setPointSize(2.0F);
   scene->insert(cloud.around);
   scene->insert(cloud.inside);
-  scene->insert(standingLabels(content.objects, view, options_.labelHeight));
-  view.applyTo(scene->getViewport()->getCamera());
+  scene->insert(standingLabels(content.objects, camera, options_.labelHeight));
+  camera.applyTo(scene->getViewport()->getCamera());
   return scene;
 }
 
 mrpt::opengl::COpenGLScene::Ptr SceneBuilder::picture(
-    const SceneContent& content, const ViewPoint& view, const PictureSize& size) const
+    const SceneContent& content, const RenderCamera& camera, const PictureSize& size) const
 {
-  const double metresPerHeight = 2 * std::tan(0.5 * view.verticalFov) * view.distance;
+  const double metresPerHeight = 2 * std::tan(0.5 * camera.verticalFov) * camera.distance;
   auto scene = commonParts(content, options_, options_.pictureLineRadius * metresPerHeight);
 
-  const CloudParts cloud = cloudOf(content, options_, &view);
-  constexpr double kOverlap = 1.3;  // a little larger than the gaps: no holes
+  const CloudParts cloud = cloudOf(content, options_, &camera);
+  constexpr double kOverlap = 1.3;  // size of a point / distance of points, which leaves no gaps
   const double pixelsPerMetre = PictureSize::kOversampling * size.height / metresPerHeight;
   const double gap = content.cloudCellSize * pixelsPerMetre;  // [px]
   cloud.around->setPointSize(static_cast<float>(std::clamp(kOverlap * gap, 1.0, 40.0)));
@@ -279,8 +280,8 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::picture(
   scene->insert(cloud.inside);
 
   const PictureLabels style{size.aspect(), options_.pictureLabelHeight};
-  scene->insert(pictureLabels(content.objects, view, style));
-  view.applyTo(scene->getViewport()->getCamera());
+  scene->insert(pictureLabels(content.objects, camera, style));
+  camera.applyTo(scene->getViewport()->getCamera());
   return scene;
 }
 

@@ -6,7 +6,7 @@ namespace quadmap
 {
 namespace
 {
-/** The value that a fraction of the others lies below. */
+/** The value below which a fraction of the values lies. */
 double quantile(std::vector<double> values, double fraction)
 {
   const auto last = static_cast<double>(values.size() - 1);
@@ -33,7 +33,7 @@ void addCorners(const std::vector<ObjectRecord>& objects, std::vector<Eigen::Vec
 
 double SceneContent::floorHeight() const
 {
-  constexpr double kLow = 0.1;  // robust against a few objects that sank into the floor
+  constexpr double kLow = 0.1;  // a few objects may reach below the floor
   std::vector<double> heights;
   for (const auto& list : {objects, truth})
     for (const ObjectRecord& record : list)

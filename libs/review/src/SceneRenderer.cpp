@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/base/OutputFile.h"
 
 namespace quadmap
 {
@@ -49,13 +49,14 @@ SceneRenderer::~SceneRenderer()
   rendererIsAlive = false;
 }
 
-mrpt::img::CImage SceneRenderer::render(mrpt::opengl::COpenGLScene& scene, const ViewPoint& view)
+mrpt::img::CImage SceneRenderer::render(
+    mrpt::opengl::COpenGLScene& scene, const RenderCamera& camera)
 {
   const auto viewport = scene.getViewport();
-  view.applyTo(viewport->getCamera());
-  view.applyTo(renderer_->getCamera(scene));
-  constexpr float kNear = 0.02F, kFar = 4.0F;  // of the distance to the target
-  const auto distance = static_cast<float>(view.distance);
+  camera.applyTo(viewport->getCamera());
+  camera.applyTo(renderer_->getCamera(scene));
+  constexpr float kNear = 0.02F, kFar = 4.0F;  // / distance to the target
+  const auto distance = static_cast<float>(camera.distance);
   viewport->setViewportClipDistances(kNear * distance, kFar * distance);
 
   mrpt::img::CImage large, picture;
@@ -73,7 +74,7 @@ void writePicture(const mrpt::img::CImage& picture, const std::string& path)
   {
     written = cv::imwrite(output.temporaryPath(), picture.asCvMatRef(), smallest);
   }
-  catch (const cv::Exception&)  // an extension it does not know
+  catch (const cv::Exception&)  // for an extension that OpenCV does not know
   {
   }
   if (!written) throw std::runtime_error(path + ": the picture cannot be written");

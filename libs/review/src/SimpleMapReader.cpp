@@ -1,4 +1,4 @@
-#include "quadmap/review/SimpleMapReader.h"
+#include "SimpleMapReader.h"
 
 #include <mrpt/core/format.h>
 #include <mrpt/obs/registerAllClasses.h>
@@ -12,7 +12,7 @@ namespace quadmap
 {
 namespace
 {
-/** Reads the head of a serialized object: length of the name with bit 7 set, name, version. */
+/** Reads the head of a serialised object: length of the name with bit 7 set, name, version. */
 bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
 {
   const std::string expected = "mrpt::maps::CSimpleMap";
@@ -41,7 +41,7 @@ SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path)
       return;
     }
   }
-  catch (const std::exception&)  // shorter than the head
+  catch (const std::exception&)  // the file is shorter than the head
   {
   }
   throw std::runtime_error(path + ": is not a simple map (.simplemap) that can be read");
@@ -58,7 +58,7 @@ std::optional<SimpleMapReader::Keyframe> SimpleMapReader::next()
     archive >> keyframe.pose >> keyframe.observations;
     if (keyframe.pose && keyframe.observations) return keyframe;
   }
-  catch (const std::exception&)  // its text speaks of the archive's insides
+  catch (const std::exception&)  // its text is about the inside of the archive
   {
   }
   throw std::runtime_error(mrpt::format(

@@ -6,7 +6,7 @@
 
 namespace quadmap
 {
-/** A problem on its way to whoever decides: the user (strict) or the list (keep going). */
+/** A problem of the input. It ends the run, or is noted in a list when the run is to keep going. */
 class InputError : public std::runtime_error
 {
  public:

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "FrameMeasurer.h"
-#include "quadmap/evaluation/MeanAndSpread.h"
+#include "MeanAndSpread.h"
 #include "quadmap/evaluation/ObjectEvaluation.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/slam/KeyframeSelector.h"

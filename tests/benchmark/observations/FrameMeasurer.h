@@ -1,8 +1,7 @@
 #pragma once
 
 #include "SceneRun.h"
-#include "quadmap/perception/FramePerception.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/perception/RoomPerception.h"
 
 namespace quadmap::observations
 {
@@ -19,18 +18,12 @@ class FrameMeasurer
   CObservationObjects measure(const ObservedFrame& frame)
   {
     CObservationObjects boxes = *frame.simulated.objects;
-    const Eigen::Vector3d up_sensor =
-        frame.T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
-    known_.add(
-        perception_.measure(
-            *frame.simulated.scan, boxes, up_sensor, known_.around(frame.T_map_sensor)),
-        frame.T_map_sensor);
+    perception_.measure(*frame.simulated.scan, boxes, frame.T_map_sensor);
     return boxes;
   }
 
  private:
-  FramePerception perception_;
-  RoomPlanes known_;
+  RoomPerception perception_;
 };
 
 }  // namespace quadmap::observations

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "quadmap/obs/OutputFile.h"
+#include "quadmap/base/OutputFile.h"
 
 namespace quadmap::observations
 {

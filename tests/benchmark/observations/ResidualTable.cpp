@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/geometry/RotationDistance.h"
 #include "quadmap/geometry/Support.h"

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "quadmap/perception/FramePerception.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/perception/RoomPerception.h"
 
 namespace quadmap::observations
 {
@@ -41,13 +40,12 @@ void runScene(
     const LabelTable& labels,
     const std::function<void(const ObservedFrame&)>& visit)
 {
-  const FramePerception perception(perceptionOptions, labels);
   for (const auto seed : run.seeds)
   {
     simulator::Scene scene = simulator::readScene(simulator::findScene(run.scene));
     scene.options.camera.resize(run.width, run.height);
     const simulator::Simulator room(std::move(scene), labels, seed);
-    RoomPlanes known;
+    RoomPerception perception(perceptionOptions, labels);
     for (std::size_t i = 0; i < room.frameCount(); i += run.framesStep)
     {
       ObservedFrame frame;
@@ -57,11 +55,7 @@ void runScene(
       const auto& scan = *frame.simulated.scan;
       frame.T_map_sensor = room.truePoses()[i] + scan.sensorPose;
       frame.boxes = *frame.simulated.objects;
-      const Eigen::Vector3d up_sensor =
-          frame.T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
-      const auto surfaces =
-          perception.measure(scan, frame.boxes, up_sensor, known.around(frame.T_map_sensor));
-      known.add(surfaces, frame.T_map_sensor);
+      perception.measure(scan, frame.boxes, frame.T_map_sensor);
       frame.truth = truthOf(frame, room.scene());
       visit(frame);
     }

@@ -10,7 +10,7 @@
 
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
-#include "quadmap/sensors/simulator/Simulator.h"
+#include "quadmap/simulator/Simulator.h"
 
 namespace quadmap::observations
 {

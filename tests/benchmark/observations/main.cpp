@@ -7,7 +7,7 @@
 #include "EdgeTable.h"
 #include "OrientationTable.h"
 #include "ResidualTable.h"
-#include "quadmap/obs/ConfigCheck.h"
+#include "quadmap/base/ConfigCheck.h"
 
 // Tables that tell how good the measurements of single frames are, on simulated scenes with known
 // truth; doc/benchmarks.md quotes them.

@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
 #include "../../maps/ObjectMapFixture.h"
-#include "quadmap/slam/backend/JointBackEnd.h"
+#include "backend/JointBackEnd.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;

@@ -1,4 +1,4 @@
-#include "quadmap/slam/pipeline/StagePipeline.h"
+#include "pipeline/StagePipeline.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -20,14 +20,14 @@ namespace
 {
 constexpr std::size_t kItems = 200;
 
-/** Time passes, differently for each item and stage. */
+/** Waits for a time that differs between items and stages. */
 void dawdle(std::size_t item, std::size_t stage)
 {
   std::this_thread::sleep_for(std::chrono::microseconds((item * 37 + stage * 61) % 5 * 50));
 }
 
-/** Three stages that note what they did: 1 reads what 0 left, and 0 reads what 1 left two items
- * earlier. */
+/** Three stages that note what they did. Stage 1 reads what stage 0 left, and stage 0 reads what
+ * stage 1 left two items earlier. */
 class Recurrence
 {
  public:
@@ -245,7 +245,8 @@ constexpr bool kSanitized = false;
 
 namespace
 {
-/** Status 0: the system ran out of threads in the middle, and that was an error like others. */
+/** Ends with status 0 when the system ran out of threads in between and this was an error like
+ * others. */
 [[noreturn]] void startWithFewThreadsLeft()
 {
   long pages = 0;

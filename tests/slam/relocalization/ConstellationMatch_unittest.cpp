@@ -1,4 +1,4 @@
-#include "quadmap/slam/relocalization/ConstellationMatch.h"
+#include "relocalization/ConstellationMatch.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "PlaceGuesses.h"
+#include "relocalization/PlaceGuesses.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;

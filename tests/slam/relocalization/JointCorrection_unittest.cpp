@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "../../maps/ObjectMapFixture.h"
-#include "KnownObjects.h"
-#include "quadmap/slam/backend/JointBackEnd.h"
+#include "backend/JointBackEnd.h"
+#include "relocalization/KnownObjects.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -75,7 +75,7 @@ struct DriftingRun
     {
       std::vector<std::pair<ObjectId, ObjectId>> pairs;
       for (const MapObject* object : local.confirmedObjects())
-        if (const auto* same = given.nearest(object->object.center(), object->label()))
+        if (const auto* same = given.nearest(pointOf(object->object.center()), object->label()))
           pairs.emplace_back(object->id, same->id);
       auto priors = priorsOf(local, given, pairs, {});
       if (cauchy)

@@ -1,4 +1,4 @@
-#include "KnownObjects.h"
+#include "relocalization/KnownObjects.h"
 
 #include <gtest/gtest.h>
 

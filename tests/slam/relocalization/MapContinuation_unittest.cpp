@@ -1,4 +1,4 @@
-#include "quadmap/slam/relocalization/MapContinuation.h"
+#include "quadmap/slam/MapContinuation.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "../../maps/ObjectMapFixture.h"
+#include "backend/GivenPoses.h"
 #include "quadmap/slam/SlamResult.h"
-#include "quadmap/slam/backend/GivenPoses.h"
+#include "relocalization/ContinueMap.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -84,7 +85,7 @@ struct LosingBackEnd : GivenPoses
 
 ObjectId idAt(const CQuadricObjectMap& map, const TrueObject& truth)
 {
-  const MapObject* found = map.nearest(truth.object.center(), truth.label);
+  const MapObject* found = map.nearest(pointOf(truth.object.center()), truth.label);
   return found && (found->object.center() - truth.object.center()).norm() < 0.1 ? found->id : 0;
 }
 }  // namespace

@@ -1,9 +1,9 @@
-#include "quadmap/slam/backend/BackEnd.h"
+#include "BackEnd.h"
 
-#include "quadmap/slam/backend/GivenPoses.h"
-#include "quadmap/slam/backend/JointBackEnd.h"
-#include "quadmap/slam/backend/PointBackEnd.h"
-#include "quadmap/slam/backend/QuadricBackEnd.h"
+#include "GivenPoses.h"
+#include "JointBackEnd.h"
+#include "PointBackEnd.h"
+#include "QuadricBackEnd.h"
 
 namespace quadmap
 {
@@ -11,9 +11,10 @@ void BackEnd::insertIntoMap(
     const CObservationObjects& boxes,
     std::size_t keyframe,
     const mrpt::poses::CPose3D& T_map_robot,
-    SlamResult& result)
+    SlamResult& result,
+    const PoseNoise& poseError)
 {
-  result.map.insertObservation(boxes, T_map_robot);
+  result.map.insertObservation(boxes, UncertainPose(T_map_robot, poseError));
   for (const auto& decision : result.map.lastDecisions())
     result.decisions.push_back({static_cast<std::uint32_t>(keyframe), decision});
 }

@@ -1,4 +1,4 @@
-#include "quadmap/slam/backend/GivenPoses.h"
+#include "GivenPoses.h"
 
 namespace quadmap
 {

@@ -1,11 +1,12 @@
-#include "quadmap/slam/backend/JointBackEnd.h"
+#include "JointBackEnd.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "OdometryChain.h"
 #include "PoseMarginals.h"
-#include "ViewRedundancy.h"
+#include "quadmap/estimation/ViewRedundancy.h"
+#include "quadmap/estimation/ViewResiduals.h"
 
 namespace quadmap
 {
@@ -29,14 +30,6 @@ PoseNoise noiseOf(const Eigen::Matrix<double, 6, 6>& covariance)
   PoseNoise noise;
   noise.angle = std::sqrt(covariance.diagonal().head<3>().mean());
   noise.position = std::sqrt(covariance.diagonal().tail<3>().mean());
-  return noise;
-}
-
-PoseNoise sum(const PoseNoise& a, const PoseNoise& b)
-{
-  PoseNoise noise;
-  noise.position = std::hypot(a.position, b.position);
-  noise.angle = std::hypot(a.angle, b.angle);
   return noise;
 }
 
@@ -81,7 +74,7 @@ CPose3D JointBackEnd::predict(const CPose3D& T_odom_robot) const
   return graph_.pose(graph_.poses() - 1) + (T_odom_robot - lastOdometry_);
 }
 
-std::optional<RobotView> JointBackEnd::viewFor(
+std::optional<BoxMeasurement> JointBackEnd::viewFor(
     const CObservationObjects& boxes,
     std::size_t box,
     const CPose3D& T_map_robot,
@@ -92,8 +85,8 @@ std::optional<RobotView> JointBackEnd::viewFor(
       detected, T_map_robot + boxes.sensorPose,
       labels_.properties(labels_.canonical(detected.label)), viewNoise_);
   if (!view) return std::nullopt;
-  RobotView r =
-      robotViewOf(detected, *view, T_map_robot, boxes.sensorPose, estimator_, options_.tiltSigma);
+  BoxMeasurement r = measurementFromRobot(
+      detected, *view, T_map_robot, boxes.sensorPose, estimator_, options_.tiltSigma);
   r.weight = viewWeight(*view, uprightStateOf(object.object));
   return r;
 }
@@ -135,14 +128,11 @@ CPose3D JointBackEnd::addKeyframe(
   CQuadricObjectMap& map = result.map;
   const auto window = static_cast<std::size_t>(options_.window);
   const std::size_t firstFree = pose < window ? 1 : pose + 1 - window;
-  auto& noise = map.insertionOptions.poseNoise;
-  noise = sum(viewNoise_, noiseOf(graph_.marginals(firstFree, false).lastPose));
-  addViews(*boxes, map.match(*boxes, predicted), pose, map);
+  const auto poseError = [&] { return noiseOf(graph_.marginals(firstFree, false).lastPose); };
+  addViews(*boxes, map.match(*boxes, UncertainPose(predicted, poseError())), pose, map);
   graph_.optimiseWindow(firstFree);
 
-  noise = sum(viewNoise_, noiseOf(graph_.marginals(firstFree, false).lastPose));
-  insertIntoMap(*boxes, pose, graph_.pose(pose), result);
-  noise = viewNoise_;
+  insertIntoMap(*boxes, pose, graph_.pose(pose), result, poseError());
   forgetMerged(map);
   graph_.removeViews(pose);
   addViews(*boxes, map.lastDecisions(), pose, map);
@@ -176,7 +166,7 @@ FactorGraph JointBackEnd::globalGraph(
   {
     std::size_t pose;
     Eigen::Vector3d camera;
-    RobotView view;
+    BoxMeasurement view;
   };
   FactorGraph graph(graphOptions(options_, estimator_));
   const bool mayTilt = priors.empty() && firstPose == FirstPose::FreeToTilt &&
@@ -254,7 +244,7 @@ void JointBackEnd::estimate(
   const Priors priors = knownObjects(result.map);
   // With the objects of the final map, and covariances relative to the first pose.
   FactorGraph graph = globalGraph(boxesOf, result, priors, FirstPose::Fixed);
-  result.edges = graph.poseEdges();
+  result.edges = graph.graphEdges();
   for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);
 }

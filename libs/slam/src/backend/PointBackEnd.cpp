@@ -1,10 +1,10 @@
-#include "quadmap/slam/backend/PointBackEnd.h"
+#include "PointBackEnd.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../PoseAngles.h"
 #include "OdometryChain.h"
+#include "quadmap/geometry/PoseAngles.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
@@ -42,7 +42,7 @@ CPose3D mrptPose(const PointPose<3>& pose)
 
 PointOdometry<3> odometryOf(const CPose3DPDFGaussian& step)
 {
-  PoseStepMatrix<3> J = PoseStepMatrix<3>::Identity();
+  PoseIncrementMatrix<3> J = PoseIncrementMatrix<3>::Identity();
   J.bottomRightCorner<3, 3>() = localTurnsPerAngle(step.mean);
   return {pointPose(step.mean), J * step.cov.asEigen() * J.transpose()};
 }

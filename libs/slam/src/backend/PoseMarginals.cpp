@@ -1,6 +1,6 @@
 #include "PoseMarginals.h"
 
-#include "../PoseAngles.h"
+#include "quadmap/geometry/PoseAngles.h"
 
 namespace quadmap
 {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "quadmap/graph/FactorGraph.h"
 #include "quadmap/slam/SlamResult.h"
-#include "quadmap/slam/graph/FactorGraph.h"
 
 namespace quadmap
 {

@@ -1,10 +1,10 @@
-#include "quadmap/slam/backend/QuadricBackEnd.h"
+#include "QuadricBackEnd.h"
 
 #include <algorithm>
 
 #include "OdometryChain.h"
 #include "PoseMarginals.h"
-#include "ViewRedundancy.h"
+#include "quadmap/estimation/ViewRedundancy.h"
 
 namespace quadmap
 {
@@ -75,10 +75,10 @@ QuadricBackEnd::Decisions QuadricBackEnd::associate(
   return objects_.add(views, boxes.timestamp, poseCovariance, poseOf);
 }
 
-RobotView QuadricBackEnd::viewFor(
+BoxMeasurement QuadricBackEnd::viewFor(
     const BoxView& view, const CPose3D& T_map_robot, const Ellipsoid& object) const
 {
-  return view.robotView(T_map_robot, object, mapOptions_.poseNoise, mapOptions_.estimator);
+  return view.measurementFor(T_map_robot, object, mapOptions_.poseNoise, mapOptions_.estimator);
 }
 
 CPose3D QuadricBackEnd::addKeyframe(
@@ -127,7 +127,7 @@ void QuadricBackEnd::addToWindow(ObjectId id, std::size_t keyframe, bool isNew)
   {
     if (!isNew && seen.keyframe != keyframe) continue;
     const CPose3D T_map_robot = graph_.pose(seen.keyframe);
-    RobotView view = viewFor(seen, T_map_robot, object.record.object);
+    BoxMeasurement view = viewFor(seen, T_map_robot, object.record.object);
     const Eigen::Vector3d camera = seen.placedAt(T_map_robot).camera;
     auto& cameras = cameras_[id];
     view.weight =
@@ -161,7 +161,7 @@ FactorGraph QuadricBackEnd::globalGraph(const SlamResult& result) const
     for (std::size_t i = 0; i < object.views.size(); ++i)
     {
       const BoxView& seen = object.views[i];
-      RobotView view = viewFor(seen, graph.pose(seen.keyframe), object.record.object);
+      BoxMeasurement view = viewFor(seen, graph.pose(seen.keyframe), object.record.object);
       view.weight = shares[i];
       graph.addView(seen.keyframe, id, view);
     }
@@ -235,7 +235,7 @@ void QuadricBackEnd::fillMap(SlamResult& result) const
     decision.startedObject &= decision.object.has_value();
   }
   FactorGraph graph = globalGraph(result);
-  result.edges = graph.poseEdges();
+  result.edges = graph.graphEdges();
   if (correctPoses_) noteMarginals(graph, result.keyframes);
   for (auto& edge : result.edges) edge.object = idInMap.at(edge.object);
 }

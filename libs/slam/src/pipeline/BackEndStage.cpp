@@ -1,4 +1,4 @@
-#include "quadmap/slam/pipeline/BackEndStage.h"
+#include "BackEndStage.h"
 
 namespace quadmap
 {

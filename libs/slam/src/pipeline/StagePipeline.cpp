@@ -1,4 +1,4 @@
-#include "quadmap/slam/pipeline/StagePipeline.h"
+#include "StagePipeline.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ StagePipeline::StagePipeline(std::vector<Stage> stages, std::size_t threads, std
     Lock lock(mutex_);
     workUntil(lock, [this] { return stopping_; });
   };
-  // One for each stage, and the caller's: more would have nothing to do.
+  // There is work for one thread per stage and for the caller's.
   const std::size_t useful = std::min(threads, stages_.size() + 1);
   try
   {

@@ -1,13 +1,14 @@
-#include "quadmap/slam/relocalization/ConstellationMatch.h"
+#include "relocalization/ConstellationMatch.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "PlaceGuesses.h"
-#include "quadmap/maps/Assignment.h"
-#include "quadmap/maps/ObjectRules.h"
+#include "quadmap/estimation/Assignment.h"
+#include "quadmap/estimation/ObjectRules.h"
 
 namespace quadmap
 {
@@ -32,7 +33,7 @@ struct Hypothesis
   double logOdds = 0;
 };
 
-/** The local objects in the map's frame, from a place. */
+/** The local objects in the map's frame, as they are placed by one guess. */
 struct PlacedObjects
 {
   PlacedObjects(const Constellations::Objects& local, const Place& at) : place(at)
@@ -50,7 +51,8 @@ struct PlacedObjects
   std::vector<Eigen::Matrix3d> covariances;  // of the centres
 };
 
-/** Angle to the nearest multiple of a quarter turn: which axis of a cuboid is x is arbitrary. */
+/** Angle to the nearest multiple of a quarter turn [rad]. Which axis of a cuboid is called x is
+ * arbitrary. */
 double withinQuarterTurn(double angle) { return std::remainder(angle, M_PI / 2); }
 
 Eigen::Vector3d orderedSizes(const MapObject& object)
@@ -119,6 +121,7 @@ class Matcher
     return map_[j]->object.center() - placed.centers[i];
   }
 
+  /** S of doc/mathematics.md, (19.1). */
   Eigen::Matrix3d covariance(const PlacedObjects& placed, std::size_t i, std::size_t j) const
   {
     const double variance = options_.positionSigma * options_.positionSigma;
@@ -138,7 +141,7 @@ class Matcher
   }
 
   /** ln of how much better "it is this one" explains where local object i is than "something like
-   * it happens to be there"; 0 when it is too far off.
+   * it happens to be there", doc/mathematics.md, (19.2) and (19.3). It is 0 beyond the gate.
    * \param factor On the sigmas. */
   double evidence(const PlacedObjects& placed, std::size_t i, std::size_t j, double factor) const
   {
@@ -242,7 +245,7 @@ class Matcher
       normal.g += J.transpose() * W * offset(placed, i, j);
       if (!both_.bothHaveHeadings(i, j)) continue;
       const double variance = yawVariance(i, j), a = yawOffset(placed.place, i, j);
-      if (a * a > kYawGate * variance) continue;  // turned since
+      if (a * a > kYawGate * variance) continue;  // it was turned since
       normal.H(3, 3) += 1 / variance;
       normal.g[3] += a / variance;
     }
@@ -253,7 +256,7 @@ class Matcher
   {
     const Normal normal = normalEquations(PlacedObjects(local_, place), pairs);
     const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
-    if (!lu.isInvertible()) return;  // one object without heading
+    if (!lu.isInvertible()) return;  // one object without a heading fixes no place
     const Eigen::Vector4d step = lu.solve(normal.g);
     place.t += step.head<3>();
     place.yaw = mrpt::math::wrapToPi(place.yaw + step[3]);

@@ -1,17 +1,20 @@
 #include "GoneObjects.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "quadmap/maps/ObjectRules.h"
-#include "quadmap/maps/Visibility.h"
+#include "quadmap/estimation/Existence.h"
+#include "quadmap/estimation/ObjectRules.h"
+#include "quadmap/estimation/Visibility.h"
+#include "relocalization/ConstellationMatch.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr double kSameBox = 0.2;  // IoU with the outline of a box that may show the object
+/** How much of a box lies outside the outline does not matter here: an object is only gone when
+ * nothing can be it. */
+constexpr double kMinInside = 0;
 
 class GoneObjects
 {
@@ -21,7 +24,11 @@ class GoneObjects
       const SlamResult& run,
       const ConstellationMatch& match,
       const RelocalizationOptions& options) :
-      given_(given), run_(run), options_(options), existence_(run.map.insertionOptions.existence)
+      given_(given),
+      run_(run),
+      options_(options),
+      existence_(run.map.insertionOptions.existence),
+      evidence_(existence_)
   {
     for (const auto& [here, there] : match.pairs)
     {
@@ -51,7 +58,9 @@ class GoneObjects
           &boxes->coarseDepth};
       for (const MapObject* object : given_.confirmedObjects())
         if (found_.count(object->id) == 0 && shouldBeVisible(object->object, frame, existence_))
-          logOdds[object->id] += evidence(isShown(*object, *boxes, frame, objectOfBox));
+          logOdds[object->id] += isShown(*object, *boxes, frame, objectOfBox)
+                                     ? evidence_.detection()
+                                     : evidence_.miss();
     }
     std::set<ObjectId> gone;
     for (const MapObject* object : given_.confirmedObjects())
@@ -65,13 +74,7 @@ class GoneObjects
   }
 
  private:
-  double evidence(bool isShown) const
-  {
-    const double pD = existence_.detectionProbability, pF = existence_.falseAlarmProbability;
-    return isShown ? std::log(pD / pF) : std::log((1 - pD) / (1 - pF));
-  }
-
-  /** Is something like it so near that both cannot stand there, and yet not at its place? */
+  /** True when something like it is so near that both cannot stand there, and yet is not it. */
   bool hasShifted(const MapObject& object) const
   {
     const auto& merging = run_.map.insertionOptions.merging;
@@ -85,7 +88,8 @@ class GoneObjects
         });
   }
 
-  /** Is there a box where it should be that may show it and nothing else that is known? */
+  /** True when a box where the object should be may show it and shows nothing else that is known.
+   */
   bool isShown(
       const MapObject& object,
       const CObservationObjects& boxes,
@@ -93,23 +97,23 @@ class GoneObjects
       const std::map<std::size_t, ObjectId>& objectOfBox) const
   {
     const LabelTable& labels = run_.map.labels();
-    auto outline =
-        projectedBox(object.object, frame, labels.properties(object.label()).shapeExponent);
+    const auto outline = outlineInImage(object, frame, labels);
     if (!outline) return false;
-    *outline = outline->clipped(frame.camera.width, frame.camera.height);
+    ShownRule rule;
+    rule.minInside = kMinInside;
+    rule.minLabelAgreement = options_.minLabelAgreement;
     for (std::size_t b = 0; b < boxes.objects.size(); ++b)
     {
       const auto& box = boxes.objects[b];
-      if (imageBoxIoU(box.box, *outline) < kSameBox) continue;
-      if (labelAgreement(object, labels.canonical(box.label), labels) < options_.minLabelAgreement)
-        continue;
+      if (!mayShow(box.box, labels.canonical(box.label), object, *outline, labels, rule)) continue;
       const auto owner = objectOfBox.find(b);
       if (owner == objectOfBox.end() || mayBe(owner->second, object)) return true;
     }
     return false;
   }
 
-  /** Is one of the run's objects at the place of this one, or not sure enough to be elsewhere? */
+  /** True when one of the run's objects is at the place of this one, or not sure enough to be
+   * elsewhere. */
   bool mayBe(ObjectId localId, const MapObject& object) const
   {
     const auto local = local_.find(localId);
@@ -123,6 +127,7 @@ class GoneObjects
   const SlamResult& run_;
   const RelocalizationOptions& options_;
   const ExistenceOptions& existence_;
+  ExistenceEvidence evidence_;              //!< The terms of (19.7), doc/mathematics.md
   std::map<ObjectId, ObjectId> partnerOf_;  //!< Of the run's objects
   std::set<ObjectId> found_;                //!< Of the map's
   std::map<ObjectId, MapObject> local_;     //!< The run's confirmed objects, in the map's frame

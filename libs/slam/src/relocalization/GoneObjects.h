@@ -2,9 +2,9 @@
 
 #include <set>
 
+#include "backend/BackEnd.h"
+#include "quadmap/slam/RelocalizationOptions.h"
 #include "quadmap/slam/SlamResult.h"
-#include "quadmap/slam/backend/BackEnd.h"
-#include "quadmap/slam/relocalization/RelocalizationOptions.h"
 
 namespace quadmap
 {

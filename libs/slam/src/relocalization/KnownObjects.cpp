@@ -7,7 +7,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kKernel = 4.3;       // chi of seven degrees of freedom, 99 %: it may have moved
+constexpr double kKernel = 4.3;       // c of doc/mathematics.md, (19.6): chi of 7 numbers, 99 %
 constexpr double kAnyYaw = 2 * M_PI;  // sigma of a yaw that means nothing [rad]
 
 struct Known
@@ -25,7 +25,7 @@ void swapHorizontalAxes(Known& known)
   known.covariance = swapAxes * known.covariance * swapAxes.transpose();
 }
 
-/** A cuboid has four upright states: the one whose yaw is nearest. */
+/** Of the four upright states of a cuboid the one whose yaw is nearest. */
 Known turnedLike(Known known, double yaw)
 {
   const double turns = std::round((yaw - known.state[3]) / (M_PI / 2));
@@ -34,7 +34,7 @@ Known turnedLike(Known known, double yaw)
   return known;
 }
 
-/** Without a heading it is the longer one of the horizontal axes that tells which is which. */
+/** Names the axes when there is no heading: the longer horizontal axis tells which is which. */
 Known shapedLike(Known known, const UprightState& local)
 {
   if ((known.state[4] - known.state[5]) * (local[4] - local[5]) < 0) swapHorizontalAxes(known);
@@ -50,7 +50,8 @@ ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma
   const Known there{uprightStateOf(given.object), given.covariance};
   const bool hasHeading = local.orientationDefined && given.orientationDefined;
   Known known = hasHeading ? turnedLike(there, here[3]) : shapedLike(there, here);
-  // The sides err by sigma, each for itself: ln s by sigma / s, yaw as along the longer side.
+  // (19.5): each side errs by sigma for itself, ln s by sigma / s and the yaw as along the longer
+  // side.
   UprightState more;
   more.head<3>().setConstant(sigma);
   more.tail<3>() = sigma * (-known.state.tail<3>()).array().exp();

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "quadmap/graph/GraphFactors.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
-#include "quadmap/slam/graph/GraphFactors.h"
-#include "quadmap/slam/relocalization/RelocalizationOptions.h"
+#include "quadmap/slam/RelocalizationOptions.h"
 
 namespace quadmap
 {

@@ -50,7 +50,7 @@ class PlaceGuesses
     const auto &alike1 = both_.alike[i1], &alike2 = both_.alike[i2];
     const std::size_t pairs = alike1.size() * alike2.size();
     const std::size_t stride = std::max<std::size_t>(1, (pairs + share_ - 1) / share_);
-    // From another one on each time: else it were always the same objects of the map.
+    // Each time the search starts with another object of the map, so that all have a share.
     for (std::size_t k = (i1 + i2) % stride; k < pairs; k += stride)
     {
       const std::size_t j1 = alike1[k / alike2.size()], j2 = alike2[k % alike2.size()];
@@ -77,7 +77,8 @@ class PlaceGuesses
     const Eigen::Vector2d a = (a2 - a1).head<2>(), b = (b2 - b1).head<2>();
     const double sigma = std::sqrt(variance(i1, j1) + variance(i2, j2));
     if (std::abs(a.norm() - b.norm()) > 3 * sigma) return std::nullopt;
-    if (std::min(a.norm(), b.norm()) < 3 * sigma) return std::nullopt;  // no direction
+    if (std::min(a.norm(), b.norm()) < 3 * sigma)
+      return std::nullopt;  // the direction is not known
     Place place;
     place.yaw = mrpt::math::wrapToPi(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()));
     place.t = (b1 + b2) / 2 - place.R() * (a1 + a2) / 2;

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "quadmap/maps/MapObject.h"
-#include "quadmap/slam/relocalization/RelocalizationOptions.h"
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/slam/RelocalizationOptions.h"
 
 namespace quadmap
 {

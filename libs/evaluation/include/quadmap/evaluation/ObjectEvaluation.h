@@ -12,61 +12,62 @@
 
 namespace quadmap
 {
-/** Gives all spellings of one class the same name. */
-using LabelFolding = std::function<std::string(const std::string&)>;
+/** Gives all spellings of a label the same name. */
+using LabelSpelling = std::function<std::string(const std::string&)>;
 
-/** The installed label table's canonical names; without a table (and for labels it does not know)
- * lower case with ' ' for '_'. */
-LabelFolding installedLabelFolding();
+/** The canonical names of the installed label table. Without a table, and for labels that it lacks,
+ * the name is in lower case with ' ' in place of '_'. */
+LabelSpelling installedLabelSpelling();
 
 struct ObjectEvaluationOptions
 {
-  double maxCenterDistance = 0.3;  //!< A match is at most this far off [m]
-  unsigned minFramesVisible = 3;   //!< Truth seen in fewer frames does not count as missed
-  LabelFolding foldLabel = installedLabelFolding();
+  double maxCenterDistance = 0.3;  //!< Largest distance of a match [m]
+  unsigned minFramesVisible = 3;   //!< True objects seen in fewer frames are not missed
+  LabelSpelling canonicalLabel = installedLabelSpelling();
 };
 
-/** How alike a true and an estimated object are, given in one frame (doc/mathematics.md). */
+/** How alike a true and an estimated object are. Both are in one frame. The figures are
+ * doc/mathematics.md, (20.3) to (20.6). */
 struct ObjectComparison
 {
   double centerDistance = 0;    //!< Trans [m]
-  std::optional<double> angle;  //!< Rot [rad]: over the 24 relabelings; both orientations defined
-  double shapeIoU = 0;          //!< After aligning centre and axes
-  double iou3d = 0;             //!< Of the cuboids in place
+  std::optional<double> angle;  //!< Rot [rad]; empty when an orientation is not defined
+  double shapeIoU = 0;          //!< Shape, in [0, 1]
+  double iou3d = 0;             //!< 3-D IoU, in [0, 1]
 };
 
-/** Shape aligns the axes by the relabeling of the smallest rotation; when an orientation is not
- * defined, by the better of the two that keep the vertical (the truth's axis nearest to the
- * estimate's z). */
+/** Compares a true and an estimated object. Shape takes the relabeling of the axes that has the
+ * smallest rotation. When an orientation is not defined, it takes the better of the two relabelings
+ * that bring the truth's axis nearest to the estimate's z onto it. */
 ObjectComparison compareObjects(const ObjectRecord& truth, const ObjectRecord& estimated);
 
 struct ObjectMatch
 {
-  ObjectRecord truth, estimated;  //!< Both in the truth's world
+  ObjectRecord truth, estimated;  //!< Both are in the truth's world
   ObjectComparison comparison;
 };
 
 struct ObjectEvaluation
 {
   std::vector<ObjectMatch> matches;     //!< In the order of the truth
-  std::vector<ObjectRecord> missed;     //!< True objects nothing was estimated for
-  std::vector<ObjectRecord> uncounted;  //!< The same, seen in too few frames to count
-  std::vector<ObjectRecord> spurious;   //!< Estimated objects that are not there, truth's world
+  std::vector<ObjectRecord> missed;     //!< True objects without an estimated one
+  std::vector<ObjectRecord> uncounted;  //!< Missed ones that were in too few frames to count
+  std::vector<ObjectRecord> spurious;   //!< Estimated objects without a true one, truth's world
 
   std::size_t truthCount() const { return matches.size() + missed.size(); }
   std::size_t estimatedCount() const { return matches.size() + spurious.size(); }
 
-  /** Nothing where it is not defined: no estimate, no truth, neither. */
+  /** doc/mathematics.md, (20.7). A figure is empty when its denominator is zero. */
   std::optional<double> precision() const, recall() const, f1() const;
 
-  /** Means over the matches; nothing without one (for the angle: one with defined orientations). */
+  /** Means over the matches that have the figure; empty when no match has it. */
   std::optional<double> meanCenterDistance() const;  //!< [m]
   std::optional<double> meanAngle() const;           //!< [rad]
   std::optional<double> meanShapeIoU() const, meanIoU3d() const;
 };
 
-/** One-to-one assignment between objects of equal labels: as many pairs within maxCenterDistance as
- * possible, and of those assignments the one with the smallest sum of distances.
+/** Assigns true and estimated objects of equal labels one to one. The assignment has as many pairs
+ * within maxCenterDistance as possible and, with that many, the smallest sum of distances.
  * \param T_truth_estimated Carries the estimated objects into the truth's world. */
 ObjectEvaluation evaluateObjects(
     const std::vector<ObjectRecord>& truth,

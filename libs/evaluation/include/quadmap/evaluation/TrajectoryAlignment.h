@@ -10,18 +10,19 @@
 
 namespace quadmap
 {
-/** The same moment in the true and in the estimated trajectory. */
+/** A true and an estimated pose of the same time. */
 struct PosePair
 {
   mrpt::poses::CPose3D T_truth_body;      //!< In the world of the true trajectory
   mrpt::poses::CPose3D T_estimated_body;  //!< In the estimated map
-  double time = 0;                        //!< Of the estimated pose [s]
+  double time = 0;                        //!< Time of the estimated pose [s]
 };
 
-/** The association of `evo_ape`: every pose of the shorter trajectory (of equally long ones, the
- * estimated) with the one of the other that is nearest in time, the earlier of two equally near.
- * Neither trajectory needs to be sorted; the pairs are in the order of time.
- * \param maxTimeDifference Pairs farther apart [s] are left out. */
+/** Pairs poses as `evo_ape` does. Each pose of the shorter trajectory is paired with the pose of
+ * the other one that is nearest in time. Of equally long trajectories the estimated one counts as
+ * the shorter, and of two equally near poses the earlier one is taken. The trajectories need not be
+ * sorted. The pairs are in the order of time.
+ * \param maxTimeDifference Pairs with a larger difference of their times are left out [s]. */
 std::vector<PosePair> pairByTime(
     const Trajectory& truth, const Trajectory& estimated, double maxTimeDifference = 0.02);
 
@@ -29,7 +30,7 @@ std::vector<PosePair> pairByTime(
 enum class AlignmentSource
 {
   Positions,    //!< Umeyama without scale
-  Orientations  //!< The positions alone leave it open: the bodies' axes were used as well
+  Orientations  //!< The positions alone leave it open, and the bodies' axes helped
 };
 
 struct TrajectoryAlignment
@@ -41,12 +42,12 @@ struct TrajectoryAlignment
   double secondSpread = 0;
 };
 
-/** Below this `secondSpread` the positions (a point, a straight line) do not determine the
- * rotation: with positions good to 1 cm it would be worse than half a radian / sqrt(pairs) [m]. */
+/** Below this `secondSpread` the positions (a point, a straight line) do not determine the rotation
+ * [m]. With positions good to 1 cm the rotation would be worse than 0.5 rad / sqrt(pairs). */
 constexpr double kMinSecondSpread = 0.02;
 
 /** The rigid motion that carries the estimated positions to the true ones with the least sum of
- * squares (Umeyama 1991 without scale).
+ * squares (Umeyama 1991 without scale): doc/mathematics.md, (20.1).
  *
  * Where the positions do not determine it, the rotation R maximises the agreement of positions and
  * of body axes, tr(R^t (sum p_truth p_estimated^t + w sum R_truth B^t R_estimated^t)), w = 1 m^2.
@@ -54,12 +55,13 @@ constexpr double kMinSecondSpread = 0.02;
  * optical frame and this agrees better. \exception std::invalid_argument If there are no pairs. */
 TrajectoryAlignment alignTrajectories(const std::vector<PosePair>& pairs);
 
-/** Umeyama without scale on the positions alone, as `evo_ape --align`. Where they leave the
- * rotation open this is one of the equally good ones: good for ateRmse(), useless for objects.
- * \exception std::invalid_argument If there are no pairs. */
+/** Umeyama without scale on the positions alone, as `evo_ape --align`. Where the positions leave
+ * the rotation open, the result is one of the equally good ones. It serves ateRmse() but not
+ * objects. \exception std::invalid_argument If there are no pairs. */
 mrpt::poses::CPose3D alignPositions(const std::vector<PosePair>& pairs);
 
-/** Root mean square distance of the paired positions after alignment [m].
+/** ATE, the root mean square distance of the paired positions after alignment [m]:
+ * doc/mathematics.md, (20.2).
  * \exception std::invalid_argument If there are no pairs. */
 double ateRmse(const std::vector<PosePair>& pairs, const mrpt::poses::CPose3D& T_truth_estimated);
 

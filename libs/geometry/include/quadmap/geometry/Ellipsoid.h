@@ -6,13 +6,13 @@
 
 namespace quadmap
 {
-/** One object as a solid ellipsoid, and its circumscribed cuboid (half sizes = semi-axes).
- * A value: cheap to copy, never invalid.
+/** One object as a solid ellipsoid, and its circumscribed cuboid, whose half sizes are the
+ * semi-axes. It is a value: cheap to copy and never invalid.
  *
  * Frame `obj`: origin at the centre, axes along the semi-axes (a, b, c), z the up axis of the
  * object's support. A point (x, y, z) [m] of that frame is inside the ellipsoid when
- * (x/a)^2 + (y/b)^2 + (z/c)^2 <= 1. The reference frame (`ref`) is the map's unless a name says
- * otherwise. */
+ * (x/a)^2 + (y/b)^2 + (z/c)^2 <= 1: doc/mathematics.md, (1.1). The reference frame (`ref`) is the
+ * map's unless a name says otherwise. */
 class Ellipsoid
 {
  public:
@@ -35,8 +35,9 @@ class Ellipsoid
    *  Column i has the signs of its bits: bit 0 = +x, bit 1 = +y, bit 2 = +z. */
   Eigen::Matrix<double, 3, 8> cuboidCorners() const;
 
-  /** Dual quadric, 4x4 symmetric: Q* = T diag(a^2, b^2, c^2, -1) T^t, T the 4x4 matrix of the pose.
-   *  A plane pi (4x1) touches the surface when pi^t Q* pi = 0. */
+  /** Dual quadric, 4x4 symmetric: Q* = T diag(a^2, b^2, c^2, -1) T^t, where T is the 4x4 matrix of
+   *  the pose. A plane pi (4x1) touches the surface when pi^t Q* pi = 0: doc/mathematics.md, (1.2)
+   *  and (1.3). */
   Eigen::Matrix4d dualQuadric() const;
 
   /** The same object expressed in another frame. \param T_new_ref Pose of `ref` in that frame. */

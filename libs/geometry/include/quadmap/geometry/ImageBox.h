@@ -2,7 +2,7 @@
 
 namespace quadmap
 {
-/** Axis-aligned box in an image [px]: pixel centres at integers, x to the right, y down. */
+/** Axis-aligned box in an image [px]. Pixel centres are at integers, x points right and y down. */
 struct ImageBox
 {
   double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
@@ -13,10 +13,10 @@ struct ImageBox
   double centerX() const { return 0.5 * (x1 + x2); }
   double centerY() const { return 0.5 * (y1 + y2); }
 
-  /** Finite, with positive width and height. */
+  /** Whether all numbers are finite, and width and height are positive. */
   bool isValid() const;
 
-  /** The part inside the image [0, width-1] x [0, height-1]; not valid when there is none. */
+  /** The part inside the image [0, width-1] x [0, height-1]; it is not valid when there is none. */
   ImageBox clipped(unsigned imageWidth, unsigned imageHeight) const;
 };
 

@@ -6,8 +6,8 @@
 
 namespace quadmap
 {
-/** Pinhole camera without distortion. Its frame `optical`: x right, y down, z forward. fy may be
- * negative (ICL-NUIM): the image is then upside down with respect to that frame's y. */
+/** Pinhole camera without distortion. Its frame is `optical`: x right, y down, z forward. fy may be
+ * negative, as in ICL-NUIM: the image is then upside down in this frame. */
 struct PinholeCamera
 {
   double fx = 0, fy = 0, cx = 0, cy = 0;  //!< [px]
@@ -24,7 +24,7 @@ struct PinholeCamera
   Eigen::Matrix3d matrix() const;  //!< K
 };
 
-/** The optical frame in an MRPT sensor frame (x forward, y left, z up). */
+/** Pose of the optical frame in an MRPT sensor frame (x forward, y left, z up). */
 const mrpt::poses::CPose3D& T_sensor_optical();
 
 }  // namespace quadmap

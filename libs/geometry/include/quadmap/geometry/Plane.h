@@ -6,8 +6,8 @@
 
 namespace quadmap
 {
-/** Plane n.x + d = 0 with unit normal n and d [m]. Where a plane bounds an object, n points towards
- * the object. */
+/** Plane n.x + d = 0 with the unit normal n and the distance d [m]. Where a plane bounds an object,
+ * n points towards the object. */
 struct Plane
 {
   Eigen::Vector3d n = Eigen::Vector3d::UnitZ();

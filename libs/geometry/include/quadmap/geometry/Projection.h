@@ -11,22 +11,24 @@
 
 namespace quadmap
 {
-/** Dual conic C* = K [I|0] Q* [I|0]^t K^t of the outline of an ellipsoid given in `optical`. */
+/** Dual conic C* = K [I|0] Q* [I|0]^t K^t of the outline of an ellipsoid in `optical`:
+ * doc/mathematics.md, (2.1). */
 Eigen::Matrix3d projectDualConic(const PinholeCamera& camera, const Ellipsoid& object_optical);
 
-/** Axis-aligned box of the outline of an ellipsoid, not clipped to the image [px].
- * \return Nothing when the object is not entirely in front of the camera plane (behind it, cut by
- * it, or with the camera inside). */
+/** Axis-aligned box of the outline of an ellipsoid, not clipped to the image [px]:
+ * doc/mathematics.md, (2.2).
+ * \return Nothing when the object is not entirely in front of the camera plane, because it is
+ * behind it, is cut by it, or has the camera inside. */
 std::optional<ImageBox> projectEllipsoidBox(
     const PinholeCamera& camera, const Ellipsoid& object_optical);
 
-/** Axis-aligned box of the projected circumscribed cuboid: of its part at least `nearPlane` [m]
- * in front of the camera, not clipped to the image [px].
- * \return Nothing when no part of it is. */
+/** Axis-aligned box of the projected circumscribed cuboid, not clipped to the image [px]. Only the
+ * part of the cuboid counts that is at least `nearPlane` [m] in front of the camera.
+ * \return Nothing when no part of the cuboid is. */
 std::optional<ImageBox> projectCuboidBox(
     const PinholeCamera& camera, const Ellipsoid& object_optical, double nearPlane = 0.05);
 
-/** Edges of an image box, in the order used everywhere. */
+/** Edges of an image box, in the order in which arrays of edges have them. */
 enum class BoxEdge
 {
   Left = 0,
@@ -35,11 +37,11 @@ enum class BoxEdge
   Bottom
 };
 
-/** The plane through the camera centre and one edge of a box, in `optical`, normal towards the
- * inside of the box. Right for negative fy too. */
+/** The plane through the camera centre and one edge of a box, in `optical`, with its normal towards
+ * the inside of the box: doc/mathematics.md, (2.4). It is right for a negative fy too. */
 Plane boxEdgePlane(const PinholeCamera& camera, const ImageBox& box, BoxEdge edge);
 
-/** All four, in the order of BoxEdge. */
+/** The planes of all four edges, in the order of BoxEdge. */
 std::array<Plane, 4> boxEdgePlanes(const PinholeCamera& camera, const ImageBox& box);
 
 }  // namespace quadmap

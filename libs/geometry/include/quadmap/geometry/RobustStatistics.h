@@ -8,7 +8,7 @@ namespace quadmap
  * \exception std::invalid_argument If there is no finite value or p is out of range. */
 double quantile(std::vector<double> values, double p);
 
-/** The p- and the (1 - p)-quantile, p < 0.5. */
+/** The p-quantile and the (1 - p)-quantile, p < 0.5. */
 struct QuantileRange
 {
   double low, high;
@@ -18,10 +18,7 @@ QuantileRange quantileRange(std::vector<double> values, double p);
 
 double median(std::vector<double> values);
 
-/** Standard deviation estimated from the median absolute deviation (times 1.4826). */
+/** Standard deviation estimated as 1.4826 times the median absolute deviation. */
 double madSigma(const std::vector<double>& values);
-
-/** Huber's weight for a normalised residual: 1 inside the threshold, threshold/|r| outside. */
-double huberWeight(double normalisedResidual, double threshold);
 
 }  // namespace quadmap

@@ -4,16 +4,18 @@
 
 namespace quadmap
 {
+/** The smallest rotation between two sets of axes whose names are arbitrary. */
 struct SymmetricRotation
 {
   double angle = 0;            //!< [rad], in [0, pi]
   Eigen::Matrix3d relabeling;  //!< Signed permutation P: R_b * P is the closest to R_a
 };
 
-/** Smallest rotation between two boxes' axes over the 24 proper relabelings of b's axes. */
+/** Smallest rotation between the axes of two cuboids, over the 24 proper relabelings of the axes of
+ * b: doc/mathematics.md, (20.4). */
 SymmetricRotation symmetricRotationDistance(const Eigen::Matrix3d& R_a, const Eigen::Matrix3d& R_b);
 
-/** Smallest |difference| of two yaws that mean the same every `period` [rad]; result in
+/** Smallest absolute difference of two yaws that are equal modulo `period` [rad]. The result is in
  * [0, period/2]. */
 double yawDistance(double yawA, double yawB, double period = M_PI / 2);
 

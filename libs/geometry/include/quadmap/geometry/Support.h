@@ -8,21 +8,22 @@
 
 namespace quadmap
 {
-/** Where |x| is replaced by sqrt(x^2 + k^2) - smooth at zero: k = this * |s|. */
+/** Smoothing of |x| as sqrt(x^2 + k^2): k is this times |s| [-]. */
 constexpr double kSupportSmoothing = 1e-3;
 
-/** Half width of an object along a direction, from the family of doc/mathematics.md
+/** Support function, the half width of an object along a direction: doc/mathematics.md, (3.1) and
+ * (3.2).
  *
- *   h_q(n) = ( sum_i |s_i n_i|^q )^(1/q),   1 <= q <= 2,
+ *   h_q(n) = ( sum_i |s_i n_i|^q )^(1/q),   1 <= q <= 2
  *
- * q = 2 the ellipsoid, q = 1 the circumscribed cuboid. |.| is smoothed near zero so that
+ * q = 2 is the ellipsoid and q = 1 the circumscribed cuboid. |.| is smoothed near zero, so that
  * derivatives exist everywhere.
  * \tparam T double or an automatic-differentiation scalar.
  * \param n_obj Unit direction in the object's frame. \param s Semi-axes [m]. \return [m]. */
 template <typename T>
 T supportFunction(const Eigen::Matrix<T, 3, 1>& n_obj, const Eigen::Matrix<T, 3, 1>& s, double q);
 
-/** h_q with its derivatives. */
+/** The support function with its derivatives: doc/mathematics.md, (3.3) and (3.4). */
 struct SupportWithDerivatives
 {
   double h = 0;         //!< [m]
@@ -33,8 +34,9 @@ SupportWithDerivatives supportWithDerivatives(
     const Eigen::Vector3d& n_obj, const Eigen::Vector3d& s, double q);
 
 /** Signed distance between a plane and the object it should touch, r = (n.t + d) - h_q(n) [m]:
- * positive when there is a gap, negative when the plane cuts. Plane and object in one frame, the
- * plane's normal towards the object (doc/mathematics.md). */
+ * doc/mathematics.md, (3.5). It is positive when there is a gap and negative when the plane cuts
+ * the object. Plane and object are in one frame, and the plane's normal points towards the object.
+ */
 double tangencyResidual(const Plane& plane, const Ellipsoid& object, double q = 2.0);
 
 // ---------------------------------------------------------------------------------------------

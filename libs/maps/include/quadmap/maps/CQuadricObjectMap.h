@@ -2,6 +2,10 @@
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/math/TBoundingBox.h>
+#include <mrpt/math/TPoint3D.h>
+#include <mrpt/math/TPolygon2D.h>
+#include <mrpt/version.h>
 
 #include <map>
 #include <memory>
@@ -10,11 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "quadmap/maps/Association.h"
+#include "quadmap/estimation/Association.h"
+#include "quadmap/estimation/MapObject.h"
 #include "quadmap/maps/FramePairing.h"
-#include "quadmap/maps/MapObject.h"
 #include "quadmap/maps/MapOptions.h"
 #include "quadmap/maps/ObjectEstimator.h"
+#include "quadmap/maps/UncertainPose.h"
 #include "quadmap/maps/WaitingList.h"
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/LabelTable.h"
@@ -26,14 +31,28 @@ namespace quadmap
 {
 using mrpt::maps::CMetricMap;  // the serialization macros need it here
 
+class LabelSource;
+
 /** Objects (ellipsoids with labels) as an MRPT metric map: insert observations, query, draw,
- * localise in it. The map frame is z-up.
+ * localise in it. The map frame is z-up; lengths are in metres and angles in radians.
  *
- * insertObservation() takes CObservationObjects with their measurements, and boxes without
- * measurements together with the CObservation3DRangeScan of the same frame (equal sensor label and
- * time stamp, one after the other in either order; any number of sensors in any order). A scan with
- * pixelLabels whose boxes have not come before it is its own boxes. It returns true when an object
- * was touched.
+ * insertObservation() takes CObservationObjects with their measurements. It also takes boxes
+ * without measurements together with the CObservation3DRangeScan of the same frame: both have an
+ * equal sensor label and time stamp and come one after the other in either order, from any number
+ * of sensors in any order. A scan with pixelLabels whose boxes have not come before it is its own
+ * boxes. insertObservation() returns true when an object was touched.
+ *
+ * computeObservationLikelihood() takes CObservationObjects. Boxes without measurements are measured
+ * with the scan of their frame if that was inserted and waits for them, which takes as long as
+ * inserting them does; else their edges say what they can. Boxes that perception rejected take no
+ * part. canComputeObservationLikelihood() is false when no box says anything. Unmeasured boxes
+ * without a usable calibration are a std::runtime_error, those that do not fit their scan a
+ * std::invalid_argument.
+ *
+ * Pointers to objects: they stay valid while the object is in the map, and show its latest
+ * estimate. An object leaves the map by remove(), by merge() as the absorbed one, by a merging of
+ * insertObservation() or consolidate(), by clear(), by loading or assigning, and with the map. So
+ * copy what you need before you change the map, or find() the id again afterwards.
  *
  * Threads: const methods may run concurrently; anything that changes the map needs the caller's
  * lock. */
@@ -42,8 +61,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   DEFINE_SERIALIZABLE(CQuadricObjectMap, quadmap)
 
  public:
-  /** An empty map with the installed label table.
-   *  \exception std::runtime_error If the table cannot be read. */
+  /** An empty map. It reads nothing from disk: the installed label table is read when it is first
+   *  needed, unless setLabels() gave one before. */
   CQuadricObjectMap();
 
   using TInsertionOptions = InsertionOptions;
@@ -55,70 +74,152 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   /** For boxes without measurements, inserted together with the range scan of their frame. */
   PerceptionOptions perceptionOptions;
 
-  const LabelTable& labels() const { return *labels_; }
-  /** For the observations inserted from now on. */
+  // Labels -----------------------------------------------------------------------------------
+  /** The label table in use. The reference is valid until setLabels(), until another map is loaded
+   *  or assigned, and as long as the map lives.
+   *  \exception std::runtime_error If no table was given and the installed one cannot be read. All
+   *  methods that look at labels throw it, too. */
+  const LabelTable& labels() const;
+
+  /** Gives the table for the observations inserted from now on; objects keep their labels. */
   void setLabels(LabelTable labels);
 
   /** Labels of inserted boxes and pixels that the table does not know. Such boxes were used with
    *  neutral properties, such pixels were not. Not stored with the map. */
   const std::set<std::string>& unknownLabels() const { return unknownLabels_; }
 
-  using Objects = std::map<ObjectId, MapObject>;
-  const Objects& objects() const;                          //!< All, confirmed or not
-  std::vector<const MapObject*> confirmedObjects() const;  //!< Those worth reporting, by id
+  // Insertion --------------------------------------------------------------------------------
+  /** MRPT's way to insert: at a pose that errs by `insertionOptions.poseNoise`, or at the map's
+   * origin without a pose. Exceptions are those of the overload below. */
+  using CMetricMap::insertObservation;
 
-  // Queries over the confirmed objects -------------------------------------------------------
-  const MapObject* find(ObjectId id) const;  //!< Any object; null when there is none
-  std::vector<const MapObject*> withLabel(const std::string& label) const;
-  /** Objects whose centre lies in the axis-aligned region [m]. */
-  std::vector<const MapObject*> inRegion(
-      const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) const;
-  /** The object (of a label, unless empty) whose centre is nearest; null in an empty map. */
-  const MapObject* nearest(const Eigen::Vector3d& p, const std::string& label = {}) const;
-  /** The cuboid's outline on the floor, counter-clockwise (x, y) [m].
-   *  \exception std::out_of_range If there is no such object. */
-  std::vector<Eigen::Vector2d> footprint(ObjectId id) const;
+  /** Inserts an observation at a pose with an uncertainty of its own, given as MRPT's
+   * CPose3DPDFGaussian or as {pose, standard deviations}. `insertionOptions.poseNoise` comes on
+   * top of it.
+   * \param robotPose T_map_robot; the observation knows its sensor's pose on the robot.
+   * \return True when an object of the map was touched. False when nothing could be used, when the
+   * partner of the frame is missing, or when `genericMapParams` turns insertion off.
+   * \exception std::invalid_argument If boxes and scan of one frame have different cameras or
+   * sensor poses; neither is used.
+   * \exception std::runtime_error If a scan has no depth image or no usable calibration. */
+  bool insertObservation(const mrpt::obs::CObservation& obs, const UncertainPose& robotPose);
 
-  // Editing ----------------------------------------------------------------------------------
-  /** Puts in an object that was estimated elsewhere. It is as one of an archive: further
-   * observations join it, and the map's options say whether it is confirmed.
-   * \param estimated Its `id` and `confirmed` are not looked at.
-   * \return Its id here. \exception std::invalid_argument If the object is not upright, the
-   * covariance not positive definite, or nothing was observed. */
-  ObjectId addObject(const MapObject& estimated);
-  void merge(ObjectId kept, ObjectId absorbed);         //!< \exception std::out_of_range
-  void relabel(ObjectId id, const std::string& label);  //!< \exception std::out_of_range
-  void remove(ObjectId id);                             //!< \exception std::out_of_range
-
-  /** Settles the map after a batch of insertions: re-estimates all objects (while it grows, those
-   * with many measurements wait for some more; `estimateGrowth`), merges overlapping compatible
-   * ones, decides which are confirmed. Cheap to repeat. */
+  /** Settles the map after a batch of insertions: it estimates all objects anew (while the map
+   * grows, those with many measurements wait for some more; `estimateGrowth`), merges overlapping
+   * compatible ones, and decides which are confirmed. Cheap to repeat. */
   void consolidate();
+
+  /** How a box of an observation was assigned. */
+  struct Decision
+  {
+    std::size_t box = 0;             //!< Index in CObservationObjects::objects
+    std::optional<ObjectId> object;  //!< Nothing: the measurement was not used
+    bool startedObject = false;      //!< The box made a new object
+    double logPosterior = 0;         //!< Of the decision [nat]
+    double logPosteriorSecond = 0;   //!< Of the second best one [nat]
+  };
+
+  /** The decisions for the last inserted observation; empty while it waits for its partner. The
+   *  reference is valid as long as the map lives, its content until the next insertion. */
+  const std::vector<Decision>& lastDecisions() const;
+
+  /** What insertion at a pose would decide, without inserting anything: boxes without measurements
+   * take no part. The pose errs as for insertObservation(). */
+  std::vector<Decision> match(const CObservationObjects& obs, const UncertainPose& robotPose) const;
+  std::vector<Decision> match(
+      const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
+
+  // Queries ----------------------------------------------------------------------------------
+  /** An object of this map, with the measurements behind it, which only the map itself reaches. */
+  class Entry : public MapObject
+  {
+    friend class CQuadricObjectMap;
+    ObjectEstimator estimator;
+    unsigned estimatedFrom = 0;  // number of measurements of the latest estimate
+  };
+  using Objects = std::map<ObjectId, Entry>;
+
+  /** All objects by id, confirmed or not. The reference is valid as long as the map lives. */
+  const Objects& objects() const;
+  /** The objects worth reporting, by id. For the pointers see the class. */
+  std::vector<const MapObject*> confirmedObjects() const;
+
+  /** The object with this id, confirmed or not; null when there is none. For the pointer see the
+   *  class. */
+  const MapObject* find(ObjectId id) const;
+
+  /** The confirmed objects of a label in any of its spellings, by id. */
+  std::vector<const MapObject*> withLabel(const std::string& label) const;
+
+  /** The confirmed objects whose centre lies in the axis-aligned region or on its border, by id.
+   *  \param region In the map frame [m]. */
+  std::vector<const MapObject*> inRegion(const mrpt::math::TBoundingBox& region) const;
+
+  /** The confirmed object whose centre is nearest to a place; null when there is none.
+   *  \param p In the map frame [m].
+   *  \param label Only objects of this label are looked at, unless it is empty. */
+  const MapObject* nearest(const mrpt::math::TPoint3D& p, const std::string& label = {}) const;
+
+  /** The outline of an object's cuboid on the floor, counter-clockwise from above.
+   *  \return Four corners (x, y) in the map frame [m].
+   *  \exception std::out_of_range If there is no such object. */
+  mrpt::math::TPolygon2D footprint(ObjectId id) const;
+
+  /** The smallest axis-aligned box in the map frame that holds the cuboids of all confirmed objects
+   * [m]; from the origin to the origin when there is none. */
+#if MRPT_VERSION >= 0x020b03
+  mrpt::math::TBoundingBoxf boundingBox() const override;
+#else
+  mrpt::math::TBoundingBoxf boundingBox() const;
+#endif
 
   /** The confirmed objects in the form of objects.json. */
   std::vector<ObjectRecord> toRecords() const;
 
-  /** How the boxes of the last inserted observation were assigned (for reports). */
-  struct Decision
-  {
-    std::size_t box = 0;
-    std::optional<ObjectId> object;  //!< Nothing: the measurement was not used
-    bool startedObject = false;
-    double logPosterior = 0, logPosteriorSecond = 0;
-  };
-  const std::vector<Decision>& lastDecisions() const;
+  // Editing ----------------------------------------------------------------------------------
+  /** Puts in an object that was estimated elsewhere. It is as one of an archive: further
+   * observations join it, and the map's options say whether it is confirmed.
+   * \param estimated In the map frame. Its `id` and `confirmed` are not looked at.
+   * \return Its id here.
+   * \exception std::invalid_argument If the object is not upright, the covariance not positive
+   * definite, or nothing was observed. */
+  ObjectId addObject(const MapObject& estimated);
 
-  /** What insertion at a pose would decide, without inserting anything: boxes without measurements
-   * take no part. */
-  std::vector<Decision> match(
-      const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
+  /** Makes one object of two: `kept` takes over the measurements of `absorbed`, which leaves the
+   *  map. \exception std::out_of_range If one of them is not there, or both are the same. */
+  void merge(ObjectId kept, ObjectId absorbed);
+
+  /** Makes all measurements of an object say this label, in its canonical spelling.
+   *  \exception std::out_of_range If there is no such object. */
+  void relabel(ObjectId id, const std::string& label);
+
+  /** Takes an object out. \exception std::out_of_range If there is no such object. */
+  void remove(ObjectId id);
+
+  // Files ------------------------------------------------------------------------------------
+  /** Writes the map with its options and its label table as a .quadmap file (doc/formats.md),
+   * complete or not at all. Scans and boxes that wait for something are not kept.
+   * \exception std::runtime_error One line that names the file. */
+  void saveToFile(const std::string& file) const;
+
+  /** Makes this the map of a .quadmap file, of archive version 0 or 1. A file of version 0 has no
+   * label table: the table of this map stays.
+   * \exception std::runtime_error One line that names the file: it cannot be read, holds something
+   * else, is truncated, damaged or of a newer version. The map then is as it was. */
+  void loadFromFile(const std::string& file);
 
   // CMetricMap -------------------------------------------------------------------------------
-  bool isEmpty() const override;
+  bool isEmpty() const override;  //!< No object is in the map, confirmed or not
+  /** For people: one line for the map and one for each confirmed object. */
   std::string asString() const override;
+
+  /** Adds what `renderOptions` ask for, in the map frame. */
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
-  /** Writes PREFIX.json (the objects), PREFIX.3Dscene and PREFIX.txt. */
+
+  /** Writes PREFIX.json (the objects), PREFIX.3Dscene and PREFIX.txt.
+   *  \exception std::runtime_error Names the file that cannot be written. */
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
+
   /** Pairs each confirmed object of another CQuadricObjectMap with the nearest one here whose label
    *  is compatible. \exception std::invalid_argument If the other map is of another class. */
   void determineMatching3D(
@@ -127,6 +228,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
       mrpt::tfest::TMatchingPairList& correspondences,
       const mrpt::maps::TMatchingParams& params,
       mrpt::maps::TMatchingExtraResults& extraResults) const override;
+
   /** Share of the other map's confirmed objects that have a partner here; 0 for other classes. */
   float compute3DMatchingRatio(
       const mrpt::maps::CMetricMap* otherMap,
@@ -137,8 +239,6 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   struct Frame;  // one observation while it is inserted
 
   Objects objects_;
-  std::map<ObjectId, ObjectEstimator> estimators_;  // the measurements behind objects_
-  std::map<ObjectId, unsigned> estimatedFrom_;      // how many the latest estimates are from
   ObjectId nextId_ = 1;
   WaitingList waiting_;
   FramePairing pairing_;
@@ -146,7 +246,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
   std::set<std::string> unknownLabels_;
-  std::shared_ptr<const LabelTable> labels_;
+  std::shared_ptr<const LabelSource> labels_;  // copies of a map share it
 
   void internal_clear() override;
   bool internal_insertObservation(
@@ -156,21 +256,27 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
       const mrpt::obs::CObservation& obs, const mrpt::poses::CPose3D& takenFrom) const override;
   bool internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& obs) const override;
 
+  bool insertAt(const mrpt::obs::CObservation& obs, const UncertainPose& robotPose);
   bool insertFrame(FramePairing::Frame frame);
-  bool insertObjects(const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose);
-  Frame frameOf(const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
+  bool insertObjects(const CObservationObjects& obs, const UncertainPose& robotPose);
+  Frame frameOf(const CObservationObjects& obs, const UncertainPose& robotPose) const;
+  CObservationObjects measured(
+      const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot) const;
+  double viewLikelihood(
+      const ObjectView& view, bool hasSeed, const mrpt::poses::CPose3D& T_map_sensor) const;
   void associate(Frame& frame) const;
+  double associationLikelihood(const Frame& frame, std::size_t view, const MapObject& object) const;
   void joinOrStart(const Frame& frame, std::set<ObjectId>& touched);
+  ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
+  void addView(Entry& object, const WaitingList::Entry& entry);
   void countMisses(const Frame& frame, const std::set<ObjectId>& touched);
   /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
   bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;
-  ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
-  void addView(MapObject& object, const WaitingList::Entry& entry);
   void mergeOverlapping(std::set<ObjectId> touched);
-  void estimate(MapObject& object, bool restart);
-  bool isDue(const MapObject& object) const;  // for another estimate
+  void estimate(Entry& object, bool restart);
+  bool isDue(const Entry& object) const;  // for another estimate
   bool isConfirmed(const MapObject& object) const;
-  MapObject& require(ObjectId id);
+  Entry& require(ObjectId id);
 
   MAP_DEFINITION_START(CQuadricObjectMap)
   quadmap::CQuadricObjectMap::TInsertionOptions insertionOpts;

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <mrpt/config/CLoadableOptions.h>
-
-#include "quadmap/maps/Association.h"
+#include "quadmap/base/OptionGroup.h"
+#include "quadmap/estimation/Association.h"
+#include "quadmap/estimation/ObjectRules.h"
+#include "quadmap/estimation/ObjectView.h"
+#include "quadmap/estimation/Visibility.h"
 #include "quadmap/maps/ObjectEstimator.h"
-#include "quadmap/maps/ObjectRules.h"
-#include "quadmap/maps/ObjectView.h"
-#include "quadmap/maps/Visibility.h"
 #include "quadmap/maps/WaitingList.h"
 
 namespace quadmap
 {
 /** How observations become objects. INI section `<prefix>_insertOpts`; keys in MapOptions.cpp. */
-struct InsertionOptions : public mrpt::config::CLoadableOptions
+struct InsertionOptions : public OptionGroup
 {
   AssociationParameters association;
   AgreementOptions agreement;
@@ -26,16 +25,12 @@ struct InsertionOptions : public mrpt::config::CLoadableOptions
   bool useInstanceIds = false;  //!< Believe DetectedObject::instanceId instead of associating
   double minScore = 0;          //!< Boxes the detector is less sure of are ignored, in [0, 1]
 
-  /** \exception std::invalid_argument On unknown keys and values out of bounds. */
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& source, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& target, const std::string& section) const override;
-  void dumpToTextStream(std::ostream& out) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
 /** Log-likelihood of an observation from a pose. INI section `<prefix>_likelihoodOpts`. */
-struct LikelihoodOptions : public mrpt::config::CLoadableOptions
+struct LikelihoodOptions : public OptionGroup
 {
   double positionSigma = 0.15;  //!< Of a measured centre, beyond the measurement's own [m], > 0
   double yawSigma = 0.15;       //!< Of a measured yaw, beyond the measurement's own [rad], > 0
@@ -43,15 +38,12 @@ struct LikelihoodOptions : public mrpt::config::CLoadableOptions
   double outlierShare = 0.1;    //!< Boxes that show nothing of the map, in (0, 1)
   bool onlyConfirmed = true;    //!< Compare with confirmed objects only
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& source, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& target, const std::string& section) const override;
-  void dumpToTextStream(std::ostream& out) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
 /** What getVisualizationInto() draws. INI section `<prefix>_renderOpts`. */
-struct RenderOptions : public mrpt::config::CLoadableOptions
+struct RenderOptions : public OptionGroup
 {
   bool cuboids = true;       //!< Wire frame of the circumscribed cuboid
   bool ellipsoids = true;    //!< Transparent solid ellipsoid
@@ -60,11 +52,8 @@ struct RenderOptions : public mrpt::config::CLoadableOptions
   double textHeight = 0.08;  //!< Of the labels [m], > 0
   double opacity = 0.35;     //!< Of the ellipsoids, in [0, 1]
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& source, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& target, const std::string& section) const override;
-  void dumpToTextStream(std::ostream& out) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
 }  // namespace quadmap

@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "quadmap/maps/ObjectView.h"
+#include "quadmap/estimation/ObjectView.h"
 #include "quadmap/obs/LabelTable.h"
 
 namespace quadmap

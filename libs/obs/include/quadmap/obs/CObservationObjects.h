@@ -12,8 +12,8 @@
 
 namespace quadmap
 {
-/** Depth of the frame on a coarse grid over the image, for visibility tests without the image:
- * depth [m] of each cell (a median), 0 where nothing was measured. Row major. */
+/** Depth of the frame on a coarse grid over the image, for tests of visibility without the image.
+ * Each cell has the median of its depths [m], or 0 where nothing was measured. Row major. */
 struct CoarseDepth
 {
   unsigned columns = 0, rows = 0;
@@ -22,17 +22,17 @@ struct CoarseDepth
   bool empty() const { return depth.empty(); }
 };
 
-/** The objects a detector saw in one image, with the measurements perception made of them.
- * Belongs to the range scan with the same sensorLabel and time stamp. */
+/** The objects that a detector saw in one image, with the measurements that perception made of
+ * them. It belongs to the range scan with the same sensorLabel and time stamp. */
 class CObservationObjects : public mrpt::obs::CObservation
 {
   DEFINE_SERIALIZABLE(CObservationObjects, quadmap)
 
  public:
-  mrpt::img::TCamera cameraParams;  //!< Of the image the boxes live in
+  mrpt::img::TCamera cameraParams;  //!< Calibration of the image that the boxes are in
   mrpt::poses::CPose3D sensorPose;  //!< T_robot_sensor; sensor frame x forward, y left, z up
   std::vector<DetectedObject> objects;
-  CoarseDepth coarseDepth;  //!< Empty when no depth was looked at
+  CoarseDepth coarseDepth;  //!< Empty when no depth image was used
 
   void getSensorPose(mrpt::poses::CPose3D& out) const override { out = sensorPose; }
   void setSensorPose(const mrpt::poses::CPose3D& p) override { sensorPose = p; }

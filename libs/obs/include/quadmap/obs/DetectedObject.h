@@ -25,14 +25,14 @@ struct ObjectMask
   }
 };
 
-/** One box of a detector, and what perception made of it. */
+/** One box of a detector, and the measurement that perception made of it. */
 struct DetectedObject
 {
   std::string label;  //!< As the detector spelled it
   double score = 1;   //!< In [0, 1]
   ImageBox box;
   std::optional<ObjectMask> mask;
-  std::optional<std::uint32_t> instanceId;  //!< When the input already knows which object it is
+  std::optional<std::uint32_t> instanceId;  //!< Set when the input already knows which object it is
   ObjectMeasurement measurement;
 };
 

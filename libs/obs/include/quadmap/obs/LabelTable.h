@@ -9,10 +9,14 @@ namespace mrpt::config
 {
 class CConfigFile;
 }
+namespace mrpt::serialization
+{
+class CArchive;
+}
 
 namespace quadmap
 {
-/** Where objects of a class usually are. */
+/** What objects of a label usually stand on or hang on. */
 enum class UsualSupport
 {
   Floor,
@@ -21,33 +25,33 @@ enum class UsualSupport
   Any
 };
 
-/** What is known about a class of objects before seeing one. */
+/** What is known about the objects of a label before one is seen. */
 struct LabelProperties
 {
   std::string name;               //!< Canonical spelling (COCO's)
-  double shapeExponent = 1.5;     //!< q of h_q: 1 cuboid ... 2 ellipsoid
-  bool dominantDirection = true;  //!< False: round or shapeless, its yaw means nothing
-  /** Tables, cabinets: its top is a level surface, and what is above stands on it. */
+  double shapeExponent = 1.5;     //!< q of the support function: 1 cuboid ... 2 ellipsoid
+  bool dominantDirection = true;  //!< False when the yaw means nothing, as of cups
+  /** The top is a horizontal surface, and what is above it stands on it, as on tables. */
   bool levelTop = false;
   UsualSupport support = UsualSupport::Any;
   Eigen::Vector3d typicalSize = Eigen::Vector3d(0.5, 0.5, 0.5);  //!< Full sizes (x, y, z up) [m]
   double sizeSpread = 1.0;                //!< Standard deviation of the logarithm of a size [-]
-  std::vector<std::string> confusedWith;  //!< Canonical names a detector mistakes it for
-  bool known = false;                     //!< False: not in the table, the values above are neutral
+  std::vector<std::string> confusedWith;  //!< Canonical names that a detector mistakes it for
+  bool known = false;                     //!< False when the table has no such label
 };
 
-/** The classes of a detector, under all their usual spellings. Read from an INI file: one section
- * per class; the file in share/quadmap documents the keys. */
+/** The labels of a detector, under all their usual spellings. They are read from an INI file with
+ * one section per label. The file in share/quadmap documents the keys. */
 class LabelTable
 {
  public:
-  LabelTable() = default;  //!< No class is known
+  LabelTable() = default;  //!< A table that knows no label
 
   /** \exception std::runtime_error If the file cannot be read or a value is out of range; the
    *  message names file, section and key. */
   static LabelTable fromFile(const std::string& path);
 
-  /** The table installed with the library (see findShareFile). */
+  /** The table installed with the library (see findShareFile in quadmap/base/ShareFiles.h). */
   static LabelTable installed();
 
   /** Canonical name of a spelling. Case, blanks, '_', '-' and an instance number at the end
@@ -57,11 +61,17 @@ class LabelTable
   /** Neutral properties (known = false) for labels that are not in the table. */
   LabelProperties properties(const std::string& label) const;
 
-  /** Can a detector take one for the other? True for equal labels, and for pairs of which either
-   *  entry lists the other as confused. */
+  /** Whether a detector may take one label for the other. It is true for equal labels, and for
+   * pairs of which one lists the other in `confusedWith`. */
   bool compatible(const std::string& a, const std::string& b) const;
 
   const std::map<std::string, LabelProperties>& all() const { return byName_; }
+
+  /** Writes all classes and spellings to a stream, for readFrom(). */
+  void writeTo(mrpt::serialization::CArchive& out) const;
+
+  /** \exception std::runtime_error If the stream ends early or holds no table. */
+  static LabelTable readFrom(mrpt::serialization::CArchive& in);
 
  private:
   explicit LabelTable(const mrpt::config::CConfigFile& config);
@@ -70,10 +80,5 @@ class LabelTable
   std::map<std::string, LabelProperties> byName_;
   std::map<std::string, std::string> canonicalByKey_;
 };
-
-/** Full path of a data file of the project ("labels.ini", "scenes/home.ini"): looked up in
- * $QUADMAP_SHARE_DIR, then ../share/quadmap beside the library, then the source tree.
- * \exception std::runtime_error If there is no such file; names the places tried. */
-std::string findShareFile(const std::string& name);
 
 }  // namespace quadmap

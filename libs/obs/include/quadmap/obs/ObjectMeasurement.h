@@ -11,13 +11,13 @@
 
 namespace quadmap
 {
-/** What one cuboid face of a complete measurement is worth in the estimation. */
+/** What one face of a measured cuboid tells the estimation. */
 enum class FaceKind : std::uint8_t
 {
-  Unknown = 0,  //!< Nothing is known about this side
-  Measured,     //!< A surface or a free silhouette edge was seen: an equality
-  Support,      //!< Given by the supporting plane: an equality
-  AtLeast       //!< The far or hidden side: the object is at least this large (an inequality)
+  Unknown = 0,  //!< Nothing is known about this face
+  Measured,     //!< The object ends here: a surface or a free rim was seen (an equality)
+  Support,      //!< The supporting plane gives the face (an equality)
+  AtLeast       //!< Far or hidden face: the object reaches here or farther (an inequality)
 };
 
 struct FaceMeasurement
@@ -29,15 +29,15 @@ struct FaceMeasurement
 /** Faces are numbered +x, -x, +y, -y, +z, -z of the object's frame. */
 constexpr std::size_t kFaces = 6;
 
-/** The object as one depth image shows it (doc/mathematics.md, "Complete observation"). Up (object
- * z) is the normal of the supporting plane. */
+/** The object as one depth image shows it: doc/mathematics.md, section 8. The object's z axis is
+ * the normal of the supporting plane. */
 struct CompleteMeasurement
 {
-  Ellipsoid object_sensor;  //!< In the sensor frame (x forward); cuboid = circumscribed
+  Ellipsoid object_sensor;  //!< In the sensor frame (x forward)
   std::array<FaceMeasurement, kFaces> faces;
-  bool yawDefined = false;  //!< False: no dominant direction, no angle term
+  bool yawDefined = false;  //!< False when the cloud shows no dominant direction
   double yawSigma = 0;      //!< [rad], when yawDefined
-  double yawDominance = 0;  //!< Peak mass / total of the normals' histogram, in [0, 1]
+  double yawDominance = 0;  //!< Share of the histogram of normals in its peak, in [0, 1]
 };
 
 enum class EdgeState : std::uint8_t

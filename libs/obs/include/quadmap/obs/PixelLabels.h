@@ -10,17 +10,17 @@
 
 namespace quadmap
 {
-/** What a scan's pixelLabels say about objects, as boxes with masks and score 1 in its depth image.
+/** Makes boxes of a scan's pixelLabels, with masks, score 1 and the pixels of the depth image.
  *
  * Each connected group of pixels with one label is an object. A name with a number at its end
- * ("chair_2") is one object however many parts are visible, and gives it an instanceId, equal for
- * equal names. A pixel may have several labels. Labels of another size than the depth image are
- * scaled to it.
- * \param labels The classes that count; walls, floors and whatever else is not in the table are no
+ * ("chair_2") is one object, however many parts of it are visible. It gets an instanceId, which is
+ * equal for equal names. A pixel may have several labels. Labels in another resolution than the
+ * depth image are scaled to it.
+ * \param labels The labels that count. Walls, floors and all else that the table lacks are no
  * objects.
  * \param minPixels Groups of fewer pixels of the depth image are ignored.
- * \param unknown Takes the names that pixels have and the table does not, without their numbers.
- * \return Null when the scan has no pixelLabels; without objects when none is known.
+ * \param unknown Receives the names that the table lacks, without their numbers.
+ * \return Null when the scan has no pixelLabels; boxes without objects when no label is known.
  * \exception std::runtime_error If the labels' image has other proportions than the depth image. */
 CObservationObjects::Ptr boxesFromPixelLabels(
     const mrpt::obs::CObservation3DRangeScan& scan,

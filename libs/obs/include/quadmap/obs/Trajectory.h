@@ -8,28 +8,29 @@
 
 namespace quadmap
 {
+/** A pose and its time. */
 struct StampedPose
 {
   double time = 0;            //!< [s], usually since 1970
-  mrpt::poses::CPose3D pose;  //!< T_world_body; which body, the owner of the file says
+  mrpt::poses::CPose3D pose;  //!< T_world_body; the owner of the file says which body
 };
 
 using Trajectory = std::vector<StampedPose>;
 
-/** Reads `time tx ty tz qx qy qz qw` lines (TUM RGB-D; '#' starts a comment), in the file's order.
- * Quaternions are normalised.
- * \exception std::runtime_error For an unreadable file, a wrong number of columns, something that
- * is not a finite number, a zero quaternion; names file and line. */
+/** Reads lines of `time tx ty tz qx qy qz qw` in the order of the file (the format of TUM RGB-D;
+ * '#' starts a comment). Quaternions are normalised. \exception std::runtime_error For a file that
+ * cannot be read, a wrong number of columns, a value that is no finite number, or a zero
+ * quaternion. The message names file and line. */
 Trajectory readTumTrajectory(const std::string& path);
 
-/** Time with microseconds, the rest with nine decimals. Written to a temporary name and renamed
- * when complete. \exception std::runtime_error */
+/** Writes times with microseconds and everything else with nine decimals. The file has a temporary
+ * name until it is complete. \exception std::runtime_error If it cannot be written. */
 void writeTumTrajectory(const std::string& path, const Trajectory& trajectory);
 
-/** The pose at a time between two samples: linear in position, slerp in rotation.
+/** The pose at a time between two samples. Positions are interpolated linearly, rotations by slerp.
  * \param trajectory Sorted by time.
- * \param maxGap The two samples are at most this far apart [s].
- * \return Nothing before the first and after the last sample, and in longer gaps. */
+ * \param maxGap Longest time between the two samples [s].
+ * \return Nothing before the first sample, after the last one, and in longer gaps. */
 std::optional<mrpt::poses::CPose3D> poseAt(
     const Trajectory& trajectory, double time, double maxGap);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt/config/CLoadableOptions.h>
+#include "quadmap/base/OptionGroup.h"
 
 namespace quadmap
 {
@@ -13,7 +13,7 @@ enum class ObservationModels
 };
 
 /** How one frame becomes measurements. Section [perception] of the configuration. */
-struct PerceptionOptions : public mrpt::config::CLoadableOptions
+struct PerceptionOptions : public OptionGroup
 {
   double minRange = 0.3;  //!< Nearer depth is not trusted [m], > 0
   double maxRange = 6.0;  //!< Farther depth is too noisy for shapes [m], > minRange
@@ -61,11 +61,6 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
   double edgeSigma = 1.7;
   double edgeSigmaShare = 0.013;
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
-
   /** Options in pixels are meant for images 640 px wide, and grow with the image [px]. */
   static double scaledPixels(double pixels, unsigned imageWidth)
   {
@@ -94,6 +89,9 @@ struct PerceptionOptions : public mrpt::config::CLoadableOptions
     const double far = z > 0.4 ? z - 0.4 : 0.0;
     return depthSigmaFloor + depthSigmaGrowth * far * far;
   }
+
+ private:
+  void describe(OptionList& list) override;
 };
 
 }  // namespace quadmap

@@ -44,7 +44,7 @@ class RoomPlanes
     int hits = 0;
     std::uint32_t lastSeen = 0;  // number of the frame
   };
-  struct Track
+  struct RoomSurface
   {
     SurfaceKind kind = SurfaceKind::Horizontal;
     Plane plane;          // in the map
@@ -65,13 +65,13 @@ class RoomPlanes
   void fuse(const SurfacePatch& patch_map, double tolerance, std::vector<bool>& taken);
   void takeBack(const FrameSurfaces& frame, const mrpt::poses::CPose3D& T_map_sensor);
   void forget();
-  static bool isNear(const Track& track, const SurfacePatch& patch_map);
-  static bool isConfirmed(const Track& track);
-  static Cell cellOf(const Track& track, const Eigen::Vector3d& p_map);
-  static Eigen::Vector3f pointOf(const Track& track, const Cell& cell);
+  static bool isNear(const RoomSurface& surface, const SurfacePatch& patch_map);
+  static bool isConfirmed(const RoomSurface& surface);
+  static Cell cellOf(const RoomSurface& surface, const Eigen::Vector3d& p_map);
+  static Eigen::Vector3f pointOf(const RoomSurface& surface, const Cell& cell);
 
   std::uint32_t frame_ = 0;
-  std::vector<Track> tracks_;
+  std::vector<RoomSurface> roomSurfaces_;
   std::deque<FloorVote> floorVotes_;
   double sensorHeight_ = 0;  // of the latest frame [m]
 };

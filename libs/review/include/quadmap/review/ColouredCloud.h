@@ -11,7 +11,7 @@
 
 namespace quadmap
 {
-/** What a camera saw at one place. */
+/** A coloured point of a surface. */
 struct CloudPoint
 {
   Eigen::Vector3f position;  //!< In the map [m]
@@ -20,34 +20,35 @@ struct CloudPoint
 };
 using Cloud = std::vector<CloudPoint>;
 
-/** Thins out the points of many RGB-D frames: one point, the mean, per cubic cell. Memory is
- * bounded: cells grow when there are too many of them. */
+/** Collects the points of many RGB-D frames and thins them out: each cubic cell keeps one point,
+ * the mean of its points. Memory is bounded, because cells grow when there are too many of them. */
 class CloudCollector
 {
  public:
-  /** \param cellSize Edge of a cell [m], > 0. \param maxPoints Most points kept, > 0. */
+  /** \param cellSize Edge of a cell [m], > 0. \param maxPoints Largest number of points to keep, >
+   * 0. */
   CloudCollector(double cellSize, std::size_t maxPoints);
 
   /** Which points of a frame are used. */
   struct Selection
   {
-    double maxRange = 4.5;  //!< Depth beyond this is left out [m], > 0
+    double maxRange = 4.5;  //!< Depth beyond this is ignored [m], > 0
     int stride = 1;         //!< Every n-th row and column of pixels, > 0
   };
 
-  /** Adds a frame whose robot stood at `T_map_robot`. The scan's images must be loaded; its
-   *  points are computed and freed again. */
+  /** Adds a frame that was taken from the robot's pose `T_map_robot`. The scan's images must be
+   *  loaded. Its points are computed, and freed again. */
   void add(
       mrpt::obs::CObservation3DRangeScan& scan,
       const mrpt::poses::CPose3D& T_map_robot,
       const Selection& selection);
 
-  /** Grows the cells until they were hit several times on average, so that surfaces look closed.
-   *  \param largest Cells do not get larger than this [m]. */
+  /** Grows the cells until they have several points on average, so that surfaces look closed.
+   *  \param largest Largest size of a cell [m]. */
   void closeGaps(double largest);
 
   Cloud points() const;
-  double cellSize() const { return cellSize_; }  //!< Now [m]
+  double cellSize() const { return cellSize_; }  //!< Present size of a cell [m]
 
  private:
   struct Cell

@@ -6,8 +6,9 @@
 
 namespace quadmap
 {
-/** Writes a binary PLY: the ellipsoids as triangles in the colours of their labels, and the cloud's
- * points. Complete or not at all. \exception std::runtime_error */
+/** Writes a binary PLY file with the points of the cloud, and with the ellipsoids as triangles in
+ * the colours of their labels. The file appears complete or not at all. \exception
+ * std::runtime_error If it cannot be written. */
 void writePly(const SceneContent& content, const std::string& path);
 
 }  // namespace quadmap

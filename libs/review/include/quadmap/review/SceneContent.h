@@ -17,23 +17,24 @@ struct CameraPose
   double horizontalFov = 1.0, verticalFov = 0.8;  //!< Full opening angles [rad]
 };
 
-/** What a scene or a picture of a map can show; whatever is empty is left out. Map frame, z-up. */
+/** What a scene or a picture of a map shows, in the frame of the map, which is z-up. Empty parts
+ * are left out. */
 struct SceneContent
 {
   std::vector<ObjectRecord> objects;
   std::vector<ObjectRecord> truth;
-  std::vector<mrpt::poses::CPose3D> trajectory;  //!< Corrected, in order of time
-  std::vector<mrpt::poses::CPose3D> odometry;    //!< Not corrected, in order of time
+  std::vector<mrpt::poses::CPose3D> trajectory;  //!< Corrected poses in the order of time
+  std::vector<mrpt::poses::CPose3D> odometry;    //!< Poses of the odometry in the order of time
   std::vector<CameraPose> cameras;
   Cloud cloud;
   double cloudCellSize = 0.015;  //!< Distance of neighbouring points of the cloud [m]
 
-  /** Height of the floor, guessed from the lowest objects, else from the cloud, else from the
-   *  trajectory [m]. */
+  /** Height of the floor [m]. It is guessed from the lowest objects or, without objects, from the
+   *  cloud or, without a cloud, from the trajectory. */
   double floorHeight() const;
 
-  /** Points that a picture must show: corners of the objects, the trajectories, the cameras; those
-   *  of the cloud when there is nothing else. Empty in an empty scene. */
+  /** Points that a picture must show: the corners of the objects, the trajectories and the cameras,
+   *  or those of the cloud when there is nothing else. It is empty in an empty scene. */
   std::vector<Eigen::Vector3d> extent() const;
 };
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "quadmap/review/ViewPoint.h"
+#include "quadmap/review/RenderCamera.h"
 
 namespace mrpt::opengl
 {
@@ -15,14 +15,14 @@ class CFBORender;
 
 namespace quadmap
 {
-/** Renders scenes without a display (EGL; Mesa's software renderer suffices).
+/** Renders scenes without a display, by EGL (Mesa's software renderer suffices).
  *
- * OpenGL allows one live renderer per thread, and a scene can be rendered by one renderer only:
- * build it again for another. */
+ * OpenGL allows one live renderer per thread. A scene can be rendered by one renderer only, and
+ * must be built again for another. */
 class SceneRenderer
 {
  public:
-  /** Sides of 16...4096 pixels.
+  /** \param size Its sides are 16 to 4096 pixels.
    *  \exception std::invalid_argument For a size out of bounds.
    *  \exception std::runtime_error If there is no OpenGL, or another renderer lives in this
    *  thread. */
@@ -33,15 +33,15 @@ class SceneRenderer
 
   const PictureSize& size() const { return size_; }
 
-  mrpt::img::CImage render(mrpt::opengl::COpenGLScene& scene, const ViewPoint& view);
+  mrpt::img::CImage render(mrpt::opengl::COpenGLScene& scene, const RenderCamera& camera);
 
  private:
   PictureSize size_;
   std::unique_ptr<mrpt::opengl::CFBORender> renderer_;
 };
 
-/** Writes a picture (the name's extension chooses the format), complete or not at all.
- * \exception std::runtime_error */
+/** Writes a picture in the format of the name's extension. The file appears complete or not at all.
+ * \exception std::runtime_error If it cannot be written. */
 void writePicture(const mrpt::img::CImage& picture, const std::string& path);
 
 }  // namespace quadmap

@@ -7,9 +7,10 @@
 
 namespace quadmap
 {
-/** Why nobody can use a detector's box: numbers that are not finite, no area, outside the image, a
- * score outside [0, 1]. A box that only reaches over the image's border is usable.
- *  \param width, height Of the image [px]. */
+/** The reason why a detector's box cannot be used, or nothing when it can. The reasons are numbers
+ * that are not finite, no area, a place outside the image, or a score outside [0, 1]. A box that
+ * only reaches over the border of the image can be used.
+ *  \param width, height Size of the image [px]. */
 std::optional<std::string> whyUnusable(
     const ImageBox& box, double score, unsigned width, unsigned height);
 

@@ -16,16 +16,18 @@ namespace quadmap
 /** How a rawlog is read. */
 struct RawlogSourceOptions
 {
-  std::string objectsFile;  //!< Sidecar with the boxes; empty: NAME.objects.rawlog when it exists
-  /** The classes whose pixelLabels become boxes; nothing: pixelLabels are not looked at. */
+  /** The file with the boxes (sidecar). When it is empty, NAME.objects.rawlog is used if it exists.
+   */
+  std::string objectsFile;
+  /** The labels whose pixelLabels become boxes. When it is empty, pixelLabels are ignored. */
   std::optional<LabelTable> pixelLabelClasses;
   int minLabelPixels = 1;       //!< See boxesFromPixelLabels()
-  std::string sensorLabel;      //!< Only this RGB-D sensor; empty: all
-  bool keepGoing = false;       //!< Drop broken records (and count them) instead of throwing
-  double maxBoxDelay = 0.005;   //!< Boxes belong to a scan within this time [s], >= 0
-  double maxOdometryGap = 1.0;  //!< Poses are interpolated over at most this time [s], > 0
-  /** The odometry to use when there is more than one, as RawlogSource::odometryKind() names it;
-   *  empty: the first that appears. */
+  std::string sensorLabel;      //!< The only RGB-D sensor to read; empty for all
+  bool keepGoing = false;       //!< Leave out and note broken records instead of throwing
+  double maxBoxDelay = 0.005;   //!< Most time between a scan and its boxes [s], >= 0
+  double maxOdometryGap = 1.0;  //!< Longest time to interpolate poses over [s], > 0
+  /** The odometry to use when there are several, named as in RawlogSource::odometryKind(). When it
+   *  is empty, the first one that appears is used. */
   std::string odometryKind;
 };
 
@@ -40,15 +42,16 @@ struct InputProblem
   std::string text() const;  //!< "file: record 12 (camera): what"
 };
 
-/** Streams the RGB-D frames of a rawlog, either MRPT format (actions + sensory frames, or
- * observations), .gz or not, paired with boxes and poses; holds only a few frames at a time.
+/** Reads the RGB-D frames of a rawlog one by one, and pairs them with boxes and poses. It reads
+ * both formats of MRPT (actions and sensory frames, or observations), compressed or not, and holds
+ * only a few frames at a time.
  *
- * Boxes come from the sidecar; without one (or with one that has no boxes) from the rawlog itself.
- * A scan that has none there gets those of its pixelLabels, when it has some. Odometry of any kind
- * (CActionRobotMovement2D/3D, CObservationOdometry, CObservationRobotPose) is interpolated at the
- * frame's time; CObservationRobotPose labelled "ground_truth" is the true pose, not odometry. What
- * a CObservationRobotPose states is the robot's pose, as MRPT defines it, wherever its sensor is.
- */
+ * Boxes come from the sidecar, or from the rawlog itself when there is no sidecar or it has no
+ * boxes. A scan without boxes there gets those of its pixelLabels, if it has any. Odometry of any
+ * kind (CActionRobotMovement2D/3D, CObservationOdometry, CObservationRobotPose) is interpolated at
+ * the frame's time. A CObservationRobotPose with the label "ground_truth" is the true pose, not
+ * odometry. A CObservationRobotPose states the pose of the robot, as MRPT defines it, and not that
+ * of its sensor. */
 class RawlogSource : public mrpt::system::COutputLogger
 {
  public:
@@ -57,18 +60,18 @@ class RawlogSource : public mrpt::system::COutputLogger
   ~RawlogSource() override;
 
   /** The next frame in the order of the file, or nothing at the end.
-   *  \exception std::runtime_error On a truncated file, an unknown class, a missing external image,
-   *  and so on: one line with file, record and sensor. With keepGoing such a record becomes a
-   *  problem and, where the file can be read on, reading goes on. */
+   *  \exception std::runtime_error For a truncated file, an unknown class, a missing external image
+   *  and the like. The message is one line with file, record and sensor. With keepGoing such a
+   * record is noted in problems() instead, and reading goes on if the file allows it. */
   std::optional<RgbdFrame> next();
 
-  const std::vector<InputProblem>& problems() const;  //!< What keepGoing dropped so far
+  const std::vector<InputProblem>& problems() const;  //!< What keepGoing left out so far
   double progress() const;                            //!< Share of the file read, in [0, 1]
   std::size_t recordsRead() const;
   std::size_t framesRead() const;
-  bool hasBoxes() const;             //!< Boxes (or pixelLabels, if wanted) were seen somewhere
-  std::string odometryKind() const;  //!< The one used: "CObservationOdometry wheels"; "" at first
-  std::vector<std::string> odometryKinds() const;  //!< All that were seen, used or not
+  bool hasBoxes() const;             //!< There were boxes (or pixelLabels, if wanted)
+  std::string odometryKind() const;  //!< The used one, "CObservationOdometry wheels"; at first ""
+  std::vector<std::string> odometryKinds() const;  //!< All kinds so far, used or not
 
   /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
    */

@@ -14,37 +14,37 @@ namespace quadmap
 /** How a rawlog is written. */
 struct RawlogWriterOptions
 {
-  int gzLevel = 1;        //!< 0 (store) ... 9 (smallest); 1: depth images pack well already
-  int jpegQuality = 95;   //!< 1 ... 100; 95: no visible loss
-  bool external = false;  //!< Images into NAME_Images/ (JPEG and MRPT's .bin), not into the rawlog
+  int compressionLevel = 1;  //!< 0 (none) to 9 (smallest); depth images pack well at 1
+  int jpegQuality = 95;      //!< 1 to 100; 95 has no visible loss
+  bool external = false;     //!< Write images to NAME_Images/ (JPEG and MRPT's .bin) instead
 };
 
-/** Writes a rawlog of stock MRPT classes in observation format, and the boxes into its sidecar
- * (objectsFileOf). The bytes depend on what is written only. Nothing appears under a final name
- * before finish(). */
+/** Writes a rawlog of stock MRPT classes in observation format, and the boxes into its sidecar (see
+ * objectsFileOf()). The same content gives the same bytes. No file has its final name before
+ * finish(). */
 class RawlogWriter
 {
  public:
   /** \exception std::runtime_error If the files cannot be created.
    *  \exception std::invalid_argument For options out of range. */
   RawlogWriter(std::string file, RawlogWriterOptions options);
-  ~RawlogWriter();  //!< Without finish() everything written is removed
+  ~RawlogWriter();  //!< Removes what was written, unless finish() was called
 
-  /** \param scan With external images it keeps references to the files only. */
+  /** Writes a scan. \param scan With external images it only keeps the names of their files. */
   void write(mrpt::obs::CObservation3DRangeScan& scan);
 
-  /** Goes to the sidecar. */
+  /** Writes boxes to the sidecar. */
   void write(const CObservationObjects& boxes);
 
-  /** A pose of the robot (CObservationRobotPose). \param label kOdometryLabel or kGroundTruthLabel
-   */
+  /** Writes a pose of the robot (CObservationRobotPose).
+   *  \param label kOdometryLabel or kGroundTruthLabel. */
   void writePose(
       mrpt::Clock::time_point time,
       const std::string& label,
       const mrpt::poses::CPose3D& T_parent_robot);
 
-  /** Completes all files and gives them their names. An older sidecar of the same name goes when
-   *  there were no boxes. \exception std::runtime_error For a full disk and the like. */
+  /** Completes all files and gives them their names. When there were no boxes, an older sidecar of
+   *  the same name is removed. \exception std::runtime_error For a full disk and the like. */
   void finish();
 
  private:

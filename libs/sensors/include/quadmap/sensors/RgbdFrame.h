@@ -12,17 +12,17 @@
 
 namespace quadmap
 {
-/** One RGB-D image of one sensor with everything the input says about it. */
+/** One RGB-D image of one sensor, with everything that the input says about it. */
 struct RgbdFrame
 {
   std::size_t record = 0;  //!< Index of the scan in its rawlog (0 = first object), for messages
   mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< Loaded; time stamp and sensorLabel inside
-  CObservationObjects::Ptr objects;     //!< Boxes of the same label and time; null: nobody looked
-  bool objectsFromPixelLabels = false;  //!< They were made of the scan's pixelLabels
+  CObservationObjects::Ptr objects;  //!< Boxes of the same label and time; null without a detector
+  bool objectsFromPixelLabels = false;               //!< The boxes were made from pixelLabels
   std::optional<mrpt::poses::CPose3D> T_odom_robot;  //!< From the rawlog's odometry, any kind
-  std::string odometryKind;  //!< Of T_odom_robot: "CObservationOdometry wheels"
-  /** Of T_odom_robot, (x, y, z, yaw, pitch, roll), as far as the odometry says so: zero where it
-   *  does not. What actions say is added up from their first on. */
+  std::string odometryKind;  //!< Source of T_odom_robot, "CObservationOdometry wheels"
+  /** Covariance of T_odom_robot, (x, y, z, yaw, pitch, roll), with zeros where the odometry states
+   *  none. Covariances of actions are added up from the first action on. */
   std::optional<mrpt::math::CMatrixDouble66> odometryCovariance;
   std::optional<mrpt::poses::CPose3D> T_world_robot;  //!< From the "ground_truth" poses
 

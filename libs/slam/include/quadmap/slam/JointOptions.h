@@ -1,12 +1,11 @@
 #pragma once
 
-#include <mrpt/config/CLoadableOptions.h>
-#include <mrpt/core/bits_math.h>
+#include "quadmap/base/OptionGroup.h"
 
 namespace quadmap
 {
 /** How poses and objects are estimated together. Section [joint] of the configuration. */
-struct JointOptions : public mrpt::config::CLoadableOptions
+struct JointOptions : public OptionGroup
 {
   bool correctPoses = true;  //!< False: poses are taken as given, whatever objects say
   int window = 20;           //!< Latest keyframes that are estimated while running, >= 2
@@ -14,18 +13,15 @@ struct JointOptions : public mrpt::config::CLoadableOptions
   double smallMove = 0.002;  //!< The rounds end when no keyframe moved farther [m], > 0
   int maxIterations = 30;    //!< Of one optimisation, >= 1
 
-  double tiltSigma =
-      mrpt::DEG2RAD(1.0);  //!< Of a support's normal [rad]; INI in degrees; 0: unused
+  double tiltSigma = fromDegrees(1.0L);  //!< Of a support's normal [rad]; INI in degrees; 0: unused
   /** How far off the first pose of visual odometry may be in what is up [rad], >= 0; the normals of
    * what objects stand on then correct it instead of bending the trajectory. INI in degrees; 0: it
    * is right. */
-  double upSigma = mrpt::DEG2RAD(2.0);
+  double upSigma = fromDegrees(2.0L);
   double floorSigma = 0.02;  //!< Bottom of things that stand on the floor [m]; 0: unused
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
 }  // namespace quadmap

@@ -1,39 +1,37 @@
 #pragma once
 
-#include <mrpt/config/CLoadableOptions.h>
-#include <mrpt/core/bits_math.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <cstddef>
 #include <map>
 #include <string>
 
+#include "quadmap/base/OptionGroup.h"
+
 namespace quadmap
 {
-/** Which frames are worth a look at their objects. Section [keyframes] of the configuration. */
-struct KeyframeOptions : public mrpt::config::CLoadableOptions
+/** Which frames become keyframes: section [keyframes] of the configuration. */
+struct KeyframeOptions : public OptionGroup
 {
-  int every = 0;                 //!< Every n-th frame of a sensor; 0: by motion, as below
-  double minTranslation = 0.05;  //!< A sensor that moved this far [m] gives a keyframe, >= 0
-  double minRotation = mrpt::DEG2RAD(2.0);  //!< ... or turned this much [rad], >= 0; INI in degrees
-  double maxInterval = 1.0;                 //!< ... or was quiet for this long [s], >= 0
+  int every = 0;                 //!< Every n-th frame of a sensor; 0 to choose by motion
+  double minTranslation = 0.05;  //!< A sensor that moved farther gives a keyframe [m], >= 0
+  double minRotation = fromDegrees(2.0L);  //!< ... or turned more [rad], >= 0; INI in degrees
+  double maxInterval = 1.0;                //!< ... or gave none for longer [s], >= 0
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
-/** Picks keyframes, each sensor for itself. The first frame of a sensor is always one. */
+/** Chooses the keyframes of each sensor by itself. The first frame of a sensor is always one. */
 class KeyframeSelector
 {
  public:
   explicit KeyframeSelector(const KeyframeOptions& options) : options_(options) {}
 
   /** \param sensor Label of the sensor.
-   *  \param time [s].
-   *  \param T_map_sensor Where the sensor was.
-   *  \return True when the frame is a keyframe; the next ones are then compared with it. */
+   *  \param time Time of the frame [s].
+   *  \param T_map_sensor Pose of the sensor at this time.
+   *  \return True when the frame is a keyframe. The next frames are then compared with it. */
   bool isKeyframe(const std::string& sensor, double time, const mrpt::poses::CPose3D& T_map_sensor);
 
  private:

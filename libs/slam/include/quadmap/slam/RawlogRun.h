@@ -15,16 +15,16 @@ namespace quadmap
 struct RawlogRunRequest
 {
   std::string rawlog;
-  std::string outputDirectory;      //!< Made when missing
-  std::string objectsFile;          //!< Boxes; empty: NAME.objects.rawlog or the rawlog itself
-  std::string sensorLabel;          //!< Empty: all RGB-D sensors
+  std::string outputDirectory;      //!< It is made when it does not exist
+  std::string objectsFile;          //!< Boxes; if empty, NAME.objects.rawlog or the rawlog
+  std::string sensorLabel;          //!< The only RGB-D sensor to read; empty for all
   bool keepGoing = false;           //!< Leave out what is broken instead of failing
-  CQuadricObjectMap::ConstPtr map;  //!< To start in and to carry on; null: a new one
-  std::string mapFile;              //!< Its name, for messages
+  CQuadricObjectMap::ConstPtr map;  //!< Map to continue; null for a new one
+  std::string mapFile;              //!< Name of the map's file, for messages
   SlamConfiguration configuration;
-  std::string version;  //!< Of the program, for the report
+  std::string version;  //!< Version of the program, for the report
 
-  /** What is worth telling while it runs: warnings, and each keyframe as LVL_DEBUG. */
+  /** Receives messages while it runs: warnings, and each keyframe as LVL_DEBUG. */
   std::function<void(mrpt::system::VerbosityLevel, const std::string&)> onMessage =
       [](mrpt::system::VerbosityLevel, const std::string&) {};
   std::function<void(double)> onProgress = [](double) {};   //!< Share of the rawlog, in [0, 1]
@@ -35,14 +35,14 @@ struct RawlogRunSummary
 {
   SlamResult result;
   std::vector<std::string> dropped;  //!< What keepGoing left out, one line each
-  std::vector<std::string> files;    //!< Written, with their paths
-  bool interrupted = false;          //!< shouldStop() ended it; the files hold what was done
+  std::vector<std::string> files;    //!< Paths of the files that were written
+  bool interrupted = false;          //!< shouldStop() ended it; the files have what was done
 };
 
-/** Streams a rawlog through ObjectSlam and writes all files of the output directory.
- * \exception std::invalid_argument If a map is to be carried on by a method that cannot.
- * \exception std::runtime_error With one line that names file, record and sensor where known. No
- * file is then left behind. */
+/** Runs ObjectSlam on a rawlog and writes all files of the output directory.
+ * \exception std::invalid_argument If the method cannot continue a map.
+ * \exception std::runtime_error For a broken input. The message is one line that names file, record
+ * and sensor where they are known. No file is then left behind. */
 RawlogRunSummary runOnRawlog(const RawlogRunRequest& request);
 
 }  // namespace quadmap

@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/base/OptionGroup.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/odometry/PoseUncertainty.h"
+#include "quadmap/odometry/VisualOdometryOptions.h"
 #include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/points/PointOptions.h"
 #include "quadmap/slam/JointOptions.h"
 #include "quadmap/slam/KeyframeSelector.h"
-#include "quadmap/slam/PoseUncertainty.h"
+#include "quadmap/slam/RelocalizationOptions.h"
 #include "quadmap/slam/SlamOptions.h"
-#include "quadmap/slam/points/PointOptions.h"
-#include "quadmap/slam/relocalization/RelocalizationOptions.h"
-#include "quadmap/slam/visual/VisualOdometryOptions.h"
 
 namespace quadmap
 {
-/** All options of a run, as one INI file; share/quadmap/quadmap.ini lists them. */
+/** All options of a run, as one INI file. share/quadmap/quadmap.ini lists them with their defaults;
+ * it is what documentedIni() of the defaults gives. */
 struct SlamConfiguration
 {
   SlamOptions slam;                                     //!< [slam]
@@ -34,7 +36,7 @@ struct SlamConfiguration
   CQuadricObjectMap::TLikelihoodOptions mapLikelihood;  //!< [CQuadricObjectMap_likelihoodOpts]
   CQuadricObjectMap::TRenderOptions mapRender;          //!< [CQuadricObjectMap_renderOpts]
 
-  /** Reads the sections the file has; the rest keeps its default.
+  /** Reads the sections that the file has. All other options keep their defaults.
    * \exception std::runtime_error If the file cannot be read.
    * \exception std::invalid_argument For unknown sections and keys and for bad values; the message
    * starts with the file's name. */
@@ -43,11 +45,14 @@ struct SlamConfiguration
   /** Every option with its value. */
   mrpt::config::CConfigFileMemory toConfig() const;
 
+  /** Every option with its value, its unit, its range and what it does, as the text of a file. */
+  std::string documentedIni() const;
+
  private:
   struct Section
   {
     std::string name;
-    mrpt::config::CLoadableOptions* options;
+    OptionGroup* options;
   };
   std::vector<Section> sections();
 };

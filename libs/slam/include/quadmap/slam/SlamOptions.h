@@ -1,19 +1,20 @@
 #pragma once
 
-#include <mrpt/config/CLoadableOptions.h>
-
 #include <cstddef>
 #include <string>
 
+#include "quadmap/base/OptionGroup.h"
+#include "quadmap/odometry/PoseSource.h"
+
 namespace quadmap
 {
-/** What the program makes of the input. */
+/** The method that makes a trajectory and a map of the input. */
 enum class SlamMethod
 {
   Rgbd,     //!< Complete and partial measurements from colour boxes and depth
-  Quadric,  //!< QuadricSLAM: ellipsoids that touch the boxes' edges, no depth
-  Point,    //!< Centres of the measurements, for comparison (Mu et al.)
-  Odometry  //!< No objects: the trajectory alone
+  Quadric,  //!< QuadricSLAM: ellipsoids that touch the box edges, without depth
+  Point,    //!< Objects are points, the centres of the measurements (Mu et al.)
+  Odometry  //!< The trajectory alone, without objects
 };
 
 /** How it is decided which object a box shows. */
@@ -23,42 +24,29 @@ enum class AssociationSource
   Given       //!< By the instance ids of the boxes; boxes without one are left out
 };
 
-/** Where the poses of the frames come from. */
-enum class PoseSource
-{
-  Auto,         //!< The rawlog's odometry; a single moment needs none; see surveyOdometry()
-  Rawlog,       //!< The rawlog's odometry
-  Visual,       //!< Visual odometry from the images
-  GroundTruth,  //!< The rawlog's "ground_truth" poses
-  Graph         //!< A pose graph of another run or program
-};
-
 /** The names of the command line and the INI file: rgbd, quadric, point, odometry.
  * \exception std::invalid_argument For another name; lists the known ones. */
 SlamMethod slamMethodFrom(const std::string& name);
 std::string nameOf(SlamMethod method);
 
-/** estimated, given. \exception std::invalid_argument */
+/** The source of the name estimated or given.
+ * \exception std::invalid_argument For another name. */
 AssociationSource associationSourceFrom(const std::string& name);
 std::string nameOf(AssociationSource source);
 
-/** auto, rawlog, visual, ground-truth, graph:FILE. \exception std::invalid_argument */
-PoseSource poseSourceFrom(const std::string& name);
-std::string nameOf(PoseSource source);
-
 /** Section [slam] of the configuration. */
-struct SlamOptions : public mrpt::config::CLoadableOptions
+struct SlamOptions : public OptionGroup
 {
   SlamMethod method = SlamMethod::Rgbd;
   PoseSource odometry = PoseSource::Auto;
   std::string odometryGraph;  //!< File of PoseSource::Graph; see GraphOdometry
   AssociationSource association = AssociationSource::Estimated;
-  int threads = 0;  //!< That work, 0..kMostThreads; 0: as many as useful. Results are the same
+  int threads = 0;  //!< Number of threads, 0..kMostThreads; 0 chooses. It does not change results
 
   static constexpr int kMostThreads = 64;
 
-  /** \param name As poseSourceFrom() takes it; of graph:FILE also the file is taken.
-   *  \exception std::invalid_argument */
+  /** Sets `odometry` and, for graph:FILE, also `odometryGraph`. \param name See poseSourceFrom().
+   *  \exception std::invalid_argument For an unknown name. */
   void setOdometry(const std::string& name);
   std::string odometryName() const;
 
@@ -66,22 +54,18 @@ struct SlamOptions : public mrpt::config::CLoadableOptions
   void setThreads(int number);
   std::size_t workingThreads() const;  //!< >= 1
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
 /** How boxes and poses are paired with images. Section [input] of the configuration. */
-struct InputOptions : public mrpt::config::CLoadableOptions
+struct InputOptions : public OptionGroup
 {
-  double maxBoxDelay = 0.005;   //!< Boxes belong to an image within this time [s], >= 0
-  double maxOdometryGap = 1.0;  //!< Poses are interpolated over at most this time [s], > 0
+  double maxBoxDelay = 0.005;   //!< Most time between an image and its boxes [s], >= 0
+  double maxOdometryGap = 1.0;  //!< Longest time to interpolate poses over [s], > 0
 
-  void loadFromConfigFile(
-      const mrpt::config::CConfigFileBase& config, const std::string& section) override;
-  void saveToConfigFile(
-      mrpt::config::CConfigFileBase& config, const std::string& section) const override;
+ private:
+  void describe(OptionList& list) override;
 };
 
 }  // namespace quadmap

@@ -10,32 +10,32 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/graph/FactorGraph.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/odometry/VisualOdometry.h"
+#include "quadmap/slam/MapContinuation.h"
 #include "quadmap/slam/SlamOptions.h"
-#include "quadmap/slam/graph/FactorGraph.h"
-#include "quadmap/slam/relocalization/MapContinuation.h"
-#include "quadmap/slam/visual/VisualOdometry.h"
 
 namespace quadmap
 {
-/** An image of one sensor whose objects were looked at. It and its boxes are in the KeyframeSpool.
+/** A frame of one sensor that was kept with a pose. Its image and boxes are in the KeyframeSpool.
  */
 struct Keyframe
 {
-  std::size_t record = 0;  //!< Of the range scan in its rawlog
+  std::size_t record = 0;  //!< Index of the range scan in its rawlog
   std::string sensor;      //!< Its label
   double time = 0;         //!< [s]
   mrpt::poses::CPose3D T_map_robot;
-  mrpt::poses::CPose3D T_odom_robot;  //!< As given by the input
-  /** Motion since the keyframe before, by the input, (x, y, z, yaw, pitch, roll); the first has
-   *  none. */
+  mrpt::poses::CPose3D T_odom_robot;  //!< Pose by the input's odometry
+  /** Motion since the keyframe before by the input's odometry, with its covariance (x, y, z, yaw,
+   *  pitch, roll). The first keyframe has none. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> odometryStep = std::nullopt;
-  /** Marginal covariance of T_map_robot in the same order, the first keyframe being exact where
-   * it defines the map. Nothing when the method estimates none, or no pose. */
+  /** Marginal covariance of T_map_robot in the same order. The first keyframe is exact when it
+   * defines the map. It is empty when the method estimates no poses or no covariances. */
   std::optional<mrpt::math::CMatrixDouble66> covariance = std::nullopt;
 };
 
-/** Which object a box was taken for. */
+/** Which object a box was associated with. */
 struct BoxDecision
 {
   std::uint32_t keyframe = 0;
@@ -46,20 +46,21 @@ struct BoxDecision
 struct LabelCounts
 {
   std::size_t complete = 0, partial = 0, rejected = 0;
-  std::map<std::string, std::size_t> reasons;  //!< "complete: ..." -> how often
+  std::map<std::string, std::size_t>
+      reasons;  //!< How often each reason, "complete: ...", was given
 
   std::size_t boxes() const { return complete + partial + rejected; }
 };
 
-/** Of one sensor, or of all together. */
+/** Numbers of frames and boxes of one sensor, or of all together. */
 struct SlamCounts
 {
-  std::size_t frames = 0;             //!< RGB-D frames that reached the pipeline
-  std::size_t framesWithoutPose = 0;  //!< ... and were left out for that
+  std::size_t frames = 0;             //!< RGB-D frames that were given to the run
+  std::size_t framesWithoutPose = 0;  //!< Of these, left out for want of a pose
   std::size_t keyframes = 0;
-  std::size_t keyframesWithoutBoxes = 0;     //!< Nobody looked for objects
-  std::size_t keyframesWithoutDepth = 0;     //!< Not one valid depth
-  std::size_t keyframesFromPixelLabels = 0;  //!< Their boxes were made of the scan's pixelLabels
+  std::size_t keyframesWithoutBoxes = 0;     //!< No detector looked at them
+  std::size_t keyframesWithoutDepth = 0;     //!< They have no valid depth
+  std::size_t keyframesFromPixelLabels = 0;  //!< Their boxes come from pixelLabels
   std::size_t boxes = 0;
 
   SlamCounts& operator+=(const SlamCounts& other);
@@ -68,21 +69,21 @@ struct SlamCounts
 /** How the final estimation of poses and objects went. */
 struct CorrectionSummary
 {
-  int rounds = 0;          //!< Of association and optimisation that were made
-  double lastMove = 0;     //!< Of any keyframe in the last one [m]
-  bool converged = false;  //!< Nothing moved any more
+  int rounds = 0;          //!< Rounds of association and optimisation
+  double lastMove = 0;     //!< Largest move of a keyframe in the last round [m]
+  bool converged = false;  //!< The last round moved hardly anything
 };
 
 /** Where the poses came from. */
 struct OdometrySummary
 {
-  PoseSource source = PoseSource::Auto;        //!< Auto: the rawlog's, or a single moment
+  PoseSource source = PoseSource::Auto;        //!< Auto means a single moment
   std::string visualSensor;                    //!< The camera of visual odometry
-  bool upFromFloor = false;                    //!< Else the first robot pose is taken for upright
-  std::optional<VisualOdometryCounts> visual;  //!< When it was used
+  bool upFromFloor = false;                    //!< Otherwise the robot starts upright
+  std::optional<VisualOdometryCounts> visual;  //!< Set when it was used
 };
 
-/** Everything a run found out, except what is in the KeyframeSpool. */
+/** Everything that a run found out, except what is in the KeyframeSpool. */
 struct SlamResult
 {
   CQuadricObjectMap map;
@@ -91,11 +92,12 @@ struct SlamResult
   std::map<std::string, SlamCounts> countsBySensor;
   OdometrySummary odometry;
   std::map<std::string, LabelCounts> labels;
-  /** How much the final estimation knew of the objects from each keyframe, `pose`. Nothing when
-   * there was no graph: the pose graph then has the uncertainty of the measurements. */
-  std::vector<FactorGraph::PoseEdge> edges;
-  std::optional<CorrectionSummary> correction;  //!< Nothing when poses were taken as given
-  std::optional<MapContinuation> continuation;  //!< When it started in an existing map
+  /** What the final estimation knew of the objects from each keyframe, whose index is `pose`. It is
+   * empty without a factor graph; the written pose graph then has the uncertainty of the
+   * measurements. */
+  std::vector<FactorGraph::GraphEdge> edges;
+  std::optional<CorrectionSummary> correction;  //!< Empty when poses were taken as given
+  std::optional<MapContinuation> continuation;  //!< Set when it continued a map
   std::vector<std::string> warnings;
 
   SlamCounts counts() const;  //!< Of all sensors

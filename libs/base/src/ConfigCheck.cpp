@@ -1,0 +1,174 @@
+#include "quadmap/base/ConfigCheck.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/system/string_utils.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+namespace quadmap
+{
+namespace
+{
+using mrpt::system::lowerCase;
+using mrpt::system::trim;
+
+/** The text of a key, or nothing when the key is missing. */
+std::optional<std::string> textOf(
+    const mrpt::config::CConfigFileBase& config, const std::string& section, const std::string& key)
+{
+  if (!config.keyExists(section, key)) return std::nullopt;
+  return trim(config.read_string(section, key, ""));
+}
+
+[[noreturn]] void rejectValue(
+    const std::string& section,
+    const std::string& key,
+    const std::string& value,
+    const std::string& expected)
+{
+  throw std::invalid_argument("[" + section + "] " + key + "=" + value + ": must be " + expected);
+}
+
+bool isCommentOrDirective(const std::string& line)
+{
+  return line[0] == ';' || line[0] == '#' || line[0] == '@' || line.compare(0, 2, "//") == 0;
+}
+
+/** Checks the lines of one INI text, as far as requireReadableIni() promises. */
+class IniLineCheck
+{
+ public:
+  /** \return What is wrong with the line, empty when nothing is. */
+  std::string check(const std::string& rawLine)
+  {
+    const std::string line = trim(rawLine);
+    const bool continuation = continued_;
+    continued_ = !line.empty() && line.back() == '\\';
+    if (continuation || line.empty() || isCommentOrDirective(line)) return {};
+    if (line[0] == '[') return checkSection(line);
+    const auto equals = line.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return "expected \"[section]\" or \"key = value\"";
+    const std::string key = lowerCase(trim(line.substr(0, equals)));
+    if (!keys_.insert(key).second) return "key \"" + key + "\" stands in its section twice";
+    return {};
+  }
+
+ private:
+  std::string checkSection(const std::string& line)
+  {
+    const auto end = line.find(']');
+    if (end == std::string::npos) return "\"]\" is missing";
+    keys_.clear();
+    const std::string name = lowerCase(trim(line.substr(1, end - 1)));
+    if (!sections_.insert(name).second) return "section [" + name + "] stands in the file twice";
+    return {};
+  }
+
+  bool continued_ = false;
+  std::set<std::string> sections_, keys_;
+};
+
+template <typename Number>
+std::optional<Number> parsed(const std::string& text)
+{
+  const std::string word = trim(text);
+  const char* first = word.data();
+  const char* last = first + word.size();
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++first;
+  Number value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || end != last) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> parseNumber(const std::string& text) { return parsed<double>(text); }
+
+std::optional<long double> parseLongNumber(const std::string& text)
+{
+  return parsed<long double>(text);
+}
+
+std::optional<bool> parseFlag(const std::string& text)
+{
+  const std::string word = lowerCase(trim(text));
+  if (word == "true" || word == "yes" || word == "1") return true;
+  if (word == "false" || word == "no" || word == "0") return false;
+  return std::nullopt;
+}
+
+void requireReadableIni(const std::string& path)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw std::runtime_error(path + ": is a directory, expected an INI file");
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
+
+  IniLineCheck lines;
+  std::string line;
+  for (unsigned number = 1; std::getline(file, line); ++number)
+  {
+    const std::string problem = lines.check(line);
+    if (!problem.empty())
+      throw std::runtime_error(mrpt::format("%s:%u: %s", path.c_str(), number, problem.c_str()));
+  }
+  if (file.bad()) throw std::runtime_error(path + ": read error");
+}
+
+void rejectUnknownKeys(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& section,
+    const std::set<std::string>& known)
+{
+  std::set<std::string> knownLower;
+  std::string list;
+  for (const auto& key : known)
+  {
+    knownLower.insert(lowerCase(key));
+    list += (list.empty() ? "" : ", ") + key;
+  }
+  std::vector<std::string> keys;
+  config.getAllKeys(section, keys);
+  for (const auto& key : keys)
+    if (knownLower.count(lowerCase(key)) == 0)
+      throw std::invalid_argument("[" + section + "] unknown key \"" + key + "\"; known: " + list);
+}
+
+void readNumber(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& section,
+    const std::string& key,
+    double& value,
+    double min,
+    double max)
+{
+  const auto text = textOf(config, section, key);
+  if (!text) return;
+  const auto number = parseNumber(*text);
+  if (!number || !(*number >= min && *number <= max))
+    rejectValue(section, key, *text, mrpt::format("a number in [%g, %g]", min, max));
+  value = *number;
+}
+
+void readFlag(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& section,
+    const std::string& key,
+    bool& value)
+{
+  const auto text = textOf(config, section, key);
+  if (!text) return;
+  const auto flag = parseFlag(*text);
+  if (!flag) rejectValue(section, key, *text, "true or false");
+  value = *flag;
+}
+
+}  // namespace quadmap

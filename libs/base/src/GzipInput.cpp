@@ -1,0 +1,117 @@
+#include "quadmap/base/GzipInput.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+namespace quadmap
+{
+namespace
+{
+constexpr unsigned kBufferBytes = 1u << 17;
+constexpr std::size_t kHeadBytes = 160;        // more than the longest class name MRPT can write
+constexpr std::size_t kChunkBytes = 1u << 30;  // zlib counts in unsigned int
+
+gzFile openOrThrow(const std::string& path)
+{
+  errno = 0;
+  gzFile file = gzopen(path.c_str(), "rb");
+  if (!file)
+    throw std::runtime_error(
+        path + ": cannot open: " + (errno ? std::strerror(errno) : "out of memory"));
+  gzbuffer(file, kBufferBytes);
+  return file;
+}
+
+std::string errorText(int zlibError)
+{
+  if (zlibError == Z_ERRNO) return std::strerror(errno);
+  return zError(zlibError);
+}
+}  // namespace
+
+GzInput::GzInput(const std::string& path)
+{
+  if (std::filesystem::is_directory(path))
+    throw std::runtime_error(path + ": is a directory, not a file");
+  file_ = openOrThrow(path);
+  fileBytes_ = std::filesystem::file_size(path);
+}
+
+GzInput::~GzInput() { gzclose_r(file_); }
+
+void GzInput::startRecord()
+{
+  recordBytes_ = 0;
+  head_.clear();
+}
+
+double GzInput::progress() const
+{
+  if (fileBytes_ == 0) return 1.0;
+  const auto offset = static_cast<double>(std::max<z_off_t>(gzoffset(file_), 0));
+  return std::clamp(offset / static_cast<double>(fileBytes_), 0.0, 1.0);
+}
+
+void GzInput::fail(const std::string& why)
+{
+  failure_ = why;
+  throw std::runtime_error(why);
+}
+
+/** Less than `count` at the end of the file only. */
+std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
+{
+  std::size_t done = 0;
+  while (done < count)
+  {
+    const auto want = static_cast<unsigned>(std::min(count - done, kChunkBytes));
+    const int got = gzread(file_, bytes + done, want);
+    int error = Z_OK;
+    gzerror(file_, &error);
+    const bool endsEarly = error == Z_BUF_ERROR;  // what came before the end is still delivered
+    if (endsEarly && got >= 0 && static_cast<unsigned>(got) < want)
+      fail("the file is truncated (its compressed data ends early)");
+    if (got < 0 || (error != Z_OK && error != Z_STREAM_END && !endsEarly))
+      fail("the file is damaged (" + errorText(error) + ")");
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  return done;
+}
+
+std::size_t GzInput::Read(void* buffer, std::size_t count)
+{
+  if (!failure_.empty()) throw std::runtime_error(failure_);
+  auto* bytes = static_cast<char*>(buffer);
+  const std::size_t done = readAvailable(bytes, count);
+  if (done < count && (done > 0 || recordBytes_ > 0))
+    fail("the file is truncated (it ends within a record)");
+  if (head_.size() < kHeadBytes) head_.append(bytes, std::min(done, kHeadBytes - head_.size()));
+  recordBytes_ += done;
+  position_ += done;
+  return done;
+}
+
+void GzInput::skipToEnd()
+{
+  std::vector<char> bytes(kBufferBytes);
+  while (readAvailable(bytes.data(), bytes.size()) == bytes.size())
+  {
+  }
+}
+
+std::size_t GzInput::Write(const void*, std::size_t)
+{
+  throw std::logic_error("GzInput: is read only");
+}
+
+std::uint64_t GzInput::Seek(std::int64_t, TSeekOrigin)
+{
+  throw std::logic_error("GzInput: cannot seek");
+}
+
+}  // namespace quadmap

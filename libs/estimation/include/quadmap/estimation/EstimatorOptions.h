@@ -1,0 +1,24 @@
+#pragma once
+
+namespace quadmap
+{
+struct EstimatorOptions
+{
+  int maxMeasurements = 150;  //!< Of one object that are kept; redundant ones go, >= 3
+  int maxIterations = 25;     //!< Of the optimiser, >= 1
+  /** Residuals beyond this many sigmas lose weight, lower bounds of sizes most of it, > 0. */
+  double huber = 1.5;
+  /** Added to the sigma of every box edge: this [m], >= 0, and that share of the mean half size,
+   * >= 0, which the outline of a real thing is off that of an h_q. */
+  double edgeFloor = 0.002;
+  double edgeShapeShare = 0.03;
+  bool edgesOfComplete =
+      true;  //!< Use the box edges of complete measurements with unseen sides too
+  double roundnessSigma = 0.1;   //!< Of ln(a/b) for labels without dominant direction [-], > 0
+  double sizePriorSpread = 1.0;  //!< Factor on the label table's spread of sizes, > 0
+  /** Of the seed of a partial measurement, (0, 1]. What is behind a thin or sparse object is taken
+   * for it in most frames alike: ten seeds are worth one. */
+  double seedWeight = 0.1;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/estimation/Visibility.h"
+#include "quadmap/geometry/ImageBox.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** Log-odds that frames add to an object's existence, from the rates of a detector. */
+class ExistenceEvidence
+{
+ public:
+  /** \param detectionProbability p_D of a visible object, per frame, in (0, 1).
+   *  \param falseAlarmProbability p_FA of a box where nothing is, in (0, p_D). */
+  ExistenceEvidence(double detectionProbability, double falseAlarmProbability);
+  explicit ExistenceEvidence(const ExistenceOptions& options);
+
+  /** Of a frame that shows the object, doc/mathematics.md, (13.1) with nu = 1; > 0. */
+  double detection() const { return detection_; }
+  /** Of a frame that should have shown the object and did not, doc/mathematics.md, (13.2); < 0. */
+  double miss() const { return miss_; }
+
+ private:
+  double detection_, miss_;
+};
+
+/** Log-odds after one more detection, doc/mathematics.md, (13.1), bounded by maxLogOdds.
+ * \param novelty nu, how much of it earlier ones did not tell (see viewNovelty), in (0, 1]. */
+double existenceAfterDetection(double logOdds, double novelty, const ExistenceOptions& options);
+
+/** Log-odds after one more miss, doc/mathematics.md, (13.2), bounded by -maxLogOdds. */
+double existenceAfterMiss(double logOdds, const ExistenceOptions& options);
+
+/** When a box that was not joined with an object shows it all the same. */
+struct ShownRule
+{
+  double minIoU = 0.2;     //!< Of the box with the object's outline: it is no speck in it
+  double minInside = 0.5;  //!< Least share of the box inside the outline, in [0, 1]
+  double minLabelAgreement =
+      0.5;  //!< Least agreement of the labels (see labelAgreement), in [0, 1]
+};
+
+/** Outline of the object in the image, as far as the image shows it. */
+std::optional<ImageBox> outlineInImage(
+    const MapObject& object, const FrameGeometry& frame, const LabelTable& labels);
+
+/** True when the box may show the object with that outline.
+ * \param label Canonical label of the box. */
+bool mayShow(
+    const ImageBox& box,
+    const std::string& label,
+    const MapObject& object,
+    const ImageBox& outline,
+    const LabelTable& labels,
+    const ShownRule& rule);
+
+}  // namespace quadmap

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstddef>
+
+#include "quadmap/estimation/EstimatorOptions.h"
+#include "quadmap/estimation/ResidualRow.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** Number of rows that labelPriorRows() gives. */
+constexpr std::size_t kLabelPriorRows = 4;
+
+/** What the label alone says of an object's sizes, in standard deviations: three rows of the
+ * typical size (doc/mathematics.md, (11.17)) and one row of the roundness (11.18), which is zero
+ * when the label has a dominant direction. They come under no robust kernel.
+ * \param logSizes (ln a, ln b, ln c). */
+std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
+    const Eigen::Vector3d& logSizes, const LabelProperties& label, const EstimatorOptions& options);
+
+}  // namespace quadmap

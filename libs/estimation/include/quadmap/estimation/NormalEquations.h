@@ -1,0 +1,31 @@
+#pragma once
+
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/estimation/RobustKernel.h"
+
+namespace quadmap
+{
+/** Normal equations of a robust least-squares problem at one state of an upright object:
+ * cost ~ 1/2 d^T H d + g^T d. */
+struct NormalEquations
+{
+  UprightCovariance H = UprightCovariance::Zero();
+  UprightState g = UprightState::Zero();
+  double cost = 0;
+
+  /** Adds one residual in sigmas with its derivatives. \param weight Of the residual, > 0. */
+  void add(
+      double residual,
+      const UprightState& jacobian,
+      const RobustKernel& kernel,
+      double weight = 1.0)
+  {
+    const double w = weight * kernel.weight(residual);
+    if (w == 0) return;  // a satisfied inequality
+    cost += weight * kernel.cost(residual);
+    H.noalias() += w * jacobian * jacobian.transpose();
+    g.noalias() += w * residual * jacobian;
+  }
+};
+
+}  // namespace quadmap

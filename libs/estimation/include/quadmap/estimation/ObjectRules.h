@@ -1,0 +1,65 @@
+#pragma once
+
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/estimation/ObjectView.h"
+#include "quadmap/estimation/Visibility.h"
+#include "quadmap/geometry/ImageBox.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** What, besides its position, tells whether a box shows an object. */
+struct AgreementOptions
+{
+  double extentShare = 0.3;   //!< Uncertainty of a seen centre, as a share of the half size, >= 0
+  double sizeLogSigma = 0.4;  //!< Of ln(measured size / object's size) [-], > 0
+  double maxSizePenalty = 8;  //!< Bound of the size term's log-likelihood [-], >= 0
+  double imageWeight = 1.5;   //!< Times ln(IoU / 0.5) of the boxes in the image [-], >= 0
+  double minImageIoU = 0.05;  //!< Bound of that term, (0, 1)
+  double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
+  double duplicateIoU = 0.8;  //!< Two boxes of one frame this alike show the same thing, (0, 1]
+};
+
+struct MergeOptions
+{
+  double overlap = 0.4;      //!< Shared volume / smaller volume, for compatible labels, (0, 1]
+  double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
+  double penetration = 0.6;  //!< Or: centres nearer than this share of both half widths, >= 0
+  double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
+};
+
+/** Is there another box of the same frame around nearly the same pixels, which the detector is
+ * surer of? \param k Index of the box. \param duplicateIoU As in AgreementOptions. */
+bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU);
+
+/** Share of the object's measurements whose label a detector takes for this one, in [0, 1]. */
+double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels);
+
+/** The same between two objects: probability that two of their labels, drawn at random, can be
+ * taken for each other. */
+double labelAgreement(const MapObject& a, const MapObject& b, const LabelTable& labels);
+
+/** Do two map objects overlap so that they must be one? Two things cannot share their space, but a
+ * cup stands within the cuboid of a table with its chairs: only labels a detector takes for each
+ * other count, unless the cuboids are nearly the same. */
+bool areOneObject(
+    const MapObject& a, const MapObject& b, const LabelTable& labels, const MergeOptions& options);
+
+/** Log-likelihood, beyond the position's, that a measurement shows the object: sizes, box in the
+ * image, label. Bounded on both sides. */
+double agreementLogLikelihood(
+    const ObjectView& view,
+    const ImageBox& box,
+    const MapObject& object,
+    const FrameGeometry& frame,
+    const LabelTable& labels,
+    const AgreementOptions& options);
+
+/** log N of where the measurement is, given the object (doc/mathematics.md: h(x, l_i), S_ik). Along
+ * an axis of a cuboid with both ends measured its centre is compared, with one end measured that
+ * end, and with none only what sticks out of the object counts. S is the measurement's, the
+ * object's and a share of its extent. */
+double positionLogLikelihood(
+    const ObjectView& view, const MapObject& object, const AgreementOptions& options);
+
+}  // namespace quadmap

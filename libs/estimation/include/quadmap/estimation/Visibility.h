@@ -1,0 +1,72 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+
+#include <deque>
+#include <optional>
+
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/estimation/ObjectView.h"
+#include "quadmap/geometry/ImageBox.h"
+#include "quadmap/geometry/PinholeCamera.h"
+#include "quadmap/obs/CObservationObjects.h"
+
+namespace quadmap
+{
+/** Evidence for and against an object's existence, as log-odds. A detection adds ln(pD/pFA), a
+ * frame that should have shown the object and did not adds ln((1-pD)/(1-pFA)). */
+struct ExistenceOptions
+{
+  double detectionProbability = 0.5;   //!< pD: of a visible object, per frame, in (0, 1)
+  double falseAlarmProbability = 0.1;  //!< pFA: a box where nothing is, in (0, pD)
+  /** A detector repeats a mistake as long as it looks from the same place: a detection counts in
+   * full when the camera has moved by this angle as seen from the object since any earlier one. */
+  double independentViewAngle = 0.1;  //!< [rad], > 0; INI `independentViewAngle_deg`
+  double repeatedViewWeight = 0.25;   //!< Weight of one more detection from one place, in (0, 1]
+  double maxLogOdds = 10;             //!< Bound, so that evidence can turn, > 0
+  double confirmLogOdds = 3;          //!< Reported above this
+  int minComplete = 3;                //!< Reported with this many complete measurements, >= 1
+  int minPartial = 8;                 //!< ... or with this many measurements of any kind, >= 1
+  double maxCenterSigma = 0.2;        //!< Reported below this uncertainty per axis [m], > 0
+
+  double minLabelShare = 0.5;   //!< ... when this share of the labels agrees with its own, [0, 1]
+  double maxSizeDeviation = 3;  //!< Sizes from partial measurements: spreads off the label's, > 0
+  double maxSizeSigma = 0.5;    //!< ... and the uncertainty of its half sizes below this [m], > 0
+
+  double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
+  double minBoxSize = 30;                 //!< Both sides of the projected box [px]
+  double visibleShare = 0.4;              //!< Share of the projected box inside the image, (0, 1]
+  double occluderMargin = 0.1;            //!< Depth this much nearer than the object hides it [m]
+  double maxHiddenShare = 0.3;            //!< Of the box's cells hidden or without depth, [0, 1]
+};
+
+/** One frame's camera in the map. */
+struct FrameGeometry
+{
+  PinholeCamera camera;
+  mrpt::poses::CPose3D T_map_sensor;
+  const CoarseDepth* depth = nullptr;  //!< May be null or empty: unknown
+
+  /** The object in the camera's optical frame. */
+  Ellipsoid toOptical(const Ellipsoid& object_map) const;
+};
+
+/** Should a detector have been able to see the object in this frame? False when in doubt: nothing
+ * is known of what hides it without depth. */
+bool shouldBeVisible(
+    const Ellipsoid& object, const FrameGeometry& frame, const ExistenceOptions& options);
+
+/** How much one more view from a camera tells that earlier ones did not, in (0, 1].
+ * \param center Of the object [m]. */
+double viewNovelty(
+    const Eigen::Vector3d& camera,
+    const Eigen::Vector3d& center,
+    const std::deque<ObjectView>& earlier,
+    const ExistenceOptions& options);
+
+/** Box of the object's outline in the image: of the cuboid or the ellipsoid, whichever the shape
+ * exponent is nearer to; not clipped. */
+std::optional<ImageBox> projectedBox(
+    const Ellipsoid& object, const FrameGeometry& frame, double shapeExponent);
+
+}  // namespace quadmap

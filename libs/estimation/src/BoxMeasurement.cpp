@@ -1,0 +1,78 @@
+#include "quadmap/estimation/BoxMeasurement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadmap
+{
+namespace
+{
+/** The measurement with the map's axes turned by R and its origin moved.
+ * \param origin Of the new frame, in the map [m]. */
+BoxMeasurement measurementIn(
+    const Eigen::Matrix3d& R_frame_map,
+    const Eigen::Vector3d& origin,
+    const ObjectView& view,
+    const EstimatorOptions& options)
+{
+  BoxMeasurement m;
+  static_cast<MeasuredGeometry&>(m) = view;
+  m.camera = R_frame_map * (view.camera - origin);
+  m.center = R_frame_map * (view.center - origin);
+  m.hasSeed = !view.complete;
+  if (m.hasSeed)
+    m.seedWhitening =
+        seedWhitening(R_frame_map * view.centerCovariance * R_frame_map.transpose(), options);
+  if (view.complete && (!options.edgesOfComplete || view.allSidesKnown())) return m;
+  m.edges.reserve(view.edges.size());
+  for (const auto& edge : view.edges)
+    m.edges.push_back({R_frame_map * edge.plane.n, edgeSigma(view, edge, options)});
+  return m;
+}
+
+}  // namespace
+
+BoxMeasurement measurementFromRobot(
+    const DetectedObject& detected,
+    const ObjectView& view,
+    const mrpt::poses::CPose3D& T_map_robot,
+    const mrpt::poses::CPose3D& T_robot_sensor,
+    const EstimatorOptions& options,
+    double tiltSigma)
+{
+  const Eigen::Matrix3d R_robot_map = T_map_robot.getRotationMatrix().asEigen().transpose();
+  const Eigen::Vector3d robot(T_map_robot.x(), T_map_robot.y(), T_map_robot.z());
+  BoxMeasurement m = measurementIn(R_robot_map, robot, view, options);
+  if (!view.complete) return m;
+  const auto& measured = detected.measurement.complete->object_sensor;
+  m.axes = T_robot_sensor.getRotationMatrix().asEigen() * measured.rotation();
+  const bool onSupport = std::any_of(
+      view.faces.begin(), view.faces.end(),
+      [](const auto& face) { return face.kind == FaceKind::Support; });
+  if (onSupport) m.tiltSigma = tiltSigma;
+  return m;
+}
+
+BoxMeasurement measurementInMap(const ObjectView& view, const EstimatorOptions& options)
+{
+  BoxMeasurement m =
+      measurementIn(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), view, options);
+  const double cosine = std::cos(view.yaw), sine = std::sin(view.yaw);
+  m.axes << cosine, -sine, 0, sine, cosine, 0, 0, 0, 1;
+  return m;
+}
+
+double edgeSigma(
+    const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options)
+{
+  return (view.center - view.camera).norm() * edge.angle + view.positionSigma + options.edgeFloor +
+         options.edgeShapeShare * view.halfSizes.mean();
+}
+
+Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)
+{
+  return std::sqrt(options.seedWeight) *
+         covariance.llt().matrixL().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+}
+
+}  // namespace quadmap

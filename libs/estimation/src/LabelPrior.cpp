@@ -1,0 +1,31 @@
+#include "quadmap/estimation/LabelPrior.h"
+
+#include <cmath>
+#include <utility>
+
+namespace quadmap
+{
+std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
+    const Eigen::Vector3d& logSizes, const LabelProperties& label, const EstimatorOptions& options)
+{
+  Eigen::Vector3d expected = (0.5 * label.typicalSize).array().log();
+  // The sizes along x and y are named in the order that fits.
+  if ((logSizes[0] - logSizes[1]) * (expected[0] - expected[1]) < 0)
+    std::swap(expected[0], expected[1]);
+  const double spread = label.sizeSpread * options.sizePriorSpread;
+
+  std::array<ResidualRow, kLabelPriorRows> rows;
+  for (std::size_t i = 0; i < 3; ++i)  // (11.17)
+  {
+    const auto axis = static_cast<Eigen::Index>(i);
+    rows[i].r = (logSizes[axis] - expected[axis]) / spread;
+    rows[i].d_logSizes[axis] = 1.0 / spread;
+  }
+  if (label.dominantDirection) return rows;
+  rows[3].r = (logSizes[0] - logSizes[1]) / options.roundnessSigma;  // (11.18)
+  rows[3].d_logSizes[0] = 1.0 / options.roundnessSigma;
+  rows[3].d_logSizes[1] = -1.0 / options.roundnessSigma;
+  return rows;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,39 @@
+#include "quadmap/estimation/MapObject.h"
+
+#include <cmath>
+
+namespace quadmap
+{
+UprightState uprightStateOf(const Ellipsoid& object)
+{
+  UprightState x;
+  x.head<3>() = object.center();
+  const Eigen::Matrix3d R = object.rotation();
+  x[3] = std::atan2(R(1, 0), R(0, 0));
+  x.tail<3>() = object.semiAxes().array().log();
+  return x;
+}
+
+Ellipsoid ellipsoidOf(const UprightState& state)
+{
+  return Ellipsoid(
+      mrpt::poses::CPose3D(state[0], state[1], state[2], state[3], 0.0, 0.0),
+      state.tail<3>().array().exp());
+}
+
+std::string MapObject::label() const
+{
+  std::string best;
+  unsigned bestCount = 0;
+  for (const auto& [name, count] : labelCounts)
+  {
+    if (count <= bestCount) continue;
+    best = name;
+    bestCount = count;
+  }
+  return best;
+}
+
+double MapObject::existence() const { return 1.0 / (1.0 + std::exp(-existenceLogOdds)); }
+
+}  // namespace quadmap

@@ -1,0 +1,67 @@
+#include "quadmap/estimation/ViewResiduals.h"
+
+#include <cmath>
+
+namespace quadmap
+{
+void addViewResiduals(
+    const ViewAtPose& view,
+    const ObjectShape& object,
+    double q,
+    double huber,
+    double weight,
+    NormalEquations& eq)
+{
+  view.forEachRow(
+      object, q, huber,
+      [&](const ResidualRow& row, double sigma, const RobustKernel& kernel)
+      { eq.add(row.r / sigma, row.byUprightState() / sigma, kernel, weight); });
+}
+
+void addViewResiduals(
+    const ObjectView& view,
+    const UprightState& x,
+    double shapeExponent,
+    const EstimatorOptions& options,
+    double weight,
+    NormalEquations& eq)
+{
+  const BoxMeasurement measurement = measurementInMap(view, options);
+  const ViewAtPose inMap(
+      measurement, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
+  addViewResiduals(inMap, ObjectShape(x), shapeExponent, options.huber, weight, eq);
+}
+
+double viewWeight(const ObjectView& view, const UprightState& reference)
+{
+  const Eigen::Vector3d size = 2.0 * reference.tail<3>().array().exp();
+  const double scale = 0.04 + 0.15 * size.mean();  // [m], what an honest measurement may be off by
+  double squares = 0, count = 0;
+  if (view.complete)
+  {
+    const ObjectShape object(reference);
+    const auto normals = view.faceNormals();
+    for (std::size_t f = 0; f < kFaces; ++f)
+    {
+      if (view.faces[f].kind == FaceKind::Unknown) continue;
+      const Eigen::Vector3d inward = -normals[f];
+      const double half = view.halfSizes[static_cast<Eigen::Index>(f / 2)];
+      const double distance = inward.dot(object.t - view.center) + half;
+      const double gap = tangencyRow(inward, distance, object, view.faceExponent).r;
+      if (view.faces[f].kind == FaceKind::AtLeast && gap <= 0) continue;
+      squares += gap * gap;
+      count += 1;
+    }
+  }
+  else
+  {
+    const Eigen::Vector3d off = reference.head<3>() - view.center;
+    squares = off.dot(view.centerCovariance.llt().solve(off)) * scale * scale / 4.0;
+    count = 1;
+  }
+  if (count == 0) return 1.0;
+  const double ratio = std::sqrt(squares / count) / scale;
+  return 1.0 / (1.0 + std::pow(ratio, 4));  // (11.14)
+}
+
+}  // namespace quadmap

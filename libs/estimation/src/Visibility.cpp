@@ -1,0 +1,84 @@
+#include "quadmap/estimation/Visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "quadmap/geometry/Projection.h"
+
+namespace quadmap
+{
+namespace
+{
+/** Share of the coarse depth cells with their centre inside the box in which the object cannot be
+ * seen because something nearer is there or nothing was measured. It is 1 when there is no cell. */
+double hiddenShare(
+    const CoarseDepth& depth, const PinholeCamera& camera, const ImageBox& box, double nearestDepth)
+{
+  unsigned cells = 0, hidden = 0;
+  for (unsigned row = 0; row < depth.rows; ++row)
+    for (unsigned column = 0; column < depth.columns; ++column)
+    {
+      const double u = (column + 0.5) * camera.width / depth.columns;
+      const double v = (row + 0.5) * camera.height / depth.rows;
+      if (u < box.x1 || u > box.x2 || v < box.y1 || v > box.y2) continue;
+      const double d = depth.depth[row * depth.columns + column];
+      ++cells;
+      hidden += d <= 0 || d < nearestDepth ? 1 : 0;
+    }
+  return cells == 0 ? 1.0 : static_cast<double>(hidden) / cells;
+}
+
+}  // namespace
+
+Ellipsoid FrameGeometry::toOptical(const Ellipsoid& object_map) const
+{
+  const mrpt::poses::CPose3D T_map_optical = T_map_sensor + T_sensor_optical();
+  return object_map.transformed(-T_map_optical);
+}
+
+bool shouldBeVisible(
+    const Ellipsoid& object, const FrameGeometry& frame, const ExistenceOptions& options)
+{
+  if (!frame.depth || frame.depth->empty()) return false;
+  const Ellipsoid object_optical = frame.toOptical(object);
+  const double range = object_optical.center().norm();
+  if (range < options.minRange || range > options.maxRange) return false;
+
+  const double nearestDepth = object_optical.cuboidCorners().row(2).minCoeff();
+  if (nearestDepth <= 0.05) return false;  // reaches the camera plane
+  const auto box = projectCuboidBox(frame.camera, object_optical);
+  if (!box || !box->isValid()) return false;
+  const ImageBox inside = box->clipped(frame.camera.width, frame.camera.height);
+  if (inside.area() < options.visibleShare * box->area()) return false;
+  if (inside.width() < options.minBoxSize || inside.height() < options.minBoxSize) return false;
+
+  return hiddenShare(*frame.depth, frame.camera, inside, nearestDepth - options.occluderMargin) <=
+         options.maxHiddenShare;
+}
+
+/** nu of doc/mathematics.md, (13.1). */
+double viewNovelty(
+    const Eigen::Vector3d& camera,
+    const Eigen::Vector3d& center,
+    const std::deque<ObjectView>& earlier,
+    const ExistenceOptions& options)
+{
+  double moved = std::numeric_limits<double>::infinity();
+  for (const auto& view : earlier) moved = std::min(moved, (view.camera - camera).norm());
+  constexpr double kMinRange = 0.1;  // [m]
+  const double range = std::max(kMinRange, (center - camera).norm());
+  const double independent = options.independentViewAngle * range;
+  return std::clamp(moved / independent, options.repeatedViewWeight, 1.0);
+}
+
+std::optional<ImageBox> projectedBox(
+    const Ellipsoid& object, const FrameGeometry& frame, double shapeExponent)
+{
+  const Ellipsoid object_optical = frame.toOptical(object);
+  if (shapeExponent > 1.5)
+    if (auto box = projectEllipsoidBox(frame.camera, object_optical)) return box;
+  return projectCuboidBox(frame.camera, object_optical);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "quadmap/estimation/BoxMeasurement.h"
+#include "quadmap/estimation/EstimatorOptions.h"
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/graph/GraphFactors.h"
+#include "quadmap/graph/GraphState.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+struct FactorGraphOptions
+{
+  EstimatorOptions estimator;   //!< Huber's threshold, sigmas of priors: those of the object map
+  int maxIterations = 30;       //!< Of one optimisation, >= 1
+  double floorSigma = 0.03;     //!< Bottom of things that stand on the floor [m]; 0: no such factor
+  double standsOnSigma = 0.02;  //!< Bottom of a thing on the top of another one [m], > 0
+};
+
+/** Poses and objects that are estimated together (doc/mathematics.md, "The graph"). The first pose
+ * is fixed: it defines the map.
+ *
+ * optimise() frees everything. optimiseWindow() frees the latest poses and the objects seen from
+ * them; older poses stay, and what they said of an object is kept as a Gaussian, so that its cost
+ * depends on the window and not on the past.
+ *
+ * Single-threaded and deterministic: same calls, same bytes. */
+class FactorGraph
+{
+ public:
+  explicit FactorGraph(const FactorGraphOptions& options) : options_(options) {}
+
+  /** \return Index of the new pose; the first is 0. */
+  std::size_t addPose(const mrpt::poses::CPose3D& T_map_robot);
+  std::size_t poses() const { return poses_.size(); }
+  mrpt::poses::CPose3D pose(std::size_t index) const { return poseOf(poses_.at(index)); }
+  void setPose(std::size_t index, const mrpt::poses::CPose3D& T_map_robot);
+  void addStep(std::size_t from, std::size_t to, const mrpt::poses::CPose3DPDFGaussian& T_from_to);
+  void addPosePrior(std::size_t index, const mrpt::poses::CPose3DPDFGaussian& T_map_robot);
+
+  /** A new object, or another first guess or label for a known one. */
+  void setObject(
+      ObjectId id,
+      const Ellipsoid& object,
+      const LabelProperties& label,
+      ObjectFreedom freedom = ObjectFreedom::Upright);
+  bool hasObject(ObjectId id) const { return objects_.count(id) != 0; }
+  Ellipsoid object(ObjectId id) const;
+  /** Sets knowledge from elsewhere, 1/2 d^t L d + g^t d with d the increment from its `at`
+   * (doc/mathematics.md, (16.10)). */
+  void setObjectPrior(ObjectId id, const ObjectPrior& prior);
+  /** `upper` stands on `lower`; both upright. */
+  void addStandsOn(ObjectId upper, ObjectId lower);
+  /** Forgets the object and its views; another one may take the views over. */
+  void removeObject(ObjectId id, std::optional<ObjectId> heir = std::nullopt);
+
+  /** A view from a pose that optimiseWindow() frees no more is folded at once. */
+  void addView(std::size_t pose, ObjectId id, const BoxMeasurement& view);
+  /** \exception std::invalid_argument If they are folded: that can not be undone. */
+  void removeViews(std::size_t pose);
+  std::size_t viewCount() const;
+
+  struct Summary
+  {
+    bool converged = false;
+    int iterations = 0;
+    double initialCost = 0, finalCost = 0;  //!< Half the sum of squared residuals, robust
+    std::size_t freePoses = 0, freeObjects = 0, residuals = 0;
+  };
+  Summary optimise();
+  /** \param firstFree Poses before it stay where they are (pose 0 always). Never decreases. */
+  Summary optimiseWindow(std::size_t firstFree);
+  /** Optimises the objects alone. All poses stay. */
+  Summary optimiseObjects();
+
+  struct Marginals
+  {
+    /** Covariance of the increments of the last pose (GraphState.h). That of pose 0 is zero. */
+    Eigen::Matrix<double, 6, 6> lastPose = Eigen::Matrix<double, 6, 6>::Zero();
+    std::map<ObjectId, Eigen::MatrixXd> objects;
+  };
+  /** Of the free part, given the rest. \param firstFree As in optimiseWindow(); 0: everything.
+   *  \param withObjects False: of the last pose only. */
+  Marginals marginals(std::size_t firstFree, bool withObjects);
+  /** Covariances of the increments of all poses (GraphState.h), that of pose 0 being zero. It takes
+   * about as long as one iteration of optimise().
+   * \return Nothing when something is not determined at all: a pose that nothing joins to others.
+   */
+  std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
+  /** Covariances of the objects' increments, given all poses. */
+  std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
+
+  /** How much the views of one pose know of the relative pose of one object. */
+  struct GraphEdge
+  {
+    std::size_t pose = 0;
+    ObjectId object = 0;
+    double positionInformation = 0;  //!< Mean over all directions [1/m^2]
+    double angleInformation = 0;     //!< Mean over all axes [1/rad^2]
+  };
+  /** The views at the present estimate in a form for graphs of poses, which know no sizes: those
+   * are taken as they are. Information is the same in all directions, because programs differ in
+   * the axes they think it belongs to. */
+  std::vector<GraphEdge> graphEdges() const;
+
+ private:
+  friend class GraphProblem;
+
+  struct Object
+  {
+    ObjectBlock block{};
+    ObjectFreedom freedom = ObjectFreedom::Upright;
+    LabelProperties label;
+    std::optional<ObjectPrior> prior;   //!< From elsewhere
+    std::optional<ObjectPrior> folded;  //!< What the poses before foldedUpTo_ said
+  };
+  struct Step
+  {
+    std::size_t from = 0, to = 0;
+    mrpt::poses::CPose3DPDFGaussian T_from_to;
+  };
+  struct View
+  {
+    ObjectId object = 0;
+    BoxMeasurement view;
+  };
+
+  void foldBefore(std::size_t firstFree);
+  void fold(const View& view, const PoseBlock& pose);
+
+  FactorGraphOptions options_;
+  std::vector<PoseBlock> poses_;
+  std::vector<std::vector<Step>> stepsByPose_;  //!< At the later of their two poses
+  std::vector<std::vector<View>> viewsByPose_;
+  std::map<std::size_t, mrpt::poses::CPose3DPDFGaussian> posePriors_;
+  std::map<ObjectId, Object> objects_;
+  std::vector<std::pair<ObjectId, ObjectId>> standsOn_;
+  double floorHeight_ = 0;  //!< [m]
+  bool floorKnown_ = false;
+  std::size_t foldedUpTo_ = 0;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,127 @@
+#include <ceres/crs_matrix.h>
+
+#include "GraphProblem.h"
+#include "SparseInverse.h"
+
+namespace quadmap
+{
+namespace
+{
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/** What is known of an object's position and angles without measurements, as in the object map. */
+constexpr double kFreePositionSigma = 2.0;    // [m]
+constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
+
+/** Sigma of objects whose poses are asked for. The objects together must not seem to know anything
+ * of the poses that no measurement told, and this much keeps what nothing holds away from zero. */
+constexpr double kLooseSigma = 100;  // [m], [rad]
+
+constexpr double kLeast = 1e-9;  // information of what nothing tells of, against zero pivots
+
+SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
+{
+  using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(
+      crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
+      crs.cols.data(), crs.values.data());
+}
+
+/** Rows and columns [first, first + size) of H^-1. */
+Eigen::MatrixXd marginalBlock(
+    const Eigen::SimplicialLDLT<SparseMatrix>& H, Eigen::Index first, Eigen::Index size)
+{
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(H.rows(), size);
+  unit.middleRows(first, size).setIdentity();
+  const Eigen::MatrixXd solved = H.solve(unit);
+  const Eigen::MatrixXd block = solved.middleRows(first, size);
+  return 0.5 * (block + block.transpose());
+}
+
+}  // namespace
+
+GraphProblem::NormalMatrix GraphProblem::normalMatrix(double positionSigma, double angleSigma)
+{
+  NormalMatrix normal;
+  ceres::Problem::EvaluateOptions options;  // with the free blocks, objects last
+  Eigen::Index columns = 0;
+  for (const auto& [index, block] : poses_)
+  {
+    if (index < firstFree_) continue;
+    options.parameter_blocks.push_back(block);
+    normal.poseAt[index] = columns;
+    columns += 6;
+  }
+  for (const auto& [id, block] : objects_)
+  {
+    options.parameter_blocks.push_back(block);
+    normal.objectAt[id] = columns;
+    columns += incrementSize(graph_.objects_.at(id).freedom);
+  }
+  if (problem_.HasParameterBlock(&graph_.floorHeight_))
+    options.parameter_blocks.push_back(&graph_.floorHeight_);
+  if (options.parameter_blocks.empty()) return normal;
+
+  ceres::CRSMatrix crs;
+  problem_.Evaluate(options, nullptr, nullptr, nullptr, &crs);
+  const SparseMatrix J = jacobianOf(crs);
+  SparseMatrix& H = normal.H;
+  H = J.transpose() * J;
+  for (Eigen::Index i = 0; i < H.cols(); ++i) H.coeffRef(i, i) += kLeast;
+  for (const auto& [id, at] : normal.objectAt)
+  {
+    const int angles = graph_.objects_.at(id).freedom == ObjectFreedom::Upright ? 1 : 3;
+    for (Eigen::Index i = 0; i < 3 + angles; ++i)
+    {
+      const double sigma = i < 3 ? positionSigma : angleSigma;
+      H.coeffRef(at + i, at + i) += 1 / (sigma * sigma);
+    }
+  }
+  return normal;
+}
+
+FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
+{
+  FactorGraph::Marginals result;
+  const NormalMatrix normal = normalMatrix(kFreePositionSigma, kFreeAngleSigma);
+  if (normal.H.rows() == 0) return result;
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  const auto last = normal.poseAt.find(graph_.poses_.size() - 1);
+  if (last != normal.poseAt.end()) result.lastPose = marginalBlock(factorised, last->second, 6);
+  if (withObjects)
+    for (const auto& [id, at] : normal.objectAt)
+      result.objects[id] =
+          marginalBlock(factorised, at, incrementSize(graph_.objects_.at(id).freedom));
+  return result;
+}
+
+std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
+{
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  std::vector<Matrix6> marginals(graph_.poses_.size(), Matrix6::Zero());
+  const NormalMatrix normal = normalMatrix(kLooseSigma, kLooseSigma);
+  if (normal.poseAt.size() + 1 < marginals.size()) return {};  // nothing says where the others are
+  if (normal.poseAt.empty()) return marginals;
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  if (factorised.info() != Eigen::Success || factorised.vectorD().minCoeff() <= 0) return {};
+  const SparseInverse inverse(factorised);
+  for (const auto& [index, at] : normal.poseAt) marginals[index] = inverse.block(at, 6);
+  return marginals;
+}
+
+FactorGraph::Marginals FactorGraph::marginals(std::size_t firstFree, bool withObjects)
+{
+  return GraphProblem(*this, firstFree, firstFree > 0).marginals(withObjects);
+}
+
+std::vector<Eigen::Matrix<double, 6, 6>> FactorGraph::poseMarginals()
+{
+  return GraphProblem(*this, 1, false).poseMarginals();
+}
+
+std::map<ObjectId, Eigen::MatrixXd> FactorGraph::objectMarginals()
+{
+  return GraphProblem(*this, poses(), false).marginals(true).objects;
+}
+
+}  // namespace quadmap

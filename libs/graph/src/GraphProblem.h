@@ -1,0 +1,54 @@
+#pragma once
+
+#include <ceres/cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+
+#include <Eigen/Sparse>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "quadmap/graph/FactorGraph.h"
+
+namespace quadmap
+{
+/** The free part of a graph as a problem for Ceres. It works on the graph's own blocks. */
+class GraphProblem
+{
+ public:
+  /** \param folded What is folded of views enters as that, else they all enter as they are. */
+  GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folded);
+
+  FactorGraph::Summary solve();
+  FactorGraph::Marginals marginals(bool withObjects);
+  std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
+
+ private:
+  using SparseMatrix = Eigen::SparseMatrix<double>;
+  /** H of steps of the free blocks, and where theirs begin. */
+  struct NormalMatrix
+  {
+    SparseMatrix H;
+    std::map<std::size_t, Eigen::Index> poseAt;
+    std::map<ObjectId, Eigen::Index> objectAt;
+  };
+  /** \param positionSigma, angleSigma Of each object from elsewhere [m], [rad]. */
+  NormalMatrix normalMatrix(double positionSigma, double angleSigma);
+
+  void addFloor();
+  void addStep(const FactorGraph::Step& step);
+  void addView(std::size_t pose, const FactorGraph::View& view);
+  double* poseBlock(std::size_t index);
+  double* objectBlock(ObjectId id);
+
+  FactorGraph& graph_;
+  std::size_t firstFree_;
+  bool folded_;
+  std::unique_ptr<ceres::Manifold> poseManifold_, freeManifold_;
+  ceres::Problem problem_;
+  std::map<std::size_t, double*> poses_;  // in the problem
+  std::map<ObjectId, double*> objects_;
+};
+
+}  // namespace quadmap

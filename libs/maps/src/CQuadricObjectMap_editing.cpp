@@ -1,0 +1,137 @@
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "quadmap/maps/CQuadricObjectMap.h"
+
+namespace quadmap
+{
+CQuadricObjectMap::Entry& CQuadricObjectMap::require(ObjectId id)
+{
+  const auto it = objects_.find(id);
+  if (it == objects_.end()) throw std::out_of_range(mrpt::format("the map has no object %u", id));
+  return it->second;
+}
+
+ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
+{
+  constexpr double kMaxTilt = 1e-4;  // [rad]: rounding
+  if (estimated.object.rotation().col(2).head<2>().norm() > kMaxTilt)
+    throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
+  if (estimated.covariance.llt().info() != Eigen::Success)
+    throw std::invalid_argument("the covariance of an object must be positive definite");
+  if (estimated.labelCounts.empty() || estimated.observations() == 0)
+    throw std::invalid_argument("an object of the map needs observations and their labels");
+
+  Entry object;
+  static_cast<MapObject&>(object) = estimated;
+  object.id = nextId_++;
+  object.object = ellipsoidOf(uprightStateOf(estimated.object));
+  object.confirmed = isConfirmed(object);
+  object.estimator = ObjectEstimator::fromEstimate(
+      {uprightStateOf(object.object), object.covariance, 0, object.orientationDefined},
+      labels().properties(object.label()), insertionOptions.estimator);
+  objects_[object.id] = object;
+  return object.id;
+}
+
+void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
+{
+  Entry& a = require(kept);
+  const Entry& b = require(absorbed);
+  if (kept == absorbed)
+    throw std::out_of_range(mrpt::format("object %u cannot be merged with itself", kept));
+
+  a.estimator.absorb(b.estimator, uprightStateOf(a.object), uprightStateOf(b.object));
+  for (const auto& [label, count] : b.labelCounts) a.labelCounts[label] += count;
+  a.completeCount += b.completeCount;
+  a.partialCount += b.partialCount;
+  a.missCount = std::min(a.missCount, b.missCount);
+  a.existenceLogOdds = std::max(a.existenceLogOdds, b.existenceLogOdds);
+  a.firstSeen = std::min(a.firstSeen, b.firstSeen);
+  a.lastSeen = std::max(a.lastSeen, b.lastSeen);
+  for (auto& [instance, object] : objectOfInstance_)
+    if (object == absorbed) object = kept;
+  for (auto& decision : lastDecisions_)
+    if (decision.object == absorbed) decision.object = kept;
+  objects_.erase(absorbed);
+  estimate(a, true);
+}
+
+void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
+{
+  MapObject& object = require(id);
+  object.labelCounts = {
+      {labels().canonical(label), std::max(1u, object.observations())}
+  };
+}
+
+void CQuadricObjectMap::remove(ObjectId id)
+{
+  require(id);
+  objects_.erase(id);
+  for (auto it = objectOfInstance_.begin(); it != objectOfInstance_.end();)
+    it = it->second == id ? objectOfInstance_.erase(it) : std::next(it);
+}
+
+// Estimation and merging ---------------------------------------------------------------------
+
+void CQuadricObjectMap::estimate(Entry& object, bool restart)
+{
+  // Of few measurements the optimum depends on where the search starts.
+  constexpr unsigned kFewMeasurements = 10;
+  const auto result = object.estimator.estimate(
+      uprightStateOf(object.object), labels().properties(object.label()),
+      insertionOptions.estimator, restart || object.observations() < kFewMeasurements);
+  object.object = ellipsoidOf(result.state);
+  object.covariance = result.covariance;
+  object.orientationDefined = result.orientationDefined;
+  object.confirmed = isConfirmed(object);
+  object.estimatedFrom = object.observations();
+}
+
+bool CQuadricObjectMap::isDue(const Entry& object) const
+{
+  return object.observations() >= (1 + insertionOptions.estimateGrowth) * object.estimatedFrom;
+}
+
+/** Merges each touched object with those that are one with it, (13.3) and (13.4). */
+void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)
+{
+  while (!touched.empty())
+  {
+    const ObjectId id = *touched.begin();
+    touched.erase(touched.begin());
+    const MapObject& object = objects_.at(id);
+    const auto twin = std::find_if(
+        objects_.begin(), objects_.end(),
+        [&](const auto& other)
+        {
+          return other.first != id &&
+                 areOneObject(object, other.second, labels(), insertionOptions.merging);
+        });
+    if (twin == objects_.end()) continue;
+    const bool keepsThis =
+        object.observations() > twin->second.observations() ||
+        (object.observations() == twin->second.observations() && id < twin->first);
+    const ObjectId kept = keepsThis ? id : twin->first;
+    const ObjectId absorbed = keepsThis ? twin->first : id;
+    merge(kept, absorbed);
+    touched.erase(absorbed);
+    touched.insert(kept);  // it may have grown into another one
+  }
+}
+
+void CQuadricObjectMap::consolidate()
+{
+  std::set<ObjectId> all;
+  for (auto& [id, object] : objects_)
+  {
+    estimate(object, true);
+    all.insert(id);
+  }
+  mergeOverlapping(all);
+}
+
+}  // namespace quadmap

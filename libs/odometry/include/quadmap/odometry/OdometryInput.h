@@ -1,0 +1,77 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadmap/odometry/GraphOdometry.h"
+#include "quadmap/odometry/PoseSource.h"
+#include "quadmap/odometry/PoseUncertainty.h"
+#include "quadmap/odometry/VisualOdometry.h"
+#include "quadmap/sensors/RgbdFrame.h"
+
+namespace quadmap
+{
+/** Gives every frame the pose with which it enters the estimation, and every keyframe the step from
+ * the keyframe before. */
+class OdometryInput
+{
+ public:
+  /** \param source Auto is treated as Rawlog. surveyOdometry() replaces Auto by something better.
+   *  \param up_robot Direction that is up at the first frame, in the robot's frame, for visual
+   *  odometry. When it is empty, the robot is assumed to stand upright then.
+   *  \param graph The poses of PoseSource::Graph. */
+  OdometryInput(
+      PoseSource source,
+      const PoseUncertaintyOptions& uncertainty,
+      const VisualOdometryOptions& visual,
+      const std::optional<Eigen::Vector3d>& up_robot = {},
+      const std::optional<GraphOdometry>& graph = {});
+
+  /** T_map_robot of the frame, or nothing when the input has none at its time.
+   *  \exception std::runtime_error As GraphOdometry::poseAt(). */
+  std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
+
+  /** The pose of a frame of a recording of a single moment, which has no poses: the origin of the
+   *  map. Call it instead of poseOf(). */
+  mrpt::poses::CPose3D poseOfMoment();
+
+  /** Motion of the robot since the keyframe before, with its covariance (x, y, z, yaw, pitch,
+   * roll), which is positive definite; nothing for the first keyframe. Call it once for every
+   * keyframe, after poseOf() or poseOfMoment() gave its pose. */
+  std::optional<mrpt::poses::CPose3DPDFGaussian> keyframeStep();
+
+  /** Call it after the last frame. \exception std::runtime_error As
+   * GraphOdometry::requireAllUsed(). */
+  void requireAllUsed() const;
+
+  PoseSource source() const { return source_; }
+  std::optional<VisualOdometryCounts> visualCounts() const;  //!< Set when visual odometry is used
+  const std::string& visualSensor() const { return visualSensor_; }
+
+  std::vector<std::string> takeWarnings();  //!< Those since the last call, one line each
+
+  /** What to tell the user when no frame got a pose. */
+  std::string whyNoPoses() const;
+
+ private:
+  std::optional<mrpt::poses::CPose3D> visualPoseOf(const RgbdFrame& frame);
+
+  PoseSource source_;
+  PoseUncertaintyOptions uncertainty_;
+  std::unique_ptr<VisualOdometry> visual_;
+  std::optional<GraphOdometry> graph_;
+  std::string visualSensor_;  //!< The camera of visual odometry; empty before the first
+  std::optional<mrpt::poses::CPose3DPDFGaussian> latest_,
+      keyframe_;  //!< Poses, as the input gave them
+  std::vector<std::string> warnings_;
+  bool sawOdometry_ = false, sawGroundTruth_ = false, sawOtherSensor_ = false;
+};
+
+}  // namespace quadmap

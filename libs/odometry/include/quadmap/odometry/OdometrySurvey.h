@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadmap/odometry/PoseSource.h"
+#include "quadmap/odometry/VisualOdometryOptions.h"
+#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/sensors/RawlogSource.h"
+
+namespace quadmap
+{
+/** What the start of a rawlog tells about its poses. */
+struct OdometrySurvey
+{
+  PoseSource source = PoseSource::Auto;     //!< Visual instead of Auto if there is no odometry
+  std::optional<Eigen::Vector3d> up_robot;  //!< Up at the first image, from the floor
+  /** The best of several kinds of odometry (see RawlogSourceOptions::odometryKind). It is empty
+   * when there is at most one kind. */
+  std::string odometryKind;
+};
+
+/** Looks at the first images of a rawlog. It finds out whether the rawlog has odometry, or shows a
+ * single moment, which needs none. Of several kinds of odometry it finds the best one. If there is
+ * none, or visual odometry is wanted, it finds out where up is. It passes over broken records; the
+ * reader of the whole rawlog reports them.
+ *
+ * The best odometry is chosen among the kinds that have poses for at least half as many images as
+ * any other kind has. Of these it is the one that says most about a pose: CObservationRobotPose
+ * (six numbers and their covariance) comes before the motions of CActionRobotMovement3D and 2D, and
+ * these come before CObservationOdometry (three numbers). */
+OdometrySurvey surveyOdometry(
+    const std::string& rawlog,
+    RawlogSourceOptions options,
+    PoseSource wanted,
+    const PerceptionOptions& perception = {},
+    const VisualOdometryOptions& visual = {});
+
+/** Mean of the largest set of directions that agree with one of them: doc/mathematics.md, section
+ * 15. It is nothing when there are no directions. */
+std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions);
+
+}  // namespace quadmap

@@ -1,0 +1,209 @@
+#include "quadmap/odometry/GraphOdometry.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/graphs/CNetworkOfPoses.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <stdexcept>
+
+#include "quadmap/base/ErrorText.h"
+
+namespace quadmap
+{
+using mrpt::graphs::TNodeID;
+using mrpt::poses::CPose3D;
+using mrpt::poses::CPose3DPDFGaussian;
+using Graph = mrpt::graphs::CNetworkOfPoses3DInf;
+
+namespace
+{
+constexpr double kSameTime = 1e-3;  // between rounded time stamps of one image [s]
+constexpr double kSilent = 1e-15;   // information below this is rounding: a planar edge states none
+
+struct NodeTime
+{
+  double time = 0;  // [s]
+  TNodeID node = 0;
+};
+
+/** Whether an information matrix states nothing about these coordinates. */
+bool isSilent(const Eigen::Matrix<double, 6, 6>& matrix, std::initializer_list<int> coordinates)
+{
+  for (const int i : coordinates)
+    if (!matrix.row(i).isZero() || !matrix.col(i).isZero()) return false;
+  return true;
+}
+
+/** The text of a graph, with the times that MRPT's reader takes for comments. */
+class GraphFile
+{
+ public:
+  explicit GraphFile(const std::string& path) : path_(path)
+  {
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error(path + ": cannot be read");
+    std::stringstream text;
+    text << file.rdbuf();
+    readTimes(text.str());
+    try
+    {
+      graph.readAsText(text);
+    }
+    catch (const std::exception& e)
+    {
+      throw std::runtime_error(path + ": " + rootMessage(e));
+    }
+    if (graph.nodes.empty())
+      throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line");
+    for (const auto& t : times)
+      if (graph.nodes.count(t.node) == 0)
+        throw std::runtime_error(mrpt::format(
+            "%s: a TIME of node %u, which is not there", path.c_str(), unsigned(t.node)));
+  }
+
+  Graph graph;
+  std::vector<NodeTime> times;
+
+  /** Covariance of the step from a node to another one, when an edge joins them. It is zero for the
+   * coordinates of which a planar edge says nothing. */
+  std::optional<mrpt::math::CMatrixDouble66> stepCovariance(TNodeID from, TNodeID to) const
+  {
+    const bool isForward = graph.edgeExists(from, to);
+    if (!isForward && !graph.edgeExists(to, from)) return std::nullopt;
+    const auto& edge = isForward ? graph.getEdge(from, to) : graph.getEdge(to, from);
+    const Eigen::Matrix<double, 6, 6> given = edge.cov_inv.asEigen();
+    const bool isPlanar = !given.isZero() && isSilent(given, {2, 4, 5});
+    Eigen::Matrix<double, 6, 6> information = given;
+    if (isPlanar)
+      for (const int i : {2, 4, 5})
+        information(i, i) = 1;  // any positive number gives it an inverse
+    if (!information.isApprox(information.transpose()) ||
+        information.llt().info() != Eigen::Success)
+      throw std::runtime_error(mrpt::format(
+          "%s: the information of the edge between %u and %u is not positive definite",
+          path_.c_str(), unsigned(from), unsigned(to)));
+    const Eigen::Matrix<double, 6, 6> covariance = information.inverse();
+    CPose3DPDFGaussian step(edge.mean, mrpt::math::CMatrixDouble66(covariance));
+    if (isPlanar)
+      for (const int i : {2, 4, 5}) step.cov(i, i) = 0;
+    return (isForward ? step : -step).cov;
+  }
+
+ private:
+  void readTimes(const std::string& text)
+  {
+    std::istringstream lines(text);
+    unsigned number = 0;
+    for (std::string line; std::getline(lines, line);)
+    {
+      ++number;
+      std::istringstream words(line);
+      std::string hash, name;
+      if (!(words >> hash >> name) || hash != "#" || name != "TIME") continue;
+      NodeTime t;
+      if (!(words >> t.node >> t.time) || !std::isfinite(t.time))
+        throw std::runtime_error(
+            mrpt::format("%s:%u: expected # TIME node seconds", path_.c_str(), number));
+      times.push_back(t);
+    }
+  }
+
+  std::string path_;
+};
+
+/** The nodes from the first on that are numbered one after the other and joined by edges. */
+std::vector<TNodeID> chainOf(const Graph& graph)
+{
+  std::vector<TNodeID> chain{graph.nodes.begin()->first};
+  for (TNodeID next = chain[0] + 1; graph.nodes.count(next) != 0; ++next)
+  {
+    if (!graph.edgeExists(next - 1, next) && !graph.edgeExists(next, next - 1)) break;
+    chain.push_back(next);
+  }
+  return chain;
+}
+
+}  // namespace
+
+GraphOdometry::GraphOdometry(const std::string& path) : path_(path)
+{
+  const GraphFile file(path);
+  std::vector<TNodeID> nodes;
+  std::map<double, TNodeID> nodeAt;
+  for (const auto& t : file.times) nodeAt.emplace(t.time, t.node);
+  std::map<TNodeID, std::size_t> indexOf;
+  for (const auto& [time, node] : nodeAt)
+  {
+    const auto [known, isNew] = indexOf.emplace(node, nodes.size());
+    if (isNew) nodes.push_back(node);
+    times_[time] = known->second;
+  }
+  if (file.times.empty()) nodes = chainOf(file.graph);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    poses_.push_back(
+        {file.graph.nodes.at(nodes[i]),
+         i + 1 < nodes.size() ? file.stepCovariance(nodes[i], nodes[i + 1]) : std::nullopt});
+}
+
+std::optional<CPose3D> GraphOdometry::poseAt(double time)
+{
+  latest_.reset();
+  if (times_.empty())
+  {
+    latest_ = images_++;
+    if (*latest_ >= poses_.size())
+      throw std::runtime_error(mrpt::format(
+          "%s: %zu robot poses without times (# TIME lines), but the recording has more images",
+          path_.c_str(), poses_.size()));
+  }
+  else
+  {
+    auto nearest = times_.lower_bound(time - kSameTime);
+    for (auto it = nearest; it != times_.end() && it->first <= time + kSameTime; ++it)
+      if (std::abs(it->first - time) <= std::abs(nearest->first - time)) nearest = it;
+    if (nearest != times_.end() && nearest->first <= time + kSameTime) latest_ = nearest->second;
+  }
+  if (!latest_) return std::nullopt;
+  return poses_[*latest_].T_map_robot;
+}
+
+std::optional<CPose3DPDFGaussian> GraphOdometry::takeStep(const PoseUncertaintyOptions& options)
+{
+  std::optional<CPose3DPDFGaussian> result;
+  if (keyframe_ && latest_) result = step(*keyframe_, *latest_, options);
+  keyframe_ = latest_;
+  return result;
+}
+
+CPose3DPDFGaussian GraphOdometry::step(
+    std::size_t from, std::size_t to, const PoseUncertaintyOptions& options) const
+{
+  if (to < from) return -step(to, from, options);
+  if (to == from) return odometryStep(options, poses_[from].T_map_robot, poses_[to].T_map_robot);
+  std::optional<CPose3DPDFGaussian> sum;
+  for (std::size_t i = from; i < to; ++i)
+  {
+    auto next = odometryStep(options, poses_[i].T_map_robot, poses_[i + 1].T_map_robot);
+    if (const auto& stated = poses_[i].stepCovariance)
+      for (int r = 0; r < 6; ++r)
+        for (int c = 0; c < 6; ++c)
+          if ((*stated)(r, r) > kSilent && (*stated)(c, c) > kSilent)
+            next.cov(r, c) = (*stated)(r, c);
+    sum = sum ? *sum + next : next;
+  }
+  return *sum;
+}
+
+void GraphOdometry::requireAllUsed() const
+{
+  if (times_.empty() && images_ < poses_.size())
+    throw std::runtime_error(mrpt::format(
+        "%s: %zu robot poses without times (# TIME lines), but the recording has %zu images",
+        path_.c_str(), poses_.size(), images_));
+}
+
+}  // namespace quadmap

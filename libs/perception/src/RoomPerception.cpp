@@ -1,0 +1,17 @@
+#include "quadmap/perception/RoomPerception.h"
+
+namespace quadmap
+{
+FrameSurfaces measureInRoom(
+    const FramePerception& perception,
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    CObservationObjects& boxes,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    const RoomPlanes& room)
+{
+  // The map's z axis in the sensor frame.
+  const Eigen::Vector3d up_sensor = T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
+  return perception.measure(scan, boxes, up_sensor, room.around(T_map_sensor));
+}
+
+}  // namespace quadmap

@@ -1,0 +1,33 @@
+#include "cloud/Cluster.h"
+
+#include <algorithm>
+
+namespace quadmap
+{
+bool isFragment(const Cluster& cluster, const Cluster& main)
+{
+  constexpr int kMinCount = 12;         // cells; fewer are noise
+  constexpr double kDepthSlack = 0.05;  // [m]
+  constexpr double kWhole = 0.85;       // of the box, filled by a main part that needs no others
+  return main.fill < kWhole && cluster.count >= kMinCount && cluster.leaking == 0 &&
+         cluster.nearest > main.nearest - kDepthSlack &&
+         cluster.farthest < main.farthest + kDepthSlack;
+}
+
+bool isFront(
+    const Cluster& cluster,
+    const Cluster& main,
+    const LabelProperties& label,
+    const Eigen::Vector2d& down)
+{
+  constexpr double kMinBreadth = 0.7;  // of the main part's
+  const double depth =
+      std::max(label.typicalSize.x(), label.typicalSize.y()) * (1.0 + label.sizeSpread);
+  const Span across = main.across(down);
+  return cluster.leaking == 0 &&
+         across.common(cluster.across(down)) > kMinBreadth * across.length() &&
+         cluster.lowest(down) > main.lowest(down) && cluster.farthest < main.farthest &&
+         cluster.nearest > main.farthest - depth;
+}
+
+}  // namespace quadmap

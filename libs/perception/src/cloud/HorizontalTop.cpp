@@ -1,0 +1,138 @@
+#include "cloud/HorizontalTop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planes/SurfaceTolerance.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kBin = 0.01;         // [m]
+constexpr int kHalfWindow = 2;        // bins to either side that noise spreads a surface over
+constexpr double kMinShare = 0.2;     // of the label's typical area from above
+constexpr double kMinContrast = 2.0;  // to the windows above and below
+constexpr double kMinSlope = 0.15;    // of the view down; a flatter one shows the rim alone
+constexpr double kMaxSpreads = 2.0;   // of a height from the typical one
+
+/** The area that points cover if they lie on horizontal surfaces, by height above the support. */
+class AreaOfHeight
+{
+ public:
+  AreaOfHeight(double low, double high) :
+      low_(low), bins_(static_cast<std::size_t>(std::ceil((high - low) / kBin)), 0.0)
+  {
+  }
+
+  void add(double height, double area)
+  {
+    const double bin = std::floor((height - low_) / kBin);
+    if (bin >= 0 && bin < static_cast<double>(bins_.size()))
+      bins_[static_cast<std::size_t>(bin)] += area;
+  }
+
+  /** Of the window around a bin [m^2]. */
+  double window(int bin) const
+  {
+    double sum = 0;
+    for (int i = std::max(0, bin - kHalfWindow); i <= std::min(size() - 1, bin + kHalfWindow); ++i)
+      sum += bins_[static_cast<std::size_t>(i)];
+    return sum;
+  }
+  int size() const { return static_cast<int>(bins_.size()); }
+  double height(int bin) const { return low_ + (bin + 0.5) * kBin; }
+
+ private:
+  double low_;
+  std::vector<double> bins_;
+};
+
+/** The bin of the height with the largest area. It must stand out from the heights beside it, as a
+ * vertical side covers all heights alike. */
+std::optional<int> largestHeight(const AreaOfHeight& areas, double minArea)
+{
+  constexpr int kApart = 2 * kHalfWindow + 1;  // bins from one window to the next
+  std::optional<int> best;
+  double largest = minArea;
+  for (int i = 0; i < areas.size(); ++i)
+  {
+    const double area = areas.window(i);
+    const double beside = 0.5 * (areas.window(i - kApart) + areas.window(i + kApart));
+    if (area <= largest || area < kMinContrast * beside) continue;
+    largest = area;
+    best = i;
+  }
+  return best;
+}
+
+/** The median of the values in the densest window, which is the interval of a given width that
+ * holds most values. The rim of a table is near its top, and would move the median of all values.
+ * \param values Not empty. */
+double densest(std::vector<double> values, double width)
+{
+  std::sort(values.begin(), values.end());
+  std::size_t first = 0, best = 0, most = 0;
+  for (std::size_t last = 0; last < values.size(); ++last)
+  {
+    while (values[last] - values[first] > width) ++first;
+    if (last - first < most) continue;
+    most = last - first;
+    best = first;
+  }
+  return values[best + most / 2];
+}
+
+}  // namespace
+
+std::optional<Plane> horizontalTop(
+    const DepthCloud& cloud,
+    const std::vector<Eigen::Vector3d>& points,
+    int step,
+    const Plane& support,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  const double spread = std::exp(kMaxSpreads * label.sizeSpread);
+  AreaOfHeight areas(label.typicalSize.z() / spread, label.typicalSize.z() * spread);
+  const double across = step * cloud.stride();
+  const double cell = across * across / std::abs(cloud.camera().fx * cloud.camera().fy);
+  const double cameraHeight = support.signedDistance(Eigen::Vector3d::Zero());
+  constexpr double kMinBelow = 0.05;  // below the camera; others are seen from beneath [m]
+  std::vector<double> heights;
+  for (const auto& p : points)
+  {
+    heights.push_back(support.signedDistance(p));
+    const double below = cameraHeight - heights.back();
+    if (below > kMinBelow) areas.add(heights.back(), cell * p.z() * p.z() * p.z() / below);
+  }
+  const auto top = largestHeight(areas, kMinShare * label.typicalSize.x() * label.typicalSize.y());
+  if (!top) return {};
+  std::vector<double> near, depths;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::abs(heights[i] - areas.height(*top)) < (kHalfWindow + 0.5) * kBin)
+    {
+      near.push_back(heights[i]);
+      depths.push_back(points[i].z());
+    }
+  const double depth = median(std::move(depths));
+  const double slope = (cameraHeight - areas.height(*top)) / depth;
+  if (slope < kMinSlope) return {};
+  constexpr double kUneven = 0.002;  // [m]
+  const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
+  return Plane{support.n, support.d - densest(std::move(near), width)};
+}
+
+std::optional<PlaneExtent> topExtent(
+    const Plane& top, std::vector<Eigen::Vector3d> points, const PerceptionOptions& options)
+{
+  points.erase(
+      std::remove_if(
+          points.begin(), points.end(), [&](const auto& p) { return !isOnPlane(p, top, options); }),
+      points.end());
+  if (points.empty()) return {};
+  return PlaneExtent(top.n, points);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "depth/DepthCloud.h"
+#include "planes/PlaneExtent.h"
+#include "quadmap/geometry/Plane.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/PerceptionOptions.h"
+
+namespace quadmap
+{
+/** Finds the top of a thing that ends in a horizontal one, as a table does (doc/mathematics.md, 7):
+ * the height at which the largest surface shows. It is found even when the camera sees it at too
+ * flat an angle for a plane of the scene. What is above the top stands on it.
+ * \param points Of every step-th cell of every step-th row in its box, optical frame [m].
+ * \param support What it stands on; normal up.
+ * \return Parallel to the support. Nothing when no height stands out or none is as high above the
+ * support as such things are. */
+std::optional<Plane> horizontalTop(
+    const DepthCloud& cloud,
+    const std::vector<Eigen::Vector3d>& points,
+    int step,
+    const Plane& support,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+/** How far an object's horizontal top reaches; the other parts of the object are below it. Nothing
+ * is returned when no point lies on the top. \param points Of the object, optical frame [m]. */
+std::optional<PlaneExtent> topExtent(
+    const Plane& top, std::vector<Eigen::Vector3d> points, const PerceptionOptions& options);
+
+}  // namespace quadmap

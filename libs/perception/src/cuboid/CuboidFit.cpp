@@ -1,0 +1,144 @@
+#include "cuboid/CuboidFit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cuboid/FaceEstimator.h"
+#include "cuboid/FaceSigmas.h"
+#include "cuboid/HeadingEstimate.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kMinHalfSize = 0.008;  // [m]; thinner things are not measured by these sensors
+constexpr std::size_t kTop = 4, kBottom = 5, kSides = 4;
+
+/** Completes the faces of a round thing (cup, ball). Its near side and its width are seen, and it
+ * is as deep as it is wide. */
+void completeRound(Faces& faces, const FaceEstimator& estimator)
+{
+  if (faces[2].worth.kind != FaceKind::Measured || faces[3].worth.kind != FaceKind::Measured)
+    return;
+  for (std::size_t side : {2, 3}) faces[side].position += roundShift(estimator.cell());
+  const double radius = 0.5 * (faces[2].position + faces[3].position);
+  for (std::size_t side : {2, 3})
+    faces[side].worth.sigma = roundOutlineSigma(radius, faces[side].worth.sigma);
+  if (const auto near = estimator.nearSideOfRound(1, radius); near) faces[1] = *near;
+  FaceEstimate& far = faces[0];
+  const double near = -faces[1].position;
+  if (near + 2.0 * radius < far.position) return;  // deeper than wide: keep what was seen
+  far.position = near + 2.0 * radius;
+  far.worth = {FaceKind::Measured, roundFarSigma(radius, faces[1].worth.sigma)};
+}
+
+/** Makes sides say "at least" when the lower part of the object is out of sight. The near sides do
+ * so when something hides that part, as a table hides a chair: the object may come nearer below.
+ * All sides do so when the foot is in sight but returns no depth, unless the object is round:
+ * plants are wider above. */
+void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator, bool isRound)
+{
+  constexpr double kMaxHidden = 0.3;   // of the height
+  constexpr double kMinHidden = 0.06;  // [m]; points near the support count as the support's
+  constexpr double kSideDoubt = 0.03;  // [m]
+  const double bottom = -faces[kBottom].position, top = faces[kTop].position;
+  if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kMaxHidden * (top - bottom))) return;
+  const bool isOpen = !isRound && estimator.isFootInSight();
+  for (std::size_t side = 0; side < kSides; ++side)
+  {
+    auto& worth = faces[side].worth;
+    if ((isOpen || estimator.facingAway(side) < -kTurnedAway) && worth.kind == FaceKind::Measured)
+      worth.kind = FaceKind::AtLeast;
+    worth.sigma += kSideDoubt;
+  }
+}
+
+/** Adds the share of the heading to the sigma of each side, equation (8.10). A wrong heading turns
+ * a face about the middle of the cuboid, and the part of the face that was seen moves by the lever.
+ * Without a heading the corners that make the outline move, too. */
+void addHeadingSigma(Faces& faces, const HeadingEstimate& yaw)
+{
+  constexpr double kUnknownSigma = 0.045;  // of the smallest rectangle's heading [rad]
+  const double middle[2] = {
+      0.5 * (faces[0].position - faces[1].position), 0.5 * (faces[2].position - faces[3].position)};
+  const double half[2] = {
+      0.5 * (faces[0].position + faces[1].position), 0.5 * (faces[2].position + faces[3].position)};
+  for (std::size_t side = 0; side < kSides; ++side)
+  {
+    const std::size_t across = side < 2 ? 1 : 0;
+    double lever = faces[side].shift - middle[across];
+    if (!yaw.defined) lever = std::hypot(lever, half[across]);
+    faces[side].worth.sigma =
+        std::hypot(faces[side].worth.sigma, lever * (yaw.defined ? yaw.sigma : kUnknownSigma));
+  }
+}
+
+CompleteMeasurement assemble(const Faces& faces, const Eigen::Matrix3d& R_obj_optical)
+{
+  CompleteMeasurement out;
+  Eigen::Vector3d center_obj, semiAxes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto positive = static_cast<std::size_t>(2 * axis), negative = positive + 1;
+    const double high = faces[positive].position, low = -faces[negative].position;
+    center_obj[axis] = 0.5 * (high + low);
+    semiAxes[axis] = std::max(kMinHalfSize, 0.5 * (high - low));
+    out.faces[positive] = faces[positive].worth;
+    out.faces[negative] = faces[negative].worth;
+  }
+  mrpt::math::CMatrixDouble33 R;
+  const Eigen::Matrix3d R_optical_obj = R_obj_optical.transpose();
+  const Eigen::Vector3d center = R_optical_obj * center_obj;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) R(i, j) = R_optical_obj(i, j);
+  const mrpt::poses::CPose3D T_optical_obj(
+      R, mrpt::math::TPoint3D(center.x(), center.y(), center.z()));
+  out.object_sensor = Ellipsoid(T_optical_obj, semiAxes);
+  return out;
+}
+
+}  // namespace
+
+CompleteMeasurement fitCuboid(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ObjectCloud& object,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  const Eigen::Vector3d up = object.support ? planes.plane(*object.support).plane.n : planes.up;
+  const UprightCloud upright = uprightCloud(cloud, object, up);
+  const HeadingEstimate yaw =
+      label.dominantDirection ? estimateHeading(upright, options) : HeadingEstimate();
+
+  const FaceEstimator estimator(cloud, planes, object, upright, yaw.yaw, options);
+  Faces faces;
+  const auto isKnown = [&](std::size_t face)
+  { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
+  for (std::size_t face = 0; face < kFaces; ++face)
+    if (!isKnown(face)) faces[face] = estimator.face(face);
+  if (object.top)
+  {
+    faces[kTop].position = -object.top->d;
+    faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options)};
+  }
+  if (object.support)
+  {
+    // Distance of the supporting plane below the camera, along the object's -z.
+    faces[kBottom].position = planes.plane(*object.support).plane.d;
+    faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
+    doubtHiddenPart(faces, estimator, !label.dominantDirection);
+  }
+  if (label.dominantDirection)
+    addHeadingSigma(faces, yaw);
+  else
+    completeRound(faces, estimator);
+
+  CompleteMeasurement out = assemble(faces, estimator.R_obj_optical());
+  out.yawDefined = yaw.defined;
+  out.yawSigma = yaw.sigma;
+  out.yawDominance = yaw.dominance;
+  return out;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "cloud/ObjectCloud.h"
+#include "quadmap/obs/ObjectMeasurement.h"
+
+namespace quadmap
+{
+/** The upright cuboid around an object's cloud, with what each face is worth (doc/mathematics.md,
+ * 8). Its frame is the optical one (object_sensor must still be transformed).
+ * \param object Not empty. */
+CompleteMeasurement fitCuboid(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ObjectCloud& object,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+}  // namespace quadmap

@@ -1,0 +1,210 @@
+#include "cuboid/FaceEstimator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cuboid/FaceSigmas.h"
+#include "planes/SurfaceTolerance.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
+constexpr std::size_t kTop = 4, kBottom = 5;
+
+}  // namespace
+
+FaceEstimator::FaceEstimator(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ObjectCloud& object,
+    const UprightCloud& upright,
+    double yaw,
+    const PerceptionOptions& options) :
+    cloud_(cloud),
+    planes_(planes),
+    object_(object),
+    options_(options),
+    range_(upright.medianRange),
+    cells_(upright.cells)
+{
+  R_obj_optical_ = Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+                   upright.R_upright_optical;
+  const Eigen::Matrix3d R_obj_upright = R_obj_optical_ * upright.R_upright_optical.transpose();
+  for (const std::size_t axis : {0, 1, 2})
+  {
+    points_[axis].resize(size());
+    normals_[axis].resize(size());
+  }
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const Eigen::Vector3d p = R_obj_upright * upright.points[i];
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    if (upright.normals[i]) n = R_obj_upright * *upright.normals[i];
+    for (const std::size_t axis : {0, 1, 2})
+    {
+      points_[axis][i] = p[static_cast<Eigen::Index>(axis)];
+      normals_[axis][i] = n[static_cast<Eigen::Index>(axis)];
+    }
+    centroid_ += p;
+  }
+  centroid_ /= static_cast<double>(size());
+  for (const std::size_t axis : {0, 1, 2})
+  {
+    const QuantileRange range = quantileRange(points_[axis], kTailShare);
+    extremes_[2 * axis] = range.high;
+    extremes_[2 * axis + 1] = -range.low;
+  }
+}
+
+Eigen::Vector3d FaceEstimator::normalOf(std::size_t face) const
+{
+  return (face % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(face / 2));
+}
+
+double FaceEstimator::facingAway(std::size_t face) const
+{
+  return normalOf(face).dot(centroid_.normalized());
+}
+
+double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
+
+bool FaceEstimator::isFootInSight() const
+{
+  constexpr double kLowest = 0.98, kMaxHidden = 0.3;  // quantile; share of what lies below it
+  const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
+  const Eigen::Vector3d lower = middle + 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
+  const Eigen::Vector2d down = cloud_.camera().project(lower) - cloud_.camera().project(middle);
+  std::vector<double> visible;
+  for (const auto& cell : cells_) visible.push_back(down.dot(Eigen::Vector2d(cell.c, cell.r)));
+  const double lowest = quantile(std::move(visible), kLowest);
+  const double tolerance = 3.0 * options_.depthSigma(range_);
+  int below = 0, hidden = 0;
+  for (int r = object_.inBox.r0; r < object_.inBox.r1; ++r)
+    for (int c = object_.inBox.c0; c < object_.inBox.c1; ++c)
+    {
+      if (down.dot(Eigen::Vector2d(c, r)) <= lowest) continue;
+      ++below;
+      if (!cloud_.valid(c, r) || cloud_.depth(c, r) > range_ - tolerance) continue;
+      const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
+      hidden += isOnSupport(p, tolerance) ? 0 : 1;
+    }
+  return hidden < kMaxHidden * below;
+}
+
+bool FaceEstimator::isOnSupport(const Eigen::Vector3d& p, double tolerance) const
+{
+  return object_.support && std::abs(planes_.plane(*object_.support).plane.signedDistance(p)) <
+                                unevenSupportTolerance(tolerance);
+}
+
+FaceEstimate FaceEstimator::face(std::size_t face) const
+{
+  constexpr double kMaxCutTop = 0.15;  // of the lines up through the object
+  auto out = surface(face);
+  if (!out || face == kTop)
+  {
+    const Outline lines = outlineTowards(face);
+    if (!out) out = outline(face, lines);
+    // The upper part of a thing need not be as wide as the lower one (a chair's back): when some of
+    // it goes on beyond what is seen, its height is open.
+    if (face == kTop && cutShare(lines, face, -1e9) > kMaxCutTop)
+      out->worth.kind = FaceKind::AtLeast;
+  }
+  if (endsOutsideBox(face)) out->worth.kind = FaceKind::Unknown;
+  return *out;
+}
+
+/** Does the cloud end outside the detector's box on this side? Only a cloud that goes on outside
+ * the box can. The end is then that of another thing, which touches the object. */
+bool FaceEstimator::endsOutsideBox(std::size_t face) const
+{
+  constexpr double kEnd = 0.02, kMaxOutside = 0.3;  // [m], share of the end's points
+  if (object_.leak == 0) return false;
+  int end = 0, outside = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    if (along(face, i) < extreme(face) - kEnd) continue;
+    ++end;
+    outside += object_.inBox.contains(cells_[i].c, cells_[i].r) ? 0 : 1;
+  }
+  return outside > kMaxOutside * end;
+}
+
+/** A face that shows by its own points: it is at their median. */
+std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
+{
+  constexpr double kMinCosine = 0.85;
+  // What lies deeper is another part (the apron below a table's edge).
+  const double shellDepth = std::max(0.03, 4.0 * options_.depthSigma(range_));  // [m]
+  const auto& across = acrossOf(face);
+  std::vector<double> shell;
+  double shift = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cosine(face, i) > kMinCosine && along(face, i) > extreme(face) - shellDepth)
+    {
+      shell.push_back(along(face, i));
+      shift += across[i];
+    }
+  const double count = static_cast<double>(shell.size());
+  if (count < std::max(20.0, 0.03 * static_cast<double>(size()))) return {};
+  FaceEstimate out;
+  out.source = FaceSource::Surface;
+  out.shift = shift / count;
+  out.position = median(shell);
+  out.worth = {
+      FaceKind::Measured,
+      face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
+
+  if (face == kTop) raiseTop(std::move(shell), out);
+  return out;
+}
+
+/** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims and handles,
+ * and what lies above the noise is their end. \param shell Heights of the points that face up [m].
+ */
+void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
+{
+  const double depthSigma = options_.depthSigma(range_);
+  const double count = static_cast<double>(shell.size());
+  const double noise = std::max(madSigma(shell), depthSigma);
+  constexpr double kMost = 0.95, kMostSigmas = 1.64;
+  const double high =
+      quantile(std::move(shell), kMost) - kMostSigmas * std::abs(facingAway(kTop)) * depthSigma;
+  if (high > top.position)
+  {
+    top.worth.sigma = std::hypot(top.worth.sigma, 0.5 * (high - top.position));
+    top.position = high;
+  }
+  constexpr double kMinOut = 0.01, kMinShare = 0.01;  // [m], of the surface
+  std::vector<double> beyond;
+  for (const double x : points_[kTop / 2])
+    if (x > top.position + std::max(kMinOut, 3.5 * noise)) beyond.push_back(x);
+  if (static_cast<double>(beyond.size()) > std::max(6.0, kMinShare * count))
+  {
+    top.position = quantile(std::move(beyond), 0.9);
+    top.worth.sigma = std::hypot(top.worth.sigma, protrusionSigma(cell()));
+  }
+}
+
+/** Each point tells where the outermost one is, equation (8.7). */
+std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, double radius) const
+{
+  constexpr double kMinCosine = 0.85, kMinPoints = 20;
+  std::vector<double> outermost;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cosine(face, i) > kMinCosine)
+      outermost.push_back(along(face, i) + radius * (1.0 - cosine(face, i)));
+  if (static_cast<double>(outermost.size()) < kMinPoints) return {};
+  FaceEstimate out;
+  out.source = FaceSource::Surface;
+  // Leaves lie at all depths, a vase's wall at one.
+  const double ragged = std::max(0.0, madSigma(outermost) - options_.depthSigma(range_));
+  out.position = median(std::move(outermost)) + ragged;
+  out.worth = {FaceKind::Measured, std::hypot(ragged, roundSurfaceSigma(range_, radius, options_))};
+  return out;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cuboid/FaceEstimator.h"
+#include "cuboid/FaceSigmas.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+// Faces that show by the outline of the object only (doc/mathematics.md, 8, "Faces").
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::size_t kTop = 4;
+
+/** Extent of the middle 90 % of some values. */
+double spread(std::vector<double> values)
+{
+  if (values.empty()) return 0.0;
+  return quantileRange(std::move(values), 0.05).width();
+}
+
+}  // namespace
+
+/** Cuts the object into lines of cells that run in the image as the outward normal does. */
+FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
+{
+  constexpr double kStep = 0.05;  // [m]
+  const Eigen::Vector3d n = normalOf(face);
+  const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
+  const Eigen::Vector3d ahead = middle + kStep * R_obj_optical_.transpose() * n;
+  Outline out;
+  const auto& camera = cloud_.camera();
+  if (ahead.z() < 0.1) return out;
+  const Eigen::Vector2d step =
+      (camera.project(ahead) - camera.project(middle)) / static_cast<double>(cloud_.stride());
+  const double cells = step.norm();
+  out.metresPerCell = kStep / std::max(cells, 1e-3);
+  const Eigen::Vector2d across(-step.y() / std::max(cells, 1e-9), step.x() / std::max(cells, 1e-9));
+
+  // No cell is farther from the first line than the image is long, either way.
+  const int reach = cloud_.columns() + cloud_.rows();
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  std::vector<Line> lines(static_cast<std::size_t>(2 * reach), Line{0, kNothing});
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const double number = across.x() * cells_[i].c + across.y() * cells_[i].r + reach;  // > 0
+    Line& line = lines[static_cast<std::size_t>(number)];
+    if (along(face, i) > line.along) line = {i, along(face, i)};
+  }
+  for (const auto& line : lines)
+    if (line.along > kNothing) out.lines.push_back(line);
+  std::sort(
+      out.lines.begin(), out.lines.end(),
+      [](const Line& a, const Line& b) { return a.along > b.along; });
+  return out;
+}
+
+/** The share of lines that are cut: their last cell is not an end of the object. Only the lines
+ * that reach `from` [m] count. */
+double FaceEstimator::cutShare(const Outline& outline, std::size_t face, double from) const
+{
+  const Eigen::Vector3d ahead = 0.05 * R_obj_optical_.transpose() * normalOf(face);
+  int cut = 0, all = 0;
+  for (const auto& line : outline.lines)
+  {
+    if (line.along < from) break;
+    ++all;
+    cut += isCut(cells_[line.last], ahead) ? 1 : 0;
+  }
+  return all > 0 ? static_cast<double>(cut) / all : 1.0;
+}
+
+/** How far noise moves the n-th outermost of the points that may lie at a face, equation (8.9) [m].
+ */
+double FaceEstimator::noiseAt(std::size_t face, double position, std::size_t n) const
+{
+  constexpr double kReach = 2.0;  // of the noise
+  const double sigma = options_.depthSigma(range_), away = facingAway(face);
+  const double least = position - kReach * std::abs(away) * sigma;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size(); ++i) count += along(face, i) >= least ? 1 : 0;
+  return outlineNoise(away, sigma, n, count);
+}
+
+/** A face that shows by its outline only: it is where the lines end, with (8.8) and (8.9). */
+FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) const
+{
+  constexpr double kRim = 0.03, kMaxCut = 0.3;  // [m], share
+  constexpr double kStrayLines = 0.04;          // share; flying pixels
+  constexpr double kMaxMetresPerCell = 0.05;    // coarser outlines say nothing [m]
+  FaceEstimate out;
+  if (outline.lines.empty())  // right behind the camera's plane
+  {
+    for (std::size_t i = 0; i < size(); ++i) out.position = std::max(out.position, along(face, i));
+    out.worth = {FaceKind::AtLeast, outlineSigma(kMaxMetresPerCell, range_, options_)};
+    return out;
+  }
+  const std::size_t stray = std::min(
+      outline.lines.size() - 1,
+      static_cast<std::size_t>(1.0 + kStrayLines * static_cast<double>(outline.lines.size())));
+  const double outermost = outline.lines[stray].along;
+  const double away = facingAway(face);
+  out.source = away > kTurnedAway ? FaceSource::FarEdge : FaceSource::Outline;
+  const double perCell = std::min(outline.metresPerCell, kMaxMetresPerCell);
+  out.position = outermost + outlineShift(away, perCell) - noiseAt(face, outermost, stray);
+  const auto& across = acrossOf(face);
+  double count = 0;
+  for (const auto& line : outline.lines)
+  {
+    if (line.along < outermost - kRim) break;
+    out.shift += across[line.last];
+    ++count;
+  }
+  out.shift /= count;
+  const bool isOpen = cutShare(outline, face, outermost - kRim) > kMaxCut ||
+                      (away > kTurnedAway && !leadsUp(face, outermost));
+  out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
+  // A slanted cut leaves few lines their ends; nothing is known beyond them.
+  if (isOpen) out.position = std::max(outermost, extreme(face));
+  out.worth.sigma = outlineSigmaOf(face, perCell);
+  return out;
+}
+
+double FaceEstimator::outlineSigmaOf(std::size_t face, double perCell) const
+{
+  const double away = facingAway(face);
+  if (face == kTop && away < -kTurnedAway) return topFromAboveSigma(perCell, range_, options_);
+  if (face == kTop) return topEdgeSigma(perCell, range_, options_);
+  if (away > kTurnedAway) return farEdgeSigma(perCell, range_, options_);
+  return outlineSigma(perCell, range_, options_);
+}
+
+/** A side that is turned away counts when a surface is seen that leads up to it and that is no mere
+ * rim, as the top of a cabinet for its back; the back of a chair hides what is behind it. */
+bool FaceEstimator::leadsUp(std::size_t face, double position) const
+{
+  constexpr double kRim = 0.03, kMinProfile = 0.3, kMinDepth = 0.05;  // [m], share, [m]
+  constexpr double kMinBreadth = 0.35;                                // of the width across
+  int profile = 0, rim = 0;
+  std::vector<double> depth;
+  depth.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    if (normals_[0][i] == 0 && normals_[1][i] == 0 && normals_[2][i] == 0) continue;
+    const bool inProfile = std::abs(cosine(face, i)) < 0.5;
+    if (inProfile) depth.push_back(along(face, i));
+    if (along(face, i) < position - kRim) continue;
+    ++rim;
+    profile += inProfile ? 1 : 0;
+  }
+  if (profile <= kMinProfile * rim) return false;
+  const double deep = spread(std::move(depth));
+  return deep > kMinDepth && deep > kMinBreadth * spread(acrossOf(face));
+}
+
+/** Does the object go on beyond a cell at its rim: at the image border, behind something nearer, or
+ * on a surface that the box or the cluster cut off? \param ahead_optical Where it would go on. */
+bool FaceEstimator::isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const
+{
+  const Eigen::Vector3d p = cloud_.point(cell.c, cell.r).cast<double>();
+  const Eigen::Vector3d ahead = p + ahead_optical;
+  if (ahead.z() < 0.05) return true;
+  const auto& camera = cloud_.camera();
+  const Eigen::Vector2d step = camera.project(ahead) - camera.project(p);
+  if (step.norm() < 1e-6) return false;
+  const Eigen::Vector2d direction = step.normalized();
+  constexpr int kReach = 10;  // cells
+  constexpr int kBorder = 3;  // cells; the sensor's own rim is empty
+  for (int i = 1; i <= kReach; ++i)
+  {
+    const int c = static_cast<int>(cell.c + i * direction.x() + 0.5);  // rounded where it is inside
+    const int r = static_cast<int>(cell.r + i * direction.y() + 0.5);
+    if (c < kBorder || r < kBorder || c >= cloud_.columns() - kBorder ||
+        r >= cloud_.rows() - kBorder)
+      return true;
+    if (object_.mask.contains(c, r) || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
+    const Eigen::Vector3d q = cloud_.point(c, r).cast<double>();
+    const double noise = 3.0 * options_.depthSigma(p.z());
+    return !isOnSupport(q, noise) && q.z() < p.z() + 0.03 + noise;
+  }
+  return false;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,205 @@
+#include "cuboid/HeadingEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cuboid/HeadingHistogram.h"
+#include "cuboid/LineFit.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kPi = 3.14159265358979323846;
+/** Depth images are bent by their calibration: no direction is better than this [rad]. */
+constexpr double kSigmaFloor = 0.2 * kPi / 180.0;
+
+/** The histogram of the normals of vertical surfaces, with what its peak is worth. */
+struct NormalPeak
+{
+  HeadingHistogram::Peak peak;
+  double independent = 0;  // normals that do not share their noise, in the whole histogram
+
+  /** Sigmas by which the peak stands above an even spread of as many normals, equation (8.2). */
+  double significance() const
+  {
+    constexpr double kEven = 20.0 / 90.0;  // share of the 20 degrees around any direction
+    return (peak.dominance - kEven) * std::sqrt(independent / (kEven * (1.0 - kEven)));
+  }
+  /** Of the heading without lines, equation (8.5) [rad^2]. */
+  double variance() const
+  {
+    const double agreeing = std::max(1.0, peak.dominance * independent);
+    return peak.width * peak.width / agreeing + kSigmaFloor * kSigmaFloor;
+  }
+};
+
+NormalPeak peakOfNormals(const UprightCloud& cloud)
+{
+  constexpr double kMinHorizontality = 0.8;
+  HeadingHistogram histogram;
+  for (const auto& normal : cloud.normals)
+  {
+    if (!normal) continue;
+    const double horizontal = normal->head<2>().norm();
+    if (horizontal > kMinHorizontality)
+      histogram.add(std::atan2(normal->y(), normal->x()), horizontal * horizontal);
+  }
+  NormalPeak out;
+  out.peak = histogram.peak();
+  out.independent = out.peak.mass * std::min(1.0, cloud.cellsPerSample / cloud.cellsPerNormal);
+  return out;
+}
+
+/** The line that the face with a normal near `heading` makes seen from above. */
+std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
+{
+  constexpr double kMaxNormalAngle = 20.0 * kPi / 180.0, kShell = 0.04;  // [m]
+  const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (cloud.normals[i] && cloud.normals[i]->head<2>().dot(n) > std::cos(kMaxNormalAngle))
+      points.emplace_back(cloud.points[i].head<2>().dot(t), cloud.points[i].head<2>().dot(n));
+  return fitLine(std::move(points), kShell);
+}
+
+/** The correction of a heading by the lines of all faces: their weighted mean and its variance,
+ * equation (8.4). The variance grows when the lines contradict each other. */
+std::optional<LineFit> refine(const UprightCloud& cloud, double yaw)
+{
+  constexpr double kMaxCorrection = 10.0 * kPi / 180.0;
+  double information = 0, sum = 0, squares = 0;
+  int lines = 0;
+  for (int side = 0; side < 4; ++side)
+  {
+    const auto line = faceLine(cloud, yaw + side * kPi / 2);
+    if (!line || std::abs(line->angle) > kMaxCorrection) continue;
+    const double weight = 1.0 / (line->variance + kSigmaFloor * kSigmaFloor);
+    information += weight;
+    sum += weight * -line->angle;  // the normal turns against the slope
+    squares += weight * line->angle * line->angle;
+    ++lines;
+  }
+  if (lines == 0) return {};
+  const double mean = sum / information;
+  const double chi2 = squares - information * mean * mean;
+  const double inflation = lines > 1 ? std::max(1.0, chi2 / (lines - 1)) : 1.0;
+  return LineFit{mean, inflation / information, 1.0};
+}
+
+/** Heading and width of the smallest rectangle around the cloud, seen from above. */
+struct Rectangle
+{
+  double yaw = 0, width = 0;  // of its longer side [rad], [m]
+};
+
+/** What some points extend over along an axis [m]. */
+struct Extent
+{
+  double most = 0;  // of them, without stray ones
+  double all = 0;
+
+  explicit Extent(std::vector<double> values)
+  {
+    constexpr double kStray = 0.02;  // share of the points, at either end
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    all = *highest - *lowest;
+    most = quantileRange(std::move(values), kStray).width();
+  }
+  /** The least value that `most` may have when the axis is turned. \param across Extent across it.
+   */
+  double turnedBy(double angle, const Extent& across) const
+  {
+    return std::max(0.0, most * std::cos(angle) - across.all * std::sin(angle));
+  }
+};
+
+Rectangle smallestRectangle(const UprightCloud& cloud)
+{
+  constexpr std::size_t kMaxPoints = 400;
+  constexpr int kStep = 2;  // [deg]
+  const std::size_t step = 1 + cloud.points.size() / kMaxPoints;
+  Rectangle best;
+  double bestArea = 1e9;
+  for (int degree = 0; degree < 90;)
+  {
+    const double yaw = degree * kPi / 180.0, c = std::cos(yaw), s = std::sin(yaw);
+    std::vector<double> along, across;
+    along.reserve(kMaxPoints);
+    across.reserve(kMaxPoints);
+    for (std::size_t i = 0; i < cloud.points.size(); i += step)
+    {
+      along.push_back(c * cloud.points[i].x() + s * cloud.points[i].y());
+      across.push_back(-s * cloud.points[i].x() + c * cloud.points[i].y());
+    }
+    const Extent x(std::move(along)), y(std::move(across));
+    if (x.most * y.most < bestArea)
+    {
+      bestArea = x.most * y.most;
+      best = x.most >= y.most ? Rectangle{yaw, x.most} : Rectangle{yaw + kPi / 2, y.most};
+    }
+    // The next heading whose rectangle may be smaller.
+    double turn = 0;
+    do
+    {
+      degree += kStep;
+      turn += kStep * kPi / 180.0;
+    } while (degree < 90 && x.turnedBy(turn, y) * y.turnedBy(turn, x) > bestArea);
+  }
+  return best;
+}
+
+/** Heading of something flat that stands upright: of the line that it makes seen from above. */
+std::optional<LineFit> flatHeading(
+    const UprightCloud& cloud, const Rectangle& rectangle, const PerceptionOptions& options)
+{
+  constexpr double kMinShare = 0.75, kMinWidth = 6.0;  // of the points; in shells
+  constexpr double kMaxShell = 0.05;  // [m]; in thicker ones any corner passes for a line
+  const double shell = 0.02 + 2.0 * options.depthSigma(cloud.medianRange);
+  if (shell > kMaxShell || rectangle.width < kMinWidth * shell) return {};
+  const Eigen::Vector2d t(std::cos(rectangle.yaw), std::sin(rectangle.yaw)), n(-t.y(), t.x());
+  std::vector<Eigen::Vector2d> points;
+  for (const auto& p : cloud.points) points.emplace_back(p.head<2>().dot(t), p.head<2>().dot(n));
+  const auto line = fitLine(std::move(points), shell);
+  if (!line || line->share < kMinShare) return {};
+  return line;
+}
+
+}  // namespace
+
+HeadingEstimate estimateHeading(const UprightCloud& cloud, const PerceptionOptions& options)
+{
+  constexpr double kMinMass = 40.0, kMinSignificance = 2.5;
+  const NormalPeak normals = peakOfNormals(cloud);
+  HeadingEstimate out;
+  out.dominance = normals.peak.dominance;
+  if (normals.peak.mass >= kMinMass && out.dominance >= options.yawMinDominance &&
+      normals.significance() > kMinSignificance)
+  {
+    out.defined = true;
+    out.yaw = normals.peak.yaw;
+    double variance = normals.variance();
+    // Once more about the corrected heading: lines of real faces stay where they are.
+    for (int i = 0; i < 2; ++i)
+      if (const auto correction = refine(cloud, out.yaw))
+      {
+        out.yaw += correction->angle;
+        variance = correction->variance + (i > 0 ? correction->angle * correction->angle : 0.0);
+      }
+    out.sigma = std::sqrt(variance);
+    return out;
+  }
+  const Rectangle rectangle = smallestRectangle(cloud);
+  out.yaw = rectangle.yaw;
+  if (const auto line = flatHeading(cloud, rectangle, options))
+  {
+    out.defined = true;
+    out.yaw += line->angle;
+    out.sigma = std::sqrt(line->variance + kSigmaFloor * kSigmaFloor);
+  }
+  return out;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,299 @@
+#include "edges/EdgeMeasurements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "edges/HiddenPart.h"
+#include "edges/ObjectEnd.h"
+#include "quadmap/geometry/Projection.h"
+#include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/perception/BoxEdges.h"
+
+namespace quadmap
+{
+namespace
+{
+/** The object is in contact with something nearer that stands along more of an edge than this
+ * share. */
+constexpr double kContactShare = 0.1;
+/** An edge nearer to the border of the image than this is cut. Detectors err by as much where the
+ * border cuts an object [px of an image 640 wide]. */
+constexpr double kMinStrip_px = 8.0;
+/** A box edge that is farther from the border of the image than this is not cut by it [sigmas of
+ * the edge, equation (9.1)]. */
+constexpr double kBorderSigmas = 3.0;
+
+/** Options in pixels are meant for images of this width, and grow with the image. */
+double scaledPixels(const DepthCloud& cloud, double pixels)
+{
+  return PerceptionOptions::scaledPixels(pixels, cloud.camera().width);
+}
+
+ImageBox stripOutside(const ImageBox& box, BoxEdge edge, double width)
+{
+  switch (edge)
+  {
+    case BoxEdge::Left:
+      return {box.x1 - width, box.y1, box.x1, box.y2};
+    case BoxEdge::Top:
+      return {box.x1, box.y1 - width, box.x2, box.y1};
+    case BoxEdge::Right:
+      return {box.x2, box.y1, box.x2 + width, box.y2};
+    default:
+      return {box.x1, box.y2, box.x2, box.y2 + width};
+  }
+}
+
+/** The quarter of a box along one of its edges. */
+ImageBox quarterInside(const ImageBox& box, BoxEdge edge)
+{
+  const double depth = 0.25 * (isUpright(edge) ? box.width() : box.height());
+  const ImageBox inwards = stripOutside(box, edge, -depth);
+  return {
+      std::min(inwards.x1, inwards.x2), std::min(inwards.y1, inwards.y2),
+      std::max(inwards.x1, inwards.x2), std::max(inwards.y1, inwards.y2)};
+}
+
+/** Judges the edges of one box. */
+class EdgeJudge
+{
+ public:
+  EdgeJudge(
+      const DepthCloud& cloud,
+      const ImageBox& box,
+      const EdgeContext& context,
+      const PerceptionOptions& options) :
+      cloud_(cloud),
+      box_(box),
+      context_(context),
+      options_(options),
+      occluders_(cloud, box, context, options)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const auto edge = static_cast<BoxEdge>(i);
+      ends_.emplace_back(cloud, context, edge, occluders_, options);
+      depth_[i] = depthNear(edge);
+      nearBorder_[i] = isNearBorder(edge, depth_[i]);
+      nearer_[i] = nearerShare(edge, depth_[i]);
+      touching_[i] = nearer_[i] > 0 ? nearer_[i] * ends_[i].shareBehind() : 0.0;
+    }
+    floating_ = floating();
+  }
+
+  EdgeState state(BoxEdge edge) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    if (nearBorder_[i]) return EdgeState::NearImageBorder;
+    return hiddenProbability(sideOf(edge), evidence(edge)) > options_.maxHiddenProbability
+               ? EdgeState::Occluded
+               : EdgeState::Usable;
+  }
+
+ private:
+  ObjectSide sideOf(BoxEdge edge) const
+  {
+    constexpr double kMinCosine = 0.7;
+    const double outwardsUp = -boxEdgePlane(cloud_.camera(), box_, edge).n.dot(context_.up);
+    return outwardsUp > kMinCosine    ? ObjectSide::Top
+           : outwardsUp < -kMinCosine ? ObjectSide::Bottom
+                                      : ObjectSide::Lateral;
+  }
+
+  /** Depth of the object near one of its edges [m]; of the whole object where too little of it is
+   * there. */
+  double depthNear(BoxEdge edge) const
+  {
+    constexpr std::size_t kMinCells = 10;
+    constexpr double kNearPart = 0.3;
+    const auto quarter = cloud_.cellsOf(quarterInside(box_, edge));
+    const auto& cells = context_.object.cells;
+    std::vector<double> depths;
+    for (std::size_t i = 0; i < cells.size(); i += sampleStep(cells.size()))
+      if (quarter.contains(cells[i].c, cells[i].r))
+        depths.push_back(cloud_.depth(cells[i].c, cells[i].r));
+    return depths.size() < kMinCells ? context_.depth : quantile(std::move(depths), kNearPart);
+  }
+
+  /** Share of an edge's length along which `isIt(c, r)` for a cell of the strip outside it. */
+  template <typename IsIt>
+  double shareAlong(BoxEdge edge, double width, const IsIt& isIt) const
+  {
+    const auto strip = cloud_.cellsOf(stripOutside(box_, edge, width));
+    const bool upright = isUpright(edge);
+    const int first = upright ? strip.r0 : strip.c0, last = upright ? strip.r1 : strip.c1;
+    const int inner0 = upright ? strip.c0 : strip.r0, inner1 = upright ? strip.c1 : strip.r1;
+    int count = 0;
+    for (int i = first; i < last; ++i)
+      for (int j = inner0; j < inner1; ++j)
+        if (upright ? isIt(j, i) : isIt(i, j))
+        {
+          ++count;
+          break;
+        }
+    return last > first ? static_cast<double>(count) / (last - first) : 0.0;
+  }
+
+  /** Share of the edge along which something nearer than the object stands outside it. */
+  double nearerShare(BoxEdge edge, double depth) const
+  {
+    if (depth <= 0) return 0;
+    const double limit = depth - occluders_.depthMargin(depth);
+    return shareAlong(
+        edge, scaledPixels(cloud_, options_.occlusionStrip),
+        [&](int c, int r) { return occluders_.isNearer(c, r, limit); });
+  }
+
+  /** Near the border of the image, and neither the box nor the depth shows that the object ends
+   * before it. */
+  bool isNearBorder(BoxEdge edge, double depth) const
+  {
+    const auto& camera = cloud_.camera();
+    const double distance = distanceToBorder(camera, box_, edge);
+    const double margin = options_.borderMarginIn(camera.width);
+    if (margin == 0 || distance >= margin) return false;
+    if (depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px)) return true;
+    const double sigma = options_.edgeSigmaIn(camera.width, sizeAcross(edge));
+    return distance < kBorderSigmas * sigma && !endsBefore(edge, distance, depth);
+  }
+
+  double sizeAcross(BoxEdge edge) const { return isUpright(edge) ? box_.width() : box_.height(); }
+
+  /** Is there background, and nothing of the object's depth, between an edge and the border? */
+  bool endsBefore(BoxEdge edge, double distance, double depth) const
+  {
+    constexpr double kMinBackground = 0.6, kMaxRest = 0.05;
+    const double margin = occluders_.depthMargin(depth);
+    // Boxes are not exact: the object may reach a little beyond its edge.
+    const auto near = cloud_.cellsOf(stripOutside(box_, edge, 0.5 * distance));
+    const auto isBackground = [&](int c, int r) { return cloud_.depth(c, r) > depth + margin; };
+    const auto isObject = [&](int c, int r)
+    {
+      return cloud_.valid(c, r) && !isBackground(c, r) && !occluders_.isOnSupport(c, r) &&
+             !near.contains(c, r);
+    };
+    return shareAlong(edge, distance, isBackground) >= kMinBackground &&
+           shareAlong(edge, distance, isObject) <= kMaxRest;
+  }
+
+  HiddenEvidence evidence(BoxEdge edge) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    HiddenEvidence e;
+    e.opposite = nearer_[(i + 2) % 4];
+    e.touchingBeside = std::max(touching_[(i + 1) % 4], touching_[(i + 3) % 4]);
+    e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
+    for (std::size_t k = 0; k < 4; ++k)
+      e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
+    e.endAtBorder = ends_[i].shareAtBorder();
+    e.withoutCloud = context_.object.empty();
+    if (!context_.object.support) e.coverageUnsupported = context_.object.coverage;
+    e.floating = floating_;
+    addOutside(edge, e);
+    addCuboid(edge, e);
+    addSizes(edge, e);
+    return e;
+  }
+
+  /** What is seen around an edge. */
+  void addOutside(BoxEdge edge, HiddenEvidence& e) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    e.nearer = nearer_[i];
+    const auto side = sideOf(edge);
+    if (side == ObjectSide::Lateral) return;  // there, the others tell nothing
+    const double limit = depth_[i] - occluders_.depthMargin(depth_[i]);
+    e.nearerInside = occluders_.shareNearer(quarterInside(box_, edge), limit);
+    if (side == ObjectSide::Bottom)
+      e.noDepth = shareAlong(
+          edge, scaledPixels(cloud_, options_.occlusionStrip),
+          [&](int c, int r) { return !cloud_.valid(c, r); });
+  }
+
+  /** How far the cuboid reaches beyond an edge, and whether it is the object's. */
+  void addCuboid(BoxEdge edge, HiddenEvidence& e) const
+  {
+    const auto i = static_cast<std::size_t>(edge);
+    const double pixel = scaledPixels(cloud_, 1);
+    e.size_px = sizeAcross(edge) / pixel;
+    e.length_px = (isUpright(edge) ? box_.height() : box_.width()) / pixel;
+    e.cloudShort_px = ends_[i].shortOf(box_) / pixel;
+    if (!context_.cuboidBox) return;
+    const ImageBox& cuboid = *context_.cuboidBox;
+    const double beyond[4] = {
+        box_.x1 - cuboid.x1, box_.y1 - cuboid.y1, cuboid.x2 - box_.x2, cuboid.y2 - box_.y2};
+    e.cuboidBeyond_px = beyond[i] / pixel;
+    const auto& camera = cloud_.camera();
+    e.cuboidFit = imageBoxIoU(cuboid.clipped(camera.width, camera.height), box_);
+  }
+
+  /** How the box compares with the label's typical size at the object's depth, equation (9.5). */
+  void addSizes(BoxEdge edge, HiddenEvidence& e) const
+  {
+    const LabelProperties& label = context_.label;
+    if (!label.known || context_.depth <= 0) return;
+    const auto& camera = cloud_.camera();
+    double width = box_.width() * context_.depth / std::abs(camera.fx);  // [m]
+    double height = box_.height() * context_.depth / std::abs(camera.fy);
+    if (std::abs(context_.up.x()) > std::abs(context_.up.y())) std::swap(width, height);
+    const double lower = std::log(label.typicalSize.z() / height) / label.sizeSpread;
+    e.tooLow = std::max(0.0, lower);
+    e.tooNarrow =
+        std::max(0.0, std::log(label.typicalSize.head<2>().maxCoeff() / width) / label.sizeSpread);
+    if (const double top = heightOf(edge); top > 0)
+      e.topTooLow = std::max(0.0, std::log(label.typicalSize.z() / top) / label.sizeSpread);
+  }
+
+  /** Of the middle of an edge, at the object's depth, above the support [m]; 0 when unknown. */
+  double heightOf(BoxEdge edge) const
+  {
+    if (!context_.object.support || context_.object.empty()) return 0;
+    const ImageBox line = stripOutside(box_, edge, 0);
+    const Eigen::Vector3d p = cloud_.camera().ray(line.centerX(), line.centerY()) * context_.depth;
+    constexpr double kMinHeight = 0.01;
+    const double height = context_.surfaces.front().signedDistance(p);
+    return height > kMinHeight ? height : 0.0;
+  }
+
+  /** Share of the object's height by which its lower end is above the support, in [0, 1]. */
+  double floating() const
+  {
+    if (!context_.object.support || context_.object.empty()) return 0;
+    const Plane& support = context_.surfaces.front();
+    const auto& points = context_.object.points;
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
+      heights.push_back(support.signedDistance(points[i]));
+    const auto [low, top] = quantileRange(std::move(heights), kLowestPart);
+    // As much above the support was cut away with it.
+    const double gap = low - occluders_.onSupport(context_.depth);
+    return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;
+  }
+
+  const DepthCloud& cloud_;
+  const ImageBox box_;
+  const EdgeContext& context_;
+  const PerceptionOptions& options_;
+  const Occluders occluders_;
+  std::array<bool, 4> nearBorder_;
+  std::array<double, 4> depth_;  // of the object near each edge [m]
+  std::array<double, 4> nearer_, touching_;
+  std::vector<ObjectEnd> ends_;
+  double floating_ = 0;
+};
+
+}  // namespace
+
+std::array<EdgeMeasurement, 4> measureEdges(
+    const DepthCloud& cloud,
+    const ImageBox& box,
+    const EdgeContext& context,
+    const PerceptionOptions& options)
+{
+  const EdgeJudge judge(cloud, box, context, options);
+  auto out = edgesWithoutDepth(cloud.camera(), box, options);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].state = judge.state(static_cast<BoxEdge>(i));
+  return out;
+}
+
+}  // namespace quadmap

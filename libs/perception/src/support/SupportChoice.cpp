@@ -1,0 +1,267 @@
+#include "support/SupportChoice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "support/SupportEvidence.h"
+#include "support/SupportRing.h"
+
+namespace quadmap
+{
+namespace
+{
+// Evidence is added up in natural logarithms of odds; each kind is bounded, so that no single one
+// decides against all others.
+constexpr double kCovered = 4.0;  // the surface reaches under the object
+constexpr double kBelow = -8.0;   // per share of the object that lies under the surface
+constexpr double kAllowedBelow = 0.1;
+constexpr double kGap = -1.5;       // a gap between them: something nearer may carry it
+constexpr double kGapScale = 0.10;  // [m]
+constexpr double kAbsent = -4.0;    // the object would show in the gap, and does not
+constexpr double kTouching = 1.5;   // the surface shows around the object's foot
+constexpr double kUsual = 4.0;      // it is where such objects usually stand
+constexpr double kUnusual = -1.5;
+constexpr double kTooTall = -2.0;  // for its kind, from the surface up, at most
+constexpr double kTooLow = -0.5;   // its top may be hidden or cut off
+constexpr double kAnything = 2.0;  // a surface that is not in sight
+constexpr double kOnWall = 3.0;    // the wall shows around the object
+constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs on it
+
+/** The log-odds that the height of an object above a surface adds, equation (6.2); <= 0. \param
+ * height Of the object's top above the surface [m]. */
+double heightPenalty(double height, const LabelProperties& label)
+{
+  constexpr double kMinSpread = 0.3, kMinHeight = 0.01;
+  const double ratio = std::log(std::max(kMinHeight, height) / label.typicalSize.z());
+  const double deviation = ratio / std::max(kMinSpread, label.sizeSpread);
+  return (ratio > 0 ? kTooTall : kTooLow) * std::min(1.0, 0.25 * deviation * deviation);
+}
+
+/** The detections whose tops are planes of the scene, by the index of the plane. */
+using Tops = std::map<int, const DetectedObject*>;
+
+/** Decides for one box at a time. */
+class SupportJudge
+{
+ public:
+  SupportJudge(
+      const DepthCloud& cloud,
+      const ScenePlanes& planes,
+      const Tops& tops,
+      const DetectedObject& detection,
+      const LabelProperties& label,
+      const RoughObject& object,
+      const PerceptionOptions& options) :
+      cloud_(cloud),
+      planes_(planes),
+      tops_(tops),
+      detection_(detection),
+      label_(label),
+      object_(object),
+      options_(options),
+      ring_(ringAround(cloud, planes, detection.box, options))
+  {
+    findBeside(ring_, object, label, planes.up);
+  }
+
+  BoxSupport decide() const
+  {
+    BoxSupport out;
+    double best = kAnything;
+    for (const int i : planes_.horizontal)
+    {
+      if (ownerOf(i) == &detection_) continue;
+      const double score = object_.empty() ? flatScore(i) : standingScore(i);
+      if (score <= best) continue;
+      best = score;
+      out.plane = i;
+    }
+    if (!out.plane && label_.support == UsualSupport::Floor) out.plane = planes_.floor;
+    for (const int i : planes_.vertical)
+      if (const double score = hangingScore(i); score > best)
+      {
+        best = score;
+        out.wall = i;
+      }
+    if (out.wall) out.plane.reset();
+    return out;
+  }
+
+ private:
+  /** The detection whose object has this plane as its top; null when no box has. */
+  const DetectedObject* ownerOf(int i) const
+  {
+    const auto top = tops_.find(i);
+    return top == tops_.end() ? nullptr : top->second;
+  }
+
+  bool isFloor(int i) const { return planes_.floor && *planes_.floor == i; }
+
+  bool isMostlyInBox(int i) const
+  {
+    constexpr double kMostly = 0.5;
+    const auto index = static_cast<std::size_t>(i);
+    return index < object_.planeShares.size() && object_.planeShares[index] > kMostly;
+  }
+
+  double usual(int i) const
+  {
+    switch (label_.support)
+    {
+      case UsualSupport::Floor:
+        return isFloor(i) ? kUsual : 0.0;
+      case UsualSupport::Object:
+        return isFloor(i) ? kUnusual : 0.0;
+      case UsualSupport::Wall:
+        return kUnusual;
+      default:
+        return 0.0;
+    }
+  }
+
+  /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
+  double standingScore(int i) const
+  {
+    constexpr double kMinTouching = 0.15;
+    constexpr double kMinCovered = 0.3, kMaxBelow = 0.5;
+    const ScenePlane& plane = planes_.plane(i);
+    const auto ring = touching(plane.plane);
+    SupportSurface surface = {plane.plane, plane.extent};
+    if (const auto* owner = ownerOf(i)) surface.box = owner->box;
+    if (ring.share > kMinTouching)
+      surface.extent = plane.extent.grown(connectedTo(cloud_, surface, ring.surface, options_));
+    const auto e = standingEvidence(cloud_, surface, object_, detection_.box, label_, options_);
+    // A thing's own top is in its box, too, with little above it; thin things rise little above the
+    // noise.
+    const bool mayBeItsTop = label_.support == UsualSupport::Floor || isMostlyInBox(i);
+    const double minAbove = mayBeItsTop ? 0.5 : 0.15;
+    if (e.above < minAbove || e.covered < kMinCovered || e.below > kMaxBelow) return 0;
+    return kCovered * e.covered + kBelow * std::max(0.0, e.below - kAllowedBelow) +
+           kGap * (1 - std::exp(-e.gap / kGapScale)) +
+           kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
+           usual(i) + heightPenalty(e.top, label_);
+  }
+
+  /** The log-odds that an object lies on a plane so flat that its points are the plane's. */
+  double flatScore(int i) const
+  {
+    return (kCovered + kTouching) * touching(planes_.plane(i).plane).share + usual(i);
+  }
+
+  RingEvidence touching(const Plane& plane) const { return ringOn(ring_, plane, Ring::LowerHalf); }
+
+  /** The log-odds that the object hangs on a wall, equation (6.3). */
+  double hangingScore(int i) const
+  {
+    constexpr double kThickest = 0.30,
+                     kBehind = -0.05;  // of things on walls [m]
+    if (label_.support == UsualSupport::Floor) return 0;
+    const Plane& wall = planes_.plane(i).plane;
+    double near = kNearWall;
+    if (!object_.empty())
+    {
+      std::vector<double> distances;
+      for (const auto& p : object_.points) distances.push_back(wall.signedDistance(p));
+      const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
+      std::nth_element(distances.begin(), middle, distances.end());
+      if (*middle > kThickest || *middle < kBehind) return 0;
+    }
+    const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
+    return kOnWall * ringOn(ring_, wall, Ring::All).share + near + usualWall;
+  }
+
+  const DepthCloud& cloud_;
+  const ScenePlanes& planes_;
+  const Tops& tops_;
+  const DetectedObject& detection_;
+  const LabelProperties& label_;
+  const RoughObject& object_;
+  const PerceptionOptions& options_;
+  std::vector<RingPoint> ring_;
+};
+
+/** Does the lower end of a box lie within another one? */
+bool endsWithin(
+    const PinholeCamera& camera,
+    const Eigen::Vector3d& up,
+    const ImageBox& upper,
+    const ImageBox& lower)
+{
+  const Eigen::Vector2d down = downInImage(camera, up, upper);
+  const double x = upper.centerX() + 0.5 * down.x() * upper.width();
+  const double y = upper.centerY() + 0.5 * down.y() * upper.height();
+  return x > lower.x1 && x < lower.x2 && y > lower.y1 && y < lower.y2;
+}
+
+/** Adds to the planes the small horizontal tops of objects that other boxes end on. */
+Tops addTops(
+    const DepthCloud& cloud,
+    const std::vector<DetectedObject>& boxes,
+    const std::vector<std::optional<RoughObject>>& objects,
+    ScenePlanes& planes,
+    const PerceptionOptions& options)
+{
+  constexpr double kSameHeight = 0.02;  // [m]
+  Tops tops;
+  for (std::size_t lower = 0; lower < boxes.size(); ++lower)
+  {
+    if (!objects[lower]) continue;
+    std::vector<ImageBox> upper;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (i != lower && objects[i] &&
+          endsWithin(cloud.camera(), planes.up, boxes[i].box, boxes[lower].box))
+        upper.push_back(boxes[i].box);
+    if (upper.empty()) continue;
+    auto top = topOf(cloud, planes, *objects[lower], boxes[lower].box, upper, options);
+    if (!top) continue;
+    const bool isKnown = std::any_of(
+        planes.horizontal.begin(), planes.horizontal.end(),
+        [&](int i)
+        {
+          const ScenePlane& other = planes.plane(i);
+          return std::abs(other.plane.signedDistance(top->centroid)) < kSameHeight &&
+                 other.extent.isWithin(top->centroid, kSameHeight);
+        });
+    if (isKnown) continue;
+    const int index = static_cast<int>(planes.all.planes.size());
+    tops[index] = &boxes[lower];
+    planes.horizontal.push_back(index);
+    planes.all.planes.push_back(std::move(*top));
+  }
+  return tops;
+}
+
+}  // namespace
+
+SupportedScene chooseSupports(
+    const DepthCloud& cloud,
+    ScenePlanes planes,
+    const std::vector<DetectedObject>& boxes,
+    const LabelTable& labels,
+    const PerceptionOptions& options)
+{
+  std::vector<std::optional<RoughObject>> objects;
+  std::vector<LabelProperties> properties;
+  for (const auto& detection : boxes)
+  {
+    properties.push_back(labels.properties(detection.label));
+    const bool inImage =
+        detection.box.isValid() &&
+        detection.box.clipped(cloud.camera().width, cloud.camera().height).isValid();
+    objects.emplace_back();
+    if (inImage) objects.back() = roughObject(cloud, planes, detection, properties.back(), options);
+  }
+  const auto tops = addTops(cloud, boxes, objects, planes, options);
+  std::vector<BoxSupport> supports;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    supports.push_back(
+        objects[i]
+            ? SupportJudge(cloud, planes, tops, boxes[i], properties[i], *objects[i], options)
+                  .decide()
+            : BoxSupport());
+  return {std::move(planes), std::move(supports)};
+}
+
+}  // namespace quadmap

@@ -1,0 +1,295 @@
+#include "support/SupportEvidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "planes/SurfaceTolerance.h"
+#include "quadmap/geometry/DensestWindow.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr int kCells = 400;        // of a box that are looked at
+constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
+constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
+
+struct Weighted
+{
+  Eigen::Vector3d point;
+  double weight;
+};
+
+/** Keeps the points of the depth range of a given width that has most weight. */
+std::vector<Eigen::Vector3d> atMainDepth(std::vector<Weighted> all, double width)
+{
+  std::stable_sort(
+      all.begin(), all.end(),
+      [](const auto& a, const auto& b) { return a.point.z() < b.point.z(); });
+  std::size_t first = 0, bestFirst = 0, bestLast = 0;
+  double sum = 0, best = 0;
+  for (std::size_t last = 0; last < all.size(); ++last)
+  {
+    sum += all[last].weight;
+    while (all[last].point.z() - all[first].point.z() > width) sum -= all[first++].weight;
+    if (sum <= best) continue;
+    best = sum;
+    bestFirst = first;
+    bestLast = last + 1;
+  }
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = bestFirst; i < bestLast; ++i) out.push_back(all[i].point);
+  return out;
+}
+
+/** Puts points in order along a direction. */
+void sortAlong(const Eigen::Vector3d& direction, std::vector<Eigen::Vector3d>& points)
+{
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order.emplace_back(direction.dot(points[i]), i);
+  std::sort(order.begin(), order.end());
+  const auto before = points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = before[order[i].second];
+}
+
+/** Does a point appear in a box? Beyond the image's border the box may go on. */
+bool appearsIn(const PinholeCamera& camera, const ImageBox& box, const Eigen::Vector3d& p)
+{
+  constexpr double kBoxError = 0.05;  // of a detector, share of the box's size
+  if (p.z() < 0.1) return false;
+  const Eigen::Vector2d pixel =
+      camera.project(p).cwiseMax(0.0).cwiseMin(Eigen::Vector2d(camera.width, camera.height));
+  const Eigen::Vector2d error = kBoxError * Eigen::Vector2d(box.width(), box.height());
+  return pixel.x() > box.x1 - error.x() && pixel.x() < box.x2 + error.x() &&
+         pixel.y() > box.y1 - error.y() && pixel.y() < box.y2 + error.y();
+}
+
+/** Would an object at a point show outside its box, with nothing nearer in front? A detector would
+ * have drawn the box around it: the object is not there. */
+bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3d& p, double margin)
+{
+  if (p.z() < 0.1 || appearsIn(cloud.camera(), box, p)) return false;
+  const Eigen::Vector2d pixel = cloud.camera().project(p);
+  const int c = static_cast<int>(std::lround(pixel.x() / cloud.stride()));
+  const int r = static_cast<int>(std::lround(pixel.y() / cloud.stride()));
+  return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
+}
+
+/** Does the camera look down past a surface somewhere between a point and its extent? A keyboard is
+ * too thin to tell along the ray, but what shows beside it lies clearly below its top. */
+bool looksPastRim(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    const Eigen::Vector3d& point,
+    const PerceptionOptions& options)
+{
+  const Plane& plane = surface.plane;
+  const Eigen::Vector3d foot = point - plane.signedDistance(point) * plane.n;
+  const auto looksPast = [&](const Eigen::Vector3d& p)
+  {
+    if (p.z() < 0.1) return false;
+    const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
+    const int c = static_cast<int>(std::lround(pixel.x()));
+    const int r = static_cast<int>(std::lround(pixel.y()));
+    if (!cloud.inside(c, r) || !cloud.valid(c, r)) return false;
+    const Eigen::Vector3d seen = cloud.point(c, r).cast<double>();
+    return plane.signedDistance(seen) < -options.onPlane(seen.z());
+  };
+  const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
+  if (toExtent.isZero(0)) return looksPast(foot);
+  for (const double share : {0.3, 0.6, 0.9})
+    if (looksPast(foot + share * toExtent)) return true;
+  return false;
+}
+
+/** How surely a surface reaches under a point, in [0, 1]: "covered" of equation (6.1). It is 1
+ * inside the extent of the surface. Outside it falls to 0 at 10 cm when the rim is seen, which is
+ * known to some centimetres. It falls more slowly when the surface may go on out of sight, behind
+ * or under the object. The top of a thing ends within the thing's box. */
+double coverage(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    const Eigen::Vector3d& p,
+    const PerceptionOptions& options)
+{
+  constexpr double kSure = 0.02, kSeenFall = 0.08, kHiddenFall = 0.4;  // [m]
+  const Plane& plane = surface.plane;
+  if (surface.box &&
+      !appearsIn(cloud.camera(), *surface.box, p - plane.signedDistance(p) * plane.n))
+    return 0.0;
+  if (surface.extent.isWithin(p, kSure)) return 1.0;
+  if (!surface.extent.isWithin(p, kSure + kHiddenFall)) return 0.0;
+  const double outside = surface.extent.outside(p) - kSure;
+  const bool isRim = looksPastRim(cloud, surface, p, options);
+  return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
+}
+
+/** The share of a surface's extent that its points fill, about. */
+double filled(const ScenePlane& surface)
+{
+  constexpr double kCell = 0.06;  // wider than the distance of points at a grazing angle [m]
+  const Eigen::Vector3d e1 = surface.plane.n.unitOrthogonal(), e2 = surface.plane.n.cross(e1);
+  std::set<std::pair<int, int>> cells;
+  for (const auto& p : surface.rim)
+    cells.emplace(
+        static_cast<int>(std::floor(e1.dot(p) / kCell)),
+        static_cast<int>(std::floor(e2.dot(p) / kCell)));
+  return static_cast<double>(cells.size()) * kCell * kCell / std::max(1e-6, surface.extent.area());
+}
+
+}  // namespace
+
+RoughObject roughObject(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const DetectedObject& detection,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  constexpr double kMinOwnShare = 0.5;  // of a plane inside the box, that makes it the object's own
+  constexpr double kCentrality = 0.35;  // spread of the weight over the box, share of its size
+  const ImageBox box = detection.box.clipped(cloud.camera().width, cloud.camera().height);
+  const auto range = cloud.cellsOf(box);
+  RoughObject out;
+  out.planeShares = planes.all.sharesWithin(range);
+  const int step = stepFor(range.cells(), kCells);
+  std::vector<Weighted> all;
+  for (int r = range.r0; r < range.r1; r += step)
+    for (int c = range.c0; c < range.c1; c += step)
+    {
+      if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
+      const double u = c * cloud.stride(), v = r * cloud.stride();
+      if (detection.mask &&
+          !detection.mask->contains(static_cast<unsigned>(u), static_cast<unsigned>(v)))
+        continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      const double tolerance = options.onPlane(p.z());
+      const int plane = planes.all.planeAt(cloud, c, r, tolerance);
+      if (plane >= 0 && out.planeShares[static_cast<std::size_t>(plane)] < kMinOwnShare) continue;
+      const double du = (u - box.centerX()) / (kCentrality * box.width());
+      const double dv = (v - box.centerY()) / (kCentrality * box.height());
+      all.push_back({p, std::exp(-0.5 * (du * du + dv * dv))});
+    }
+  const double width = label.typicalSize.head<2>().norm() * (1.0 + 0.5 * label.sizeSpread);
+  out.points = atMainDepth(std::move(all), width);
+  sortAlong(planes.up, out.points);
+  constexpr std::size_t kFewest = 12;
+  if (out.points.size() < kFewest) out.points.clear();
+  return out;
+}
+
+StandingEvidence standingEvidence(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    const RoughObject& object,
+    const ImageBox& box,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  const Plane& plane = surface.plane;
+  const auto& points = object.points;
+  const double n = static_cast<double>(points.size());
+  StandingEvidence out;
+  std::vector<double> heights;
+  for (const auto& p : points)
+  {
+    const double height = plane.signedDistance(p);
+    const double tolerance = contactTolerance(p.z(), options);
+    out.above += height > std::min(tolerance, 0.5 * label.typicalSize.z()) ? 1 / n : 0;
+    out.below += height < -2.0 * tolerance ? 1 / n : 0;
+    heights.push_back(height);
+  }
+  out.gap = std::max(0.0, quantile(heights, 0.1));
+  out.top = quantile(heights, 0.95);
+
+  const std::size_t low = std::max<std::size_t>(1, points.size() / 2);
+  const std::size_t step = 1 + low / kMaxLowPoints;
+  int looked = 0;
+  for (std::size_t i = 0; i < low; i += step, ++looked)
+    out.covered += coverage(cloud, surface, points[i], options);
+  out.covered /= looked;
+
+  constexpr double kMinGap = 0.05;  // [m]; thinner ones say nothing
+  if (out.gap < kMinGap) return out;
+  const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
+  const std::size_t lineStep = 1 + lowest / kMaxLines;
+  int probes = 0;
+  for (std::size_t i = 0; i < lowest; i += lineStep)
+    for (const double share : {0.3, 0.5, 0.7})
+    {
+      const Eigen::Vector3d p = points[i] - share * plane.signedDistance(points[i]) * plane.n;
+      const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
+      out.absent += isAbsent(cloud, box, p, margin) ? 1 : 0;
+      ++probes;
+    }
+  out.absent /= probes;
+  return out;
+}
+
+std::optional<ScenePlane> topOf(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const RoughObject& object,
+    const ImageBox& box,
+    const std::vector<ImageBox>& others,
+    const PerceptionOptions& options)
+{
+  constexpr double kFacesUp = 0.9;     // cosine
+  constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
+  constexpr std::size_t kFewest = 20;  // cells
+  constexpr double kOwnShare = 0.5;
+  constexpr double kMinFilled = 0.4;  // several things of one height are no surface
+  constexpr int kFinest = 4;          // times more cells than elsewhere: tops are small
+  const auto range = cloud.cellsOf(box);
+  std::vector<DepthCloud::CellRange> holes;
+  for (const auto& other : others) holes.push_back(cloud.cellsOf(other));
+  const int step = stepFor(range.cells(), kFinest * kCells);
+  std::vector<Eigen::Vector3d> points;
+  for (int r = range.r0; r < range.r1; r += step)
+    for (int c = range.c0; c < range.c1; c += step)
+    {
+      const auto isHole = [&](const auto& hole) { return hole.contains(c, r); };
+      if (!cloud.valid(c, r) || std::any_of(holes.begin(), holes.end(), isHole)) continue;
+      const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
+      const int plane = planes.all.planeAt(cloud, c, r, options.onPlane(p.z()));
+      if (plane >= 0 && object.planeShares[std::size_t(plane)] < kOwnShare) continue;
+      const auto normal = cloud.normal(c, r);
+      if (normal && normal->cast<double>().dot(planes.up) >= kFacesUp) points.push_back(p);
+    }
+  sortAlong(planes.up, points);
+  std::vector<double> heights;
+  for (const auto& p : points) heights.push_back(planes.up.dot(p));
+  const Window layer = densestWindow(heights, kThickness);
+  if (layer.count < kFewest) return {};
+  ScenePlane out;
+  const auto first = points.begin() + static_cast<std::ptrdiff_t>(layer.first);
+  out.rim.assign(first, first + static_cast<std::ptrdiff_t>(layer.count));
+  out.centroid = points[layer.middle()];
+  out.plane = Plane::throughPoint(planes.up, out.centroid);
+  out.extent = PlaneExtent(planes.up, out.rim);
+  if (filled(out) < kMinFilled) return {};
+  return out;
+}
+
+std::vector<Eigen::Vector3d> connectedTo(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    std::vector<Eigen::Vector3d> points,
+    const PerceptionOptions& options)
+{
+  constexpr double kReach = 1.0;  // [m]
+  points.erase(
+      std::remove_if(
+          points.begin(), points.end(),
+          [&](const auto& p) {
+            return !surface.extent.isWithin(p, kReach) || looksPastRim(cloud, surface, p, options);
+          }),
+      points.end());
+  return points;
+}
+
+}  // namespace quadmap

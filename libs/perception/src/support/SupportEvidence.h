@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "depth/DepthCloud.h"
+#include "planes/ScenePlanes.h"
+#include "quadmap/obs/DetectedObject.h"
+#include "quadmap/obs/LabelTable.h"
+
+namespace quadmap
+{
+/** What a box shows of its object before the object is cut out. These are points at the depth where
+ * most of the box lies, without those of surfaces that reach far beyond the box. */
+struct RoughObject
+{
+  std::vector<Eigen::Vector3d> points;  //!< Some hundred, from the lowest up, optical frame [m]
+  std::vector<double> planeShares;      //!< Of each plane of the scene the share inside the box
+
+  bool empty() const { return points.empty(); }
+};
+
+RoughObject roughObject(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const DetectedObject& detection,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+/** How an object lies with respect to a horizontal plane. Shares are in [0, 1]. */
+struct StandingEvidence
+{
+  double covered = 0;  //!< Share of the object's lower points that the plane reaches under
+  double above = 0;    //!< Share of its points clearly above
+  double below = 0;    //!< ... clearly below: what stands on a plane has none there
+  double gap = 0;      //!< From the plane to its lowest points [m], >= 0
+  double top = 0;      //!< From the plane to its highest points [m]
+  double absent =
+      0;  //!< Share of the gap, outside the box, where the object would show but does not
+};
+
+/** A horizontal surface that something may stand on. */
+struct SupportSurface
+{
+  Plane plane;
+  PlaneExtent extent;
+  std::optional<ImageBox> box = {};  //!< Of the thing whose top it is: it reaches no farther
+};
+
+/** \param object Not empty. \param box The detector's. */
+StandingEvidence standingEvidence(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    const RoughObject& object,
+    const ImageBox& box,
+    const LabelProperties& label,
+    const PerceptionOptions& options);
+
+/** The horizontal top of the object in one box, as far as other boxes leave it free. An example is
+ * the cover of a book that a cup stands on: it is too small to be a plane of the scene. Nothing is
+ * returned when hardly any of it shows.
+ * \param box Of the object. \param others Boxes that end on it. */
+std::optional<ScenePlane> topOf(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const RoughObject& object,
+    const ImageBox& box,
+    const std::vector<ImageBox>& others,
+    const PerceptionOptions& options);
+
+/** Returns the points on a surface that belong to the part of it that was seen. The segmentation
+ * loses the far ends of surfaces. The surface has ended where the camera looks down past it in
+ * between. */
+std::vector<Eigen::Vector3d> connectedTo(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    std::vector<Eigen::Vector3d> points,
+    const PerceptionOptions& options);
+
+}  // namespace quadmap

@@ -1,0 +1,120 @@
+#include "support/SupportRing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planes/SurfaceTolerance.h"
+
+namespace quadmap
+{
+namespace
+{
+struct PlanesAtPoint
+{
+  bool isOnAny = false;  // however far the planes were seen to reach
+  double nearest;        // distance to the plane that a point most likely lies on [m]
+};
+
+/** Horizontal planes at a point. The nearest is at its tolerance when none reaches there. */
+PlanesAtPoint planesAt(const ScenePlanes& planes, const RingPoint& point)
+{
+  constexpr double kReach = 0.10;  // beyond what was seen of a surface [m]
+  PlanesAtPoint out = {false, point.tolerance};
+  for (const int i : planes.horizontal)
+  {
+    const ScenePlane& plane = planes.plane(i);
+    const double distance = std::abs(plane.plane.signedDistance(point.point));
+    out.isOnAny = out.isOnAny || distance <= point.tolerance;
+    if (distance < out.nearest && plane.extent.isWithin(point.point, kReach))
+      out.nearest = distance;
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::Vector2d downInImage(
+    const PinholeCamera& camera, const Eigen::Vector3d& up, const ImageBox& box)
+{
+  const Eigen::Vector3d ray = camera.ray(box.centerX(), box.centerY());
+  const Eigen::Vector2d down(
+      camera.fx * (ray.x() * up.z() - up.x()), camera.fy * (ray.y() * up.z() - up.y()));
+  return down.norm() > 0 ? down.normalized() : Eigen::Vector2d::UnitY();
+}
+
+std::vector<RingPoint> ringAround(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ImageBox& box,
+    const PerceptionOptions& options)
+{
+  const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
+  const auto outer =
+      cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
+  const auto inner = cloud.cellsOf(box);
+  const Eigen::Vector2d down = downInImage(cloud.camera(), planes.up, box);
+  const double halfHeight =
+      0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
+  constexpr int kCells = 400;  // that are looked at
+  const int step = stepFor(std::max(0, outer.cells() - inner.cells()), kCells);
+  std::vector<RingPoint> out;
+  for (int r = outer.r0; r < outer.r1; r += step)
+    for (int c = outer.c0; c < outer.c1; c += step)
+    {
+      if (!cloud.valid(c, r)) continue;
+      // From the middle of the box down, in half heights.
+      const double below =
+          down.dot(Eigen::Vector2d(
+              c * cloud.stride() - box.centerX(), r * cloud.stride() - box.centerY())) /
+          halfHeight;
+      RingPoint point;
+      point.inBox = inner.contains(c, r);
+      if (point.inBox && below < 0.8) continue;
+      point.lower = below > 0;
+      point.point = cloud.point(c, r).cast<double>();
+      point.noise = options.depthSigma(point.point.z());
+      point.tolerance = contactTolerance(point.point.z(), options);
+      const PlanesAtPoint here = planesAt(planes, point);
+      point.nearest = here.nearest;
+      if (here.isOnAny && !point.inBox)
+        if (const auto normal = cloud.normal(c, r)) point.normal = normal->cast<double>();
+      out.push_back(point);
+    }
+  return out;
+}
+
+void findBeside(
+    std::vector<RingPoint>& points,
+    const RoughObject& object,
+    const LabelProperties& label,
+    const Eigen::Vector3d& up)
+{
+  if (object.empty()) return;
+  const double reach = label.typicalSize.norm() * (1.0 + 0.5 * label.sizeSpread);
+  const Eigen::Vector3d& middle = object.points[object.points.size() / 2];
+  for (auto& p : points) p.beside = up.cross(p.point - middle).norm() < reach;
+}
+
+RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring)
+{
+  constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
+  constexpr double kSurely = 0.5;  // of the tolerance; the desk lies not far below a keyboard's top
+  RingEvidence out;
+  int all = 0, on = 0;
+  for (const auto& p : points)
+  {
+    if (ring == Ring::All ? p.inBox : !p.lower) continue;
+    ++all;
+    const double distance = std::abs(plane.signedDistance(p.point));
+    if (distance > p.tolerance) continue;
+    if (ring == Ring::LowerHalf && (!p.beside || distance > p.nearest + p.noise)) continue;
+    ++on;
+    if (!p.inBox && distance < kSurely * p.tolerance && p.normal &&
+        p.normal->dot(plane.n) > kSameWay)
+      out.surface.push_back(p.point);
+  }
+  if (all > 0) out.share = static_cast<double>(on) / all;
+  return out;
+}
+
+}  // namespace quadmap

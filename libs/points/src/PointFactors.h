@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ceres/cost_function.h>
+#include <ceres/manifold.h>
+
+#include <array>
+#include <memory>
+
+#include "PointGraph.h"
+
+namespace quadmap
+{
+/** A pose as the optimiser has it: (x, y [m], angle [rad]) in the plane, and a PoseBlock in space.
+ */
+template <int D>
+using PointPoseBlock = std::array<double, D == 2 ? 3 : 7>;
+
+template <int D>
+PointPoseBlock<D> pointBlockOf(const PointPose<D>& pose);
+template <int D>
+PointPose<D> pointPoseOf(const PointPoseBlock<D>& block);
+/** The manifold of poses. It is null in the plane, where poses are a vector space. */
+template <int D>
+std::unique_ptr<ceres::Manifold> pointPoseManifold();
+
+/** Measurement of a point, r = W (R^t (l - t) - z): doc/mathematics.md, (18.1). The blocks are pose
+ * and object. */
+template <int D>
+std::unique_ptr<ceres::CostFunction> createSightFactor(const typename PointGraph<D>::Sight& sight);
+
+/** Odometry, r = W [R_f^t (t_t - t_f) - t_m; log(R_m^t R_f^t R_t)]: doc/mathematics.md, (16.2). The
+ * blocks are the poses `from` and `to`. */
+template <int D>
+std::unique_ptr<ceres::CostFunction> createPointStepFactor(const PointOdometry<D>& step);
+
+}  // namespace quadmap

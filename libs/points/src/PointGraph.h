@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "quadmap/points/PointTypes.h"
+
+namespace quadmap
+{
+/** A pose graph whose landmarks are points. It estimates all poses of a robot and the objects that
+ * it saw together. Odometry ties each pose to the one before. The first pose is fixed. */
+template <int D>
+class PointGraph
+{
+ public:
+  struct Sight
+  {
+    std::size_t pose = 0, object = 0;
+    PointVector<D> position;    //!< In the robot's frame [m]
+    PointMatrix<D> covariance;  //!< [m^2]
+  };
+
+  std::vector<PointPose<D>> poses;
+  std::vector<PointOdometry<D>> steps;  //!< Step k leads from pose k to pose k + 1
+  std::vector<PointVector<D>> objects;
+  std::vector<Sight> sights;
+  bool posesFixed = false;  //!< Only the objects are estimated
+
+  /** Brings poses and objects to the least cost.
+   *  \param huber Threshold of Huber's kernel on sights [sigmas], > 0.
+   *  \return The cost, half the sum of squared residuals under the kernel. */
+  double optimise(double huber, int maxIterations);
+
+  /** Covariances of increments (shift, turn along the axes of the map) of poses and objects. */
+  struct Marginals
+  {
+    std::vector<PoseIncrementMatrix<D>> pose;
+    std::vector<Eigen::MatrixXd> poseObjects;  //!< Cross covariance of each pose with all objects
+    Eigen::MatrixXd objects;
+  };
+  /** Exact marginal covariances at the current estimate: doc/mathematics.md, section 18. The poses
+   * are eliminated one by one, and their covariances are recovered backwards. Sights have the
+   * weights of Huber's kernel. */
+  Marginals marginals(double huber) const;
+};
+
+}  // namespace quadmap

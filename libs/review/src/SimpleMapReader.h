@@ -1,0 +1,38 @@
+#pragma once
+
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
+
+#include <optional>
+#include <string>
+
+namespace quadmap
+{
+/** Reads the keyframes of a .simplemap one by one. mrpt::maps::CSimpleMap would hold all images in
+ * memory at once. */
+class SimpleMapReader
+{
+ public:
+  struct Keyframe
+  {
+    mrpt::poses::CPose3DPDF::Ptr pose;  //!< T_map_robot
+    mrpt::obs::CSensoryFrame::Ptr observations;
+  };
+
+  /** \exception std::runtime_error If the file cannot be read or is no simple map. */
+  explicit SimpleMapReader(const std::string& path);
+
+  std::size_t size() const { return size_; }  //!< Number of keyframes in the file
+
+  /** The next keyframe, or nothing after the last one.
+   *  \exception std::runtime_error For a damaged file. The message names file and keyframe. */
+  std::optional<Keyframe> next();
+
+ private:
+  std::string path_;
+  mrpt::io::CFileGZInputStream file_;
+  std::size_t size_ = 0, read_ = 0;
+};
+
+}  // namespace quadmap

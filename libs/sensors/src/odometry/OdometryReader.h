@@ -1,0 +1,57 @@
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "odometry/PoseInterpolator.h"
+
+namespace quadmap
+{
+/** Turns the odometry of a rawlog, of any kind, into poses of the robot. It uses one kind
+ * throughout, because poses of two sources are in different coordinate frames. */
+class OdometryReader
+{
+ public:
+  /** \param kind The kind to use; when it is empty, the first that appears. */
+  explicit OdometryReader(std::string kind) : kind_(std::move(kind)) {}
+
+  /** \return False when the observation has nothing to do with poses.
+   *  \exception std::runtime_error If the pose is not finite or time goes backwards. */
+  bool read(const mrpt::obs::CObservation& observation);
+
+  /** Reads the motion of an action. Actions without a motion are legal. */
+  void read(const mrpt::obs::CActionCollection& actions);
+
+  const std::string& kind() const { return kind_; }  //!< Class and label; empty before the first
+  const std::vector<std::string>& kinds() const
+  {
+    return kinds_;
+  }  //!< All kinds so far, in their order
+  bool countsActions() const { return countsActions_; }
+  const std::string& ignoredKind() const
+  {
+    return ignoredKind_;
+  }  //!< A kind that is not used, if any
+
+  const mrpt::poses::CPose3DPDFGaussian& sumOfActions() const { return sumOfActions_; }
+  const PoseInterpolator& odometry() const { return odometry_; }
+  const PoseInterpolator& truth() const { return truth_; }
+  void forgetBefore(double time);  //!< Forgets what no pose from this time on needs [s]
+
+ private:
+  bool accept(const std::string& kind);
+
+  std::string kind_, ignoredKind_;
+  std::vector<std::string> kinds_;
+  bool countsActions_ = false;
+  mrpt::poses::CPose3DPDFGaussian sumOfActions_;
+  PoseInterpolator odometry_, truth_;
+};
+
+}  // namespace quadmap

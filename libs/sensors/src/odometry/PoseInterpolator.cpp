@@ -1,0 +1,81 @@
+#include "odometry/PoseInterpolator.h"
+
+#include <mrpt/core/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace quadmap
+{
+using mrpt::poses::CPose3DPDFGaussian;
+
+namespace
+{
+constexpr double kSameTime = 1e-6;  // more than a tick of MRPT's clock, 1e-7 s [s]
+
+mrpt::poses::CPose3D interpolate(
+    const mrpt::poses::CPose3D& a, const mrpt::poses::CPose3D& b, double share)
+{
+  const Eigen::Matrix3d R_a = a.getRotationMatrix().asEigen(),
+                        R_b = b.getRotationMatrix().asEigen();
+  const Eigen::Matrix3d R =
+      Eigen::Quaterniond(R_a).slerp(share, Eigen::Quaterniond(R_b)).toRotationMatrix();
+  const Eigen::Vector3d t_a(a.x(), a.y(), a.z()), t_b(b.x(), b.y(), b.z());
+  return mrpt::poses::CPose3D::FromRotationAndTranslation(
+      R, ((1 - share) * t_a + share * t_b).eval());
+}
+
+CPose3DPDFGaussian interpolate(
+    const CPose3DPDFGaussian& a, const CPose3DPDFGaussian& b, double share)
+{
+  CPose3DPDFGaussian result(interpolate(a.mean, b.mean, share));
+  result.cov = (1 - share) * a.cov.asEigen() + share * b.cov.asEigen();
+  return result;
+}
+}  // namespace
+
+bool isFinite(const mrpt::poses::CPose3D& pose)
+{
+  const auto matrix = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
+  return matrix.asEigen().allFinite();
+}
+
+void PoseInterpolator::add(double time, const CPose3DPDFGaussian& pose)
+{
+  if (!isFinite(pose.mean)) throw std::runtime_error("the pose has numbers that are not finite");
+  if (!poses_.empty() && time < poses_.back().time)
+    throw std::runtime_error(
+        mrpt::format("the time goes back by %.6f s", poses_.back().time - time));
+  if (!poses_.empty() && time == poses_.back().time)
+    poses_.back().pose = pose;
+  else
+    poses_.push_back({time, pose});
+}
+
+bool PoseInterpolator::reaches(double time) const
+{
+  return !poses_.empty() && poses_.back().time >= time - kSameTime;
+}
+
+std::optional<CPose3DPDFGaussian> PoseInterpolator::at(double time, double maxGap) const
+{
+  const auto isBefore = [](const Stamped& s, double t) { return s.time < t; };
+  const auto next = std::lower_bound(poses_.begin(), poses_.end(), time, isBefore);
+  const auto same = [&](auto i) { return std::abs(i->time - time) <= kSameTime; };
+  if (next != poses_.end() && same(next)) return next->pose;
+  if (next == poses_.begin()) return std::nullopt;
+  const auto previous = std::prev(next);
+  if (same(previous)) return previous->pose;
+  if (next == poses_.end() || next->time - previous->time > maxGap) return std::nullopt;
+  const double share = (time - previous->time) / (next->time - previous->time);
+  return interpolate(previous->pose, next->pose, share);
+}
+
+void PoseInterpolator::forgetBefore(double time)
+{
+  while (poses_.size() > 1 && poses_[1].time <= time - kSameTime) poses_.pop_front();
+}
+
+}  // namespace quadmap

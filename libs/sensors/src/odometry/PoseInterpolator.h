@@ -1,0 +1,46 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+namespace quadmap
+{
+/** Interpolates poses of a trajectory while it is read. It keeps only a short piece of it. */
+class PoseInterpolator
+{
+ public:
+  /** Adds the next pose.
+   *  \param time Time of the pose [s].
+   *  \param pose Its covariance may be zero, which means unknown.
+   *  \exception std::runtime_error If the pose is not finite, or earlier than the pose before. */
+  void add(double time, const mrpt::poses::CPose3DPDFGaussian& pose);
+
+  bool empty() const { return poses_.empty(); }
+  /** Whether the pose at this time [s] is known without any later pose. */
+  bool reaches(double time) const;
+
+  /** The pose at a time [s], interpolated between its neighbours: rotation by slerp, position and
+   * covariance linearly. It is nothing outside the trajectory, and when the neighbours are more
+   * than `maxGap` [s] apart. */
+  std::optional<mrpt::poses::CPose3DPDFGaussian> at(double time, double maxGap) const;
+
+  /** Forgets what no pose from this time on needs [s]. */
+  void forgetBefore(double time);
+
+ private:
+  struct Stamped
+  {
+    double time;  // [s]
+    mrpt::poses::CPose3DPDFGaussian pose;
+  };
+  std::deque<Stamped> poses_;  // in the order of time
+};
+
+/** Whether all six numbers are finite. */
+bool isFinite(const mrpt::poses::CPose3D& pose);
+
+}  // namespace quadmap

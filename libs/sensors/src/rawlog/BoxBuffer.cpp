@@ -1,0 +1,130 @@
+#include "rawlog/BoxBuffer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "InputError.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::size_t kMaxWaiting = 1000;  // most records of one sensor, of a few kB each
+
+double secondsOf(const BoxBuffer::Entry& e) { return mrpt::Clock::toDouble(e.boxes->timestamp); }
+
+/** What has to be known about a sidecar before it is read along with its rawlog. */
+struct SidecarSurvey
+{
+  bool hasBoxes = false, damaged = false;
+  double stepBack = 0;  // most time by which a record is earlier than one before it [s]
+};
+
+SidecarSurvey surveyOf(const std::string& file)
+{
+  SidecarSurvey survey;
+  std::optional<double> latest;
+  RecordReader reader(file);
+  try
+  {
+    while (const auto object = reader.next())
+    {
+      const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(object);
+      survey.hasBoxes = survey.hasBoxes || boxes;
+      if (!boxes || boxes->timestamp == INVALID_TIMESTAMP) continue;
+      const double time = secondsOf({0, boxes});
+      latest = std::max(time, latest.value_or(time));
+      survey.stepBack = std::max(survey.stepBack, *latest - time);
+    }
+  }
+  catch (const InputError&)  // it is reported when the file is read
+  {
+    survey.damaged = true;
+  }
+  return survey;
+}
+}  // namespace
+
+void BoxBuffer::openSidecar(const std::string& file)
+{
+  const SidecarSurvey survey = surveyOf(file);
+  if (!survey.hasBoxes && !survey.damaged) return;
+  sidecar_ = std::make_unique<RecordReader>(file);
+  stepBack_ = survey.stepBack;
+}
+
+void BoxBuffer::readUntil(double time)
+{
+  while (sidecar_ && (!sidecarTime_ || *sidecarTime_ <= time + maxDelay_ + stepBack_))
+  {
+    const std::size_t record = sidecar_->recordsRead();
+    const auto object = sidecar_->next();
+    if (!object) return;
+    const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(object);
+    if (!boxes) continue;
+    try
+    {
+      add({record, boxes});
+      const double t = secondsOf({record, boxes});
+      sidecarTime_ = std::max(t, sidecarTime_.value_or(t));
+    }
+    catch (const std::exception& e)
+    {
+      throw InputError({sidecar_->file(), record, boxes->sensorLabel, e.what()});
+    }
+  }
+}
+
+void BoxBuffer::add(Entry entry)
+{
+  seenAny_ = true;
+  const std::string label = entry.boxes->sensorLabel;
+  if (entry.boxes->timestamp == INVALID_TIMESTAMP)
+    throw std::runtime_error("the boxes have no time stamp");
+  const double time = secondsOf(entry);
+  auto& latest = latest_.emplace(label, time).first->second;
+  latest = std::max(latest, time);
+  auto& queue = waiting_[label];
+  const auto isLater = [](double t, const Entry& e) { return t < secondsOf(e); };
+  queue.insert(std::upper_bound(queue.begin(), queue.end(), time, isLater), std::move(entry));
+  if (sidecar_ || queue.size() <= kMaxWaiting) return;  // a sidecar is only read as far as needed
+  queue.pop_front();
+  ++dropped_[label];
+}
+
+bool BoxBuffer::mayStillCome(const std::string& label, double time) const
+{
+  const auto latest = latest_.find(label);
+  return !sidecar_ && latest != latest_.end() && latest->second < time - maxDelay_;
+}
+
+std::optional<BoxBuffer::Entry> BoxBuffer::take(const std::string& label, double time)
+{
+  auto& queue = waiting_[label];
+  while (!queue.empty() && secondsOf(queue.front()) < time - maxDelay_)
+  {
+    queue.pop_front();
+    ++dropped_[label];
+  }
+  const auto delay = [&](const Entry& e) { return std::abs(secondsOf(e) - time); };
+  auto best = queue.begin();
+  for (auto i = queue.begin(); i != queue.end(); ++i)
+    if (delay(*i) < delay(*best)) best = i;
+  if (best == queue.end() || delay(*best) > maxDelay_) return std::nullopt;
+  Entry found = std::move(*best);
+  queue.erase(best);
+  ++paired_;
+  return found;
+}
+
+std::size_t BoxBuffer::unpaired(const std::string& label) const
+{
+  std::size_t count = 0;
+  for (const auto& [sensor, n] : dropped_)
+    if (label.empty() || sensor == label) count += n;
+  for (const auto& [sensor, queue] : waiting_)
+    if (label.empty() || sensor == label) count += queue.size();
+  return count;
+}
+
+}  // namespace quadmap

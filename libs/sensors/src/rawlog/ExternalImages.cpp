@@ -1,0 +1,86 @@
+#include "rawlog/ExternalImages.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/system/filesystem.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "quadmap/base/ErrorText.h"
+#include "quadmap/base/GzipInput.h"
+#include "rawlog/RecordReader.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+// MRPT does not notice that the end of a file was not written.
+void requireCompleteGz(const std::string& path) { GzInput(path).skipToEnd(); }
+
+void requireCompleteJpeg(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-2, std::ios::end);
+  if (file.get() != 0xFF || file.get() != 0xD9) throw std::runtime_error("incomplete JPEG");
+}
+}  // namespace
+
+ExternalImages::ExternalImages(std::string folder) :
+    folder_(std::move(folder)), temporary_(folder_ + mrpt::format(".%d.tmp", ::getpid()))
+{
+  if (fs::exists(folder_))
+    throw std::runtime_error(folder_ + ": exists already; remove it or choose another output name");
+  std::error_code error;
+  if (!fs::create_directory(temporary_, error))
+    throw std::runtime_error(folder_ + ": cannot be created: " + error.message());
+}
+
+ExternalImages::~ExternalImages()
+{
+  std::error_code ignored;
+  if (!committed_) fs::remove_all(temporary_, ignored);
+}
+
+void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQuality)
+{
+  const std::string name = mrpt::format(
+      "%s_%06zu", mrpt::system::fileNameStripInvalidChars(scan.sensorLabel).c_str(),
+      scans_[scan.sensorLabel]++);
+  std::string now = name;
+  try
+  {
+    if (scan.hasRangeImage)
+    {
+      now = name + "_depth.bin";
+      scan.rangeImage_convertToExternalStorage(now, temporary_ + "/");
+      requireCompleteGz(temporary_ + "/" + now);
+    }
+    if (scan.hasIntensityImage)
+    {
+      now = name + ".jpg";
+      const std::string path = temporary_ + "/" + now;
+      if (!scan.intensityImage.saveToFile(path, jpegQuality))
+        throw std::runtime_error("cannot be written");
+      requireCompleteJpeg(path);
+      scan.intensityImage.setExternalStorage(now);
+    }
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(folder_ + "/" + now + ": " + rootMessage(e));
+  }
+}
+
+void ExternalImages::commit()
+{
+  std::error_code error;
+  fs::rename(temporary_, folder_, error);
+  if (error) throw std::runtime_error(folder_ + ": cannot be written: " + error.message());
+  committed_ = true;
+}
+
+}  // namespace quadmap

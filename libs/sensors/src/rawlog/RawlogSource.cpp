@@ -1,0 +1,250 @@
+#include "quadmap/sensors/RawlogSource.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "InputError.h"
+#include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/FrameAgreement.h"
+#include "quadmap/obs/PixelLabels.h"
+#include "quadmap/sensors/RawlogNames.h"
+#include "rawlog/RawlogSourceImpl.h"
+#include "rawlog/ScanCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::size_t kMaxPending = 32;  // most waiting frames of a sensor, 50 MB
+
+std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
+{
+  if (!options.objectsFile.empty()) return options.objectsFile;
+  const std::string name = objectsFileOf(file);
+  return std::filesystem::exists(name) ? name : std::string();
+}
+
+void check(const RawlogSourceOptions& options)
+{
+  if (!(options.maxBoxDelay >= 0))
+    throw std::invalid_argument(
+        mrpt::format("maxBoxDelay=%g: must be >= 0 s", options.maxBoxDelay));
+  if (!(options.maxOdometryGap > 0))
+    throw std::invalid_argument(
+        mrpt::format("maxOdometryGap=%g: must be > 0 s", options.maxOdometryGap));
+}
+}  // namespace
+
+std::string InputProblem::text() const
+{
+  const std::string where = sensor.empty() ? "" : " (" + sensor + ")";
+  return file + ": record " + std::to_string(record) + where + ": " + what;
+}
+
+RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
+    reader(file),
+    imagesFolder(findImagesFolder(file)),
+    options(std::move(o)),
+    boxes(options.maxBoxDelay),
+    odometry(options.odometryKind),
+    log_(owner)
+{
+  check(options);
+  registerObsClasses();
+  const std::string sidecar = sidecarFor(file, options);
+  if (!sidecar.empty()) boxes.openSidecar(sidecar);
+}
+
+void RawlogSource::Impl::report(const InputProblem& problem)
+{
+  if (!options.keepGoing)
+  {
+    ended_ = finished_ = true;
+    pending_.clear();
+    throw std::runtime_error(problem.text());
+  }
+  problems.push_back(problem);
+}
+
+void RawlogSource::Impl::warnOnce(const std::string& text)
+{
+  if (warned_.insert(text).second) log_.logStr(mrpt::system::LVL_WARN, text);
+}
+
+std::optional<RgbdFrame> RawlogSource::Impl::next()
+{
+  while (true)
+  {
+    if (!pending_.empty() && (ended_ || isReady(pending_.front())))
+    {
+      PendingFrame first = std::move(pending_.front());
+      pending_.pop_front();
+      if (auto frame = complete(std::move(first))) return frame;
+    }
+    else if (ended_)
+    {
+      finish();
+      return std::nullopt;
+    }
+    else
+      ended_ = !readRecord();
+  }
+}
+
+/** Whether everything that can belong to the frame was read. */
+bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
+{
+  const double time = pending.frame.time();
+  const bool tooMany = pending_.size() > kMaxPending * lastScanTime_.size();
+  if (tooMany || latestTime_ > time + options.maxOdometryGap) return true;
+  if (latestTime_ <= time + options.maxBoxDelay) return false;
+  if (boxes.mayStillCome(pending.frame.scan->sensorLabel, time)) return false;
+  const bool odometryKnown = odometry.countsActions() || odometry.odometry().reaches(time);
+  return odometryKnown && (odometry.truth().empty() || odometry.truth().reaches(time));
+}
+
+std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
+{
+  auto& frame = pending.frame;
+  try
+  {
+    prepareScan(*frame.scan, imagesFolder);
+  }
+  catch (const std::exception& e)
+  {
+    report({reader.file(), frame.record, frame.scan->sensorLabel, rootMessage(e)});
+    return std::nullopt;
+  }
+  if (!frame.scan->doDepthAndIntensityCamerasCoincide() && frame.scan->hasIntensityImage)
+    warnOnce(
+        reader.file() + " (" + frame.scan->sensorLabel +
+        "): colour is not registered to depth, boxes may be off");
+  addPoses(pending);
+  addBoxes(frame);
+  if (!frame.objects && options.pixelLabelClasses) addPixelLabels(frame);
+  ++framesRead;
+  return std::move(frame);
+}
+
+void RawlogSource::Impl::addPoses(PendingFrame& pending)
+{
+  const double time = pending.frame.time();
+  const auto pose = odometry.countsActions() ? std::make_optional(pending.sumOfActions)
+                                             : odometry.odometry().at(time, options.maxOdometryGap);
+  if (pose)
+  {
+    pending.frame.T_odom_robot = pose->mean;
+    pending.frame.odometryCovariance = pose->cov;
+    pending.frame.odometryKind = odometry.kind();
+  }
+  if (const auto truth = odometry.truth().at(time, options.maxOdometryGap))
+    pending.frame.T_world_robot = truth->mean;
+  if (!pending_.empty())
+  {
+    const auto earlier = [](const PendingFrame& a, const PendingFrame& b)
+    { return a.frame.time() < b.frame.time(); };
+    const auto first = std::min_element(pending_.begin(), pending_.end(), earlier);
+    odometry.forgetBefore(first->frame.time() - kMaxScanDelay);
+  }
+}
+
+void RawlogSource::Impl::readSidecar(double time)
+{
+  while (true) try
+    {
+      return boxes.readUntil(time);
+    }
+    catch (const InputError& e)
+    {
+      report(e.problem);
+    }
+}
+
+void RawlogSource::Impl::addBoxes(RgbdFrame& frame)
+{
+  readSidecar(frame.time());
+  const std::string& label = frame.scan->sensorLabel;
+  auto found = boxes.take(label, frame.time());
+  if (!found) return;
+  const std::string file = boxes.hasSidecar() ? sidecarFor(reader.file(), options) : reader.file();
+  if (const auto why = mismatch(*found->boxes, *frame.scan))
+    return report({file, found->record, label, *why});
+  for (const auto& what : removeUnusableBoxes(*found->boxes))
+    report({file, found->record, label, what});
+  frame.objects = found->boxes;
+}
+
+void RawlogSource::Impl::addPixelLabels(RgbdFrame& frame)
+{
+  try
+  {
+    frame.objects = boxesFromPixelLabels(
+        *frame.scan, *options.pixelLabelClasses, options.minLabelPixels, unknownPixelLabels_);
+    frame.objectsFromPixelLabels = frame.objects != nullptr;
+    sawPixelLabels = sawPixelLabels || frame.objects;
+  }
+  catch (const std::exception& e)
+  {
+    report({reader.file(), frame.record, frame.scan->sensorLabel, e.what()});
+  }
+}
+
+void RawlogSource::Impl::tellUnknownPixelLabels()
+{
+  std::string names;
+  for (const auto& name : unknownPixelLabels_) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty())
+    warnOnce(
+        reader.file() + ": pixel labels that are not in the label table are no objects: " + names);
+}
+
+/** Reports boxes of which none found its scan. Such an input is wrong, but would look like an empty
+ * room. */
+void RawlogSource::Impl::finish()
+{
+  if (finished_) return;
+  finished_ = true;
+  tellUnknownPixelLabels();
+  readSidecar(1e300);
+  const std::size_t lost = boxes.unpaired(options.sensorLabel);
+  if (framesRead == 0 || lost == 0) return;
+  const std::string text = mrpt::format(
+      "%zu records of boxes match no scan by sensor label and time (within %g s)", lost,
+      options.maxBoxDelay);
+  const std::string file = boxes.hasSidecar() ? sidecarFor(reader.file(), options) : reader.file();
+  if (boxes.paired() == 0)
+    report({file, 0, "", text});
+  else
+    warnOnce(file + ": " + text);
+}
+
+RawlogSource::RawlogSource(std::string file, RawlogSourceOptions options) :
+    COutputLogger("RawlogSource"),
+    impl_(std::make_unique<Impl>(*this, std::move(file), std::move(options)))
+{
+}
+
+RawlogSource::~RawlogSource() = default;
+
+std::optional<RgbdFrame> RawlogSource::next() { return impl_->next(); }
+
+const std::vector<InputProblem>& RawlogSource::problems() const { return impl_->problems; }
+
+double RawlogSource::progress() const { return impl_->reader.progress(); }
+
+std::size_t RawlogSource::recordsRead() const { return impl_->reader.recordsRead(); }
+
+std::size_t RawlogSource::framesRead() const { return impl_->framesRead; }
+
+bool RawlogSource::hasBoxes() const { return impl_->boxes.seenAny() || impl_->sawPixelLabels; }
+
+std::string RawlogSource::odometryKind() const { return impl_->odometry.kind(); }
+
+std::vector<std::string> RawlogSource::odometryKinds() const { return impl_->odometry.kinds(); }
+
+std::string RawlogSource::contentSummary() const { return impl_->summary(); }
+
+}  // namespace quadmap

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "odometry/OdometryReader.h"
+#include "quadmap/sensors/RawlogSource.h"
+#include "rawlog/BoxBuffer.h"
+#include "rawlog/RecordReader.h"
+
+namespace quadmap
+{
+/** A scan that waits until everything that belongs to it was read. */
+struct PendingFrame
+{
+  RgbdFrame frame;
+  mrpt::poses::CPose3DPDFGaussian sumOfActions;
+};
+
+struct RawlogSource::Impl
+{
+  Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o);
+
+  std::optional<RgbdFrame> next();
+  std::string summary() const;
+
+  /** Most time between a scan and its record [s]. Poses are kept for so long. */
+  static constexpr double kMaxScanDelay = 10;
+
+  RecordReader reader;
+  std::string imagesFolder;
+  RawlogSourceOptions options;
+  std::vector<InputProblem> problems;
+  std::size_t framesRead = 0;
+  bool sawPixelLabels = false;
+  BoxBuffer boxes;
+  OdometryReader odometry;
+
+ private:
+  void report(const InputProblem& problem);
+  bool readRecord();
+  void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);
+  void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
+  void addScan(std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
+  bool isReady(const PendingFrame& pending) const;
+  std::optional<RgbdFrame> complete(PendingFrame pending);
+  void addPoses(PendingFrame& pending);
+  void addBoxes(RgbdFrame& frame);
+  void addPixelLabels(RgbdFrame& frame);
+  void tellUnknownPixelLabels();
+  void readSidecar(double time);
+  void finish();
+  void warnOnce(const std::string& text);
+
+  RawlogSource& log_;
+  std::deque<PendingFrame> pending_;
+  std::map<std::string, double> lastScanTime_;  // time by sensor [s]
+  std::map<std::string, std::size_t> content_;  // number of records by class
+  std::set<std::string> warned_;
+  std::set<std::string> unknownPixelLabels_;
+  double latestTime_ = -1e300;  // latest time of all records [s]
+  bool ended_ = false, finished_ = false;
+};
+
+}  // namespace quadmap

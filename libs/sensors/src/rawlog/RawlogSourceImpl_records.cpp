@@ -1,0 +1,127 @@
+// This file sorts the records of the rawlog. RawlogSource.cpp completes the frames.
+#include <mrpt/core/format.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "InputError.h"
+#include "quadmap/base/ErrorText.h"
+#include "rawlog/RawlogSourceImpl.h"
+
+namespace quadmap
+{
+namespace
+{
+std::string bareClassName(const mrpt::rtti::CObject& object)
+{
+  const std::string name = object.GetRuntimeClass()->className;
+  const auto colon = name.rfind(':');
+  return colon == std::string::npos ? name : name.substr(colon + 1);
+}
+}  // namespace
+
+/** Reads one record of the file. \return False at the end of the file, be it clean or not. */
+bool RawlogSource::Impl::readRecord()
+{
+  const std::size_t record = reader.recordsRead();
+  try
+  {
+    const auto object = reader.next();
+    if (object) readObject(record, object);
+    return object != nullptr;
+  }
+  catch (const InputError& e)
+  {
+    report(e.problem);
+    return false;
+  }
+}
+
+void RawlogSource::Impl::readObject(
+    std::size_t record, const mrpt::serialization::CSerializable::Ptr& object)
+{
+  using namespace mrpt::obs;
+  if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object))
+  {
+    for (const auto& observation : *frame) readObservation(record, observation);
+    return;
+  }
+  if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
+    return readObservation(record, observation);
+  ++content_[bareClassName(*object)];
+  const auto actions = std::dynamic_pointer_cast<CActionCollection>(object);
+  if (!actions) return;
+  try
+  {
+    odometry.read(*actions);
+  }
+  catch (const std::exception& e)
+  {
+    report({reader.file(), record, "", e.what()});
+  }
+}
+
+void RawlogSource::Impl::readObservation(
+    std::size_t record, const mrpt::obs::CObservation::Ptr& observation)
+{
+  const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+  const auto found = std::dynamic_pointer_cast<CObservationObjects>(observation);
+  const std::string& label = observation->sensorLabel;
+  ++content_[bareClassName(*observation) + (scan ? " \"" + label + "\"" : "")];
+  try
+  {
+    if (scan)
+      addScan(record, scan);
+    else if (found && !boxes.hasSidecar())
+      boxes.add({record, found});
+    else if (found)
+      warnOnce(reader.file() + ": boxes in the rawlog itself are ignored, the sidecar has some");
+    else
+      odometry.read(*observation);
+  }
+  catch (const std::exception& e)
+  {
+    return report({reader.file(), record, label, rootMessage(e)});
+  }
+  if (observation->timestamp != INVALID_TIMESTAMP)
+    latestTime_ = std::max(latestTime_, mrpt::Clock::toDouble(observation->timestamp));
+  if (pending_.empty()) odometry.forgetBefore(latestTime_ - kMaxScanDelay);
+  if (!odometry.ignoredKind().empty())
+    warnOnce(
+        reader.file() + ": poses are taken from " + odometry.kind() + ", not from " +
+        odometry.ignoredKind());
+}
+
+void RawlogSource::Impl::addScan(
+    std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
+{
+  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return;
+  if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
+  PendingFrame pending{{}, odometry.sumOfActions()};
+  pending.frame.record = record;
+  pending.frame.scan = scan;
+  const double time = pending.frame.time();
+  const auto last = lastScanTime_.find(scan->sensorLabel);
+  if (last != lastScanTime_.end() && time <= last->second)
+    throw std::runtime_error(
+        mrpt::format("time goes backwards: %.6f s before the scan before", last->second - time));
+  lastScanTime_[scan->sensorLabel] = time;
+  if (scan->hasRangeImage && scan->hasPoints3D) scan->resizePoints3DVectors(0);
+  pending_.push_back(std::move(pending));
+}
+
+std::string RawlogSource::Impl::summary() const
+{
+  std::vector<std::pair<std::size_t, std::string>> sorted;
+  for (const auto& [name, count] : content_) sorted.emplace_back(count, name);
+  std::stable_sort(
+      sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [count, name] : sorted)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  return text.empty() ? "nothing" : text;
+}
+
+}  // namespace quadmap

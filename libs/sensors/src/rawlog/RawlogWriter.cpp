@@ -1,0 +1,124 @@
+#include "quadmap/sensors/RawlogWriter.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/serialization/CArchive.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "quadmap/base/GzipStream.h"
+#include "rawlog/ExternalImages.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** Sets how MRPT stores colour images, which is a global setting, while this object lives. */
+class JpegSetting
+{
+ public:
+  explicit JpegSetting(int quality) :
+      disabled_(mrpt::img::CImage::DISABLE_JPEG_COMPRESSION()),
+      quality_(mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY())
+  {
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
+    mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(quality);
+  }
+  ~JpegSetting()
+  {
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(disabled_);
+    mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(quality_);
+  }
+  JpegSetting(const JpegSetting&) = delete;
+  JpegSetting& operator=(const JpegSetting&) = delete;
+
+ private:
+  bool disabled_;
+  int quality_;
+};
+
+void writeTo(GzipFileWriter& file, const mrpt::serialization::CSerializable& object)
+{
+  mrpt::serialization::archiveFrom(file) << object;
+  file.requireWritten();
+}
+
+RawlogWriterOptions checked(RawlogWriterOptions options)
+{
+  if (options.compressionLevel < 0 || options.compressionLevel > 9)
+    throw std::invalid_argument(
+        mrpt::format("compressionLevel=%d: must be 0..9", options.compressionLevel));
+  if (options.jpegQuality < 1 || options.jpegQuality > 100)
+    throw std::invalid_argument(
+        mrpt::format("jpegQuality=%d: must be 1..100", options.jpegQuality));
+  return options;
+}
+}  // namespace
+
+struct RawlogWriter::Impl
+{
+  Impl(std::string f, RawlogWriterOptions o) :
+      file(std::move(f)), options(checked(o)), rawlog(file, options.compressionLevel)
+  {
+    if (options.external) images = std::make_unique<ExternalImages>(imagesFolderOf(file));
+  }
+
+  std::string file;
+  RawlogWriterOptions options;
+  GzipFileWriter rawlog;
+  std::unique_ptr<GzipFileWriter> sidecar;  // created with the first boxes
+  std::unique_ptr<ExternalImages> images;   // null when images are in the rawlog
+};
+
+RawlogWriter::RawlogWriter(std::string file, RawlogWriterOptions options) :
+    impl_(std::make_unique<Impl>(std::move(file), options))
+{
+}
+
+RawlogWriter::~RawlogWriter() = default;
+
+void RawlogWriter::write(mrpt::obs::CObservation3DRangeScan& scan)
+{
+  if (impl_->images) impl_->images->moveOut(scan, impl_->options.jpegQuality);
+  const JpegSetting jpeg(impl_->options.jpegQuality);
+  writeTo(impl_->rawlog, scan);
+}
+
+void RawlogWriter::write(const CObservationObjects& boxes)
+{
+  if (!impl_->sidecar)
+    impl_->sidecar = std::make_unique<GzipFileWriter>(
+        objectsFileOf(impl_->file), impl_->options.compressionLevel);
+  writeTo(*impl_->sidecar, boxes);
+}
+
+void RawlogWriter::writePose(
+    mrpt::Clock::time_point time,
+    const std::string& label,
+    const mrpt::poses::CPose3D& T_parent_robot)
+{
+  mrpt::obs::CObservationRobotPose pose;
+  pose.timestamp = time;
+  pose.sensorLabel = label;
+  pose.pose.mean = T_parent_robot;
+  writeTo(impl_->rawlog, pose);
+}
+
+void RawlogWriter::finish()
+{
+  impl_->rawlog.close();
+  if (impl_->sidecar) impl_->sidecar->close();
+  if (impl_->images) impl_->images->commit();
+  if (impl_->sidecar)
+    impl_->sidecar->commit();
+  else
+    fs::remove(objectsFileOf(impl_->file));
+  impl_->rawlog.commit();
+}
+
+}  // namespace quadmap

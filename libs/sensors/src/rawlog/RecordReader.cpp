@@ -1,0 +1,72 @@
+#include "rawlog/RecordReader.h"
+
+#include <mrpt/core/exceptions.h>
+#include <mrpt/rtti/CObject.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "InputError.h"
+#include "quadmap/base/ErrorText.h"
+
+namespace quadmap
+{
+namespace
+{
+/** The class name at the head of a stored object. It is empty when there is none. */
+std::string classNameIn(const std::string& head)
+{
+  constexpr std::size_t kNew = 1,
+                        kOld = 4;  // size of the name's length in MRPT's two formats [bytes]
+  if (head.empty()) return {};
+  const auto first = static_cast<unsigned char>(head[0]);
+  const bool isNew = (first & 0x80u) != 0;
+  const std::size_t length = isNew ? first & 0x7Fu : first, start = isNew ? kNew : kOld;
+  if (length == 0 || head.size() < start + length) return {};
+  const std::string name = head.substr(start, length);
+  const auto legal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
+  return std::all_of(name.begin(), name.end(), legal) ? name : std::string();
+}
+}  // namespace
+
+RecordReader::RecordReader(const std::string& file) :
+    file_(file), stream_(file), archive_(mrpt::serialization::archiveUniquePtrFrom(stream_))
+{
+}
+
+std::string RecordReader::explain(const std::exception& e) const
+{
+  const std::string name = classNameIn(stream_.recordHead());
+  if (name.empty())
+  {
+    if (!stream_.failure().empty()) return stream_.failure();
+    return recordsRead_ == 0 ? "is no MRPT object: this is not a rawlog"
+                             : "is no MRPT object: the file is damaged";
+  }
+  if (!stream_.failure().empty()) return name + ": " + stream_.failure();
+  if (!mrpt::rtti::findRegisteredClass(name))
+    return "class " + name + " is unknown; MRPT files cannot be read on after an unknown class";
+  return name + " cannot be read: " + rootMessage(e);
+}
+
+mrpt::serialization::CSerializable::Ptr RecordReader::next()
+{
+  if (ended_) return nullptr;
+  stream_.startRecord();
+  try
+  {
+    auto object = archive_->ReadObject();
+    ++recordsRead_;
+    return object;
+  }
+  catch (const std::exception& e)
+  {
+    ended_ = true;
+    const bool isEnd = stream_.recordBytes() == 0 && stream_.failure().empty() &&
+                       dynamic_cast<const mrpt::serialization::CExceptionEOF*>(&e);
+    if (isEnd) return nullptr;
+    throw InputError({file_, recordsRead_, "", explain(e)});
+  }
+}
+
+}  // namespace quadmap

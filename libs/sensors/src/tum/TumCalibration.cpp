@@ -1,0 +1,172 @@
+#include <mrpt/core/format.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+#include "quadmap/base/ConfigCheck.h"
+#include "tum/TumFiles.h"
+
+namespace quadmap
+{
+namespace
+{
+using mrpt::system::trim;
+
+/** The top level of a YAML file as OpenCV writes it: lines of `key: value`. Indented lines below a
+ * key belong to its value. OpenCV's own reader is not used because it never returns for some
+ * damaged files, such as one with a line that is indented by mistake. */
+class FlatYaml
+{
+ public:
+  explicit FlatYaml(const std::string& path) : path_(path)
+  {
+    std::ifstream file(path);
+    if (!file) reject("cannot be read");
+    std::string* value = nullptr;  // value of the last key
+    std::size_t number = 0;
+    for (std::string line; std::getline(file, line);)
+    {
+      ++number;
+      line = withoutComment(line);
+      const std::string text = trim(line);
+      if (text.empty() || line[0] == '%' || text == "---" || text == "...") continue;
+      if (line[0] != ' ')
+        value = addKey(line, number);
+      else if (value)
+        *value += " " + text;
+      else
+        rejectLine(number);
+    }
+    if (file.bad()) reject("read error");
+  }
+
+  [[noreturn]] void reject(const std::string& what) const
+  {
+    throw std::runtime_error(path_ + ": " + what);
+  }
+
+  const std::string* find(const std::string& key) const
+  {
+    const auto found = values_.find(key);
+    return found == values_.end() ? nullptr : &found->second;
+  }
+
+  /** \exception std::runtime_error If a required key is missing or its value is no finite number.
+   */
+  double number(const std::string& key, std::optional<double> fallback = std::nullopt) const
+  {
+    const std::string* text = find(key);
+    if (!text && fallback) return *fallback;
+    if (!text) reject("the key '" + key + "' is missing");
+    const auto value = yamlNumber(*text);
+    if (!value) reject("'" + key + "' is not a number");
+    if (!std::isfinite(*value)) reject("'" + key + "' is not finite");
+    return *value;
+  }
+
+  /** A number of YAML, which writes `.Nan` and `-.Inf`. */
+  static std::optional<double> yamlNumber(std::string text)
+  {
+    const auto dot = text.find(".");
+    if (dot != std::string::npos && dot + 1 < text.size() &&
+        std::isalpha(static_cast<unsigned char>(text[dot + 1])))
+      text.erase(dot, 1);
+    return parseNumber(text);
+  }
+
+ private:
+  static std::string withoutComment(const std::string& line)
+  {
+    for (std::size_t i = line.find('#'); i != std::string::npos; i = line.find('#', i + 1))
+      if (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t') return line.substr(0, i);
+    return line;
+  }
+
+  [[noreturn]] void rejectLine(std::size_t number) const
+  {
+    reject("is not YAML as OpenCV writes it (line " + std::to_string(number) + ")");
+  }
+
+  std::string* addKey(const std::string& line, std::size_t number)
+  {
+    const auto colon = line.find(':');
+    const std::string key = trim(line.substr(0, colon));
+    if (colon == std::string::npos || key.empty() || line[0] == '\t') rejectLine(number);
+    const auto [at, isNew] = values_.emplace(key, trim(line.substr(colon + 1)));
+    if (!isNew) reject("the key '" + key + "' stands there twice");
+    return &at->second;
+  }
+
+  std::string path_;
+  std::map<std::string, std::string> values_;
+};
+
+unsigned pixelsAt(const FlatYaml& file, const std::string& key)
+{
+  constexpr double kMaxPixels = 20000;
+  const double value = file.number(key);
+  if (value < 1 || value > kMaxPixels || value != std::floor(value))
+    file.reject(mrpt::format(
+        "'%s' is %g: must be a whole number in 1..%g", key.c_str(), value, kMaxPixels));
+  return static_cast<unsigned>(value);
+}
+
+/** The numbers between the brackets of an !!opencv-matrix or a list. */
+std::optional<Eigen::Vector3d> upAt(const FlatYaml& file)
+{
+  const std::string* text = file.find("world_up");
+  if (!text) return std::nullopt;
+  const auto open = text->find('['), close = text->find(']');
+  std::vector<std::string> words;
+  if (open != std::string::npos && close != std::string::npos && open < close)
+    mrpt::system::tokenize(text->substr(open + 1, close - open - 1), ", \t", words);
+  if (words.size() != 3) file.reject("'world_up' must be a matrix of three numbers");
+  Eigen::Vector3d up;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const auto value = FlatYaml::yamlNumber(words[i]);
+    if (!value) file.reject("'world_up' must be a matrix of three numbers");
+    up[static_cast<Eigen::Index>(i)] = *value;
+  }
+  constexpr double kShortest = 1e-6, kLongest = 1e6;
+  if (!up.allFinite() || up.norm() < kShortest || up.norm() > kLongest)
+    file.reject("'world_up' must be a finite direction");
+  return up.normalized();
+}
+
+}  // namespace
+
+TumCalibration readTumCalibration(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
+  const FlatYaml file(path);
+  TumCalibration calibration;
+  auto& camera = calibration.camera;
+  const double fx = file.number("fx"), fy = file.number("fy");
+  if (fx <= 0) file.reject(mrpt::format("fx=%g: must be > 0", fx));
+  if (fy == 0) file.reject("fy=0: must not be 0");
+  camera.setIntrinsicParamsFromValues(fx, fy, file.number("cx"), file.number("cy"));
+  camera.ncols = pixelsAt(file, "width");
+  camera.nrows = pixelsAt(file, "height");
+  calibration.depthFactor = file.number("depth_factor");
+  if (calibration.depthFactor <= 0)
+    file.reject(mrpt::format("depth_factor=%g: must be > 0", calibration.depthFactor));
+  const char* const coefficients[] = {
+      "k1", "k2", "p1", "p2", "k3"};  // in the order of MRPT's plumb_bob
+  for (std::size_t i = 0; i < std::size(coefficients); ++i)
+    camera.dist[i] = file.number(coefficients[i], 0.0);
+  const bool distorted =
+      std::any_of(camera.dist.begin(), camera.dist.end(), [](double k) { return k != 0; });
+  camera.distortion =
+      distorted ? mrpt::img::DistortionModel::plumb_bob : mrpt::img::DistortionModel::none;
+  calibration.worldUp = upAt(file);
+  return calibration;
+}
+
+}  // namespace quadmap

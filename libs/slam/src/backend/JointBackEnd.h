@@ -1,0 +1,91 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "BackEnd.h"
+#include "quadmap/graph/FactorGraph.h"
+
+namespace quadmap
+{
+/** Estimates poses and objects together: objects correct a drifting robot.
+ *
+ * While running, the latest keyframes are estimated with the objects seen from them; every
+ * observation goes into the object map at the corrected pose, with the pose's uncertainty. At the
+ * end all poses are estimated, in turn with the associations. */
+class JointBackEnd : public BackEnd
+{
+ public:
+  /** \param labels Must outlive this object. */
+  JointBackEnd(
+      const JointOptions& options,
+      const CQuadricObjectMap::TInsertionOptions& mapOptions,
+      const LabelTable& labels);
+
+  mrpt::poses::CPose3D addKeyframe(
+      const mrpt::poses::CPose3D& T_odom_robot,
+      const std::optional<mrpt::poses::CPose3DPDFGaussian>& step,
+      const CObservationObjects* boxes,
+      SlamResult& result) override;
+
+  /** Optimises everything in turn with the associations, and rebuilds the map at the corrected
+   * poses. `result` is told how it went. */
+  void finish(const BoxesOf& boxesOf, SlamResult& result) override;
+
+  /** As finish(), but it is the known objects that say where the map lies. */
+  void correctWith(
+      const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) override;
+
+ private:
+  /** Where the robot is by odometry from the last keyframe's pose.
+   *  \param T_odom_robot Its pose as the odometry has it. */
+  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
+
+  using Decisions = std::vector<CQuadricObjectMap::Decision>;
+
+  std::optional<BoxMeasurement> viewFor(
+      const CObservationObjects& boxes,
+      std::size_t box,
+      const mrpt::poses::CPose3D& T_map_robot,
+      const MapObject& object) const;
+  void addViews(
+      const CObservationObjects& boxes,
+      const Decisions& decisions,
+      std::size_t pose,
+      const CQuadricObjectMap& map);
+  void forgetMerged(const CQuadricObjectMap& map);
+  using Priors = std::map<ObjectId, ObjectPrior>;
+
+  enum class FirstPose
+  {
+    Fixed,
+    FreeToTilt  // by upSigma, on visual odometry
+  };
+  /** All poses and objects. With priors pose 0 is the map, and when the first pose is not fixed
+   * where that was so far; either makes pose k + 1 that of keyframe k. */
+  FactorGraph globalGraph(
+      const BoxesOf& boxesOf,
+      const SlamResult& result,
+      const Priors& priors,
+      FirstPose firstPose) const;
+  /** Moves the keyframes to where a graph has them. \return The longest move [m]. */
+  static double takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result);
+  /** Rounds of association and estimation. */
+  void estimate(const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) const;
+
+  JointOptions options_;
+  PoseNoise viewNoise_;  //!< Of the map's options: what a view errs by beyond its faces
+  EstimatorOptions estimator_;
+  ExistenceOptions existence_;
+  const LabelTable& labels_;
+  FactorGraph graph_;
+  mrpt::poses::CPose3D lastOdometry_;                        //!< Of the last keyframe
+  std::map<ObjectId, std::deque<Eigen::Vector3d>> cameras_;  //!< Latest places it was seen from
+};
+
+}  // namespace quadmap

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "keyframes/KeyframeSpool.h"
+#include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/slam/PoseNodes.h"
+#include "quadmap/slam/SlamConfiguration.h"
+#include "quadmap/slam/SlamResult.h"
+#include "run/ModuleTimes.h"
+
+namespace quadmap
+{
+/** What the report says about the input. */
+struct InputDescription
+{
+  std::string file, objectsFile, sensorLabel;
+  std::size_t records = 0;  //!< Number of records that were read
+  std::string odometryKind;
+  bool interrupted = false;
+  std::vector<InputProblem> problems;
+};
+
+/** Everything that the files of the output directory are made from. */
+struct RunRecord
+{
+  std::string version;
+  const InputDescription& input;
+  const SlamConfiguration& configuration;
+  const SlamResult& result;
+  const KeyframeSpool& spool;
+  ModuleTimes& times;
+};
+
+/** Writes the files of the output directory (doc/formats.md). Each appears complete or not at all.
+ * \return Their paths. \exception std::runtime_error If one cannot be written. */
+std::vector<std::string> writeResult(const std::string& directory, const RunRecord& run);
+
+/** Writes report.json. All that differs between two runs on the same input is under "timing". */
+void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, const RunRecord& run);
+
+}  // namespace quadmap

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/sensors/RgbdFrame.h"
+
+namespace quadmap
+{
+/** A keyframe on its way from the input to the map. */
+struct KeyframeTask
+{
+  RgbdFrame frame;
+  mrpt::poses::CPose3D T_odom_robot;
+  /** Motion since the keyframe before by odometry. The first keyframe has none. */
+  std::optional<mrpt::poses::CPose3DPDFGaussian> step = std::nullopt;
+  CObservationObjects::Ptr boxes = nullptr;  //!< Boxes to measure; null when there are none
+
+  std::optional<std::string> problem = std::nullopt;  //!< The reason to leave it out
+  std::size_t objectsInMap = 0;                       //!< Number of objects when it was added
+};
+
+}  // namespace quadmap

@@ -1,0 +1,207 @@
+#include "relocalization/ContinueMap.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "ConstellationMatch.h"
+#include "GoneObjects.h"
+#include "KnownObjects.h"
+#include "backend/BackEnd.h"
+#include "quadmap/estimation/Assignment.h"
+#include "quadmap/slam/SlamResult.h"
+
+namespace quadmap
+{
+namespace
+{
+/** The given map with the options of the run, which carries it on. */
+CQuadricObjectMap preparedMap(const CQuadricObjectMap& given, const CQuadricObjectMap& run)
+{
+  CQuadricObjectMap map = given;
+  map.setLabels(run.labels());
+  map.insertionOptions = run.insertionOptions;
+  map.likelihoodOptions = run.likelihoodOptions;
+  map.renderOptions = run.renderOptions;
+  map.perceptionOptions = run.perceptionOptions;
+  return map;
+}
+
+/** The edges between poses and objects with the ids of the continued map. They name the objects of
+ * the run's own map, and each gets the id of the object that took over most of its boxes. */
+void renameObjectsOfEdges(const std::vector<BoxDecision>& before, SlamResult& result)
+{
+  using Box = std::pair<std::size_t, std::size_t>;  // keyframe, box
+  std::map<Box, ObjectId> now;
+  for (const auto& d : result.decisions)
+    if (d.decision.object) now[{d.keyframe, d.decision.box}] = *d.decision.object;
+  std::map<ObjectId, std::map<ObjectId, std::size_t>> votes;
+  for (const auto& d : before)
+  {
+    const auto heir = now.find({d.keyframe, d.decision.box});
+    if (d.decision.object && heir != now.end()) ++votes[*d.decision.object][heir->second];
+  }
+  std::vector<FactorGraph::GraphEdge> edges;
+  for (auto edge : result.edges)
+  {
+    const auto found = votes.find(edge.object);
+    if (found == votes.end()) continue;
+    edge.object = std::max_element(
+                      found->second.begin(), found->second.end(),
+                      [](const auto& a, const auto& b) { return a.second < b.second; })
+                      ->first;
+    edges.push_back(edge);
+  }
+  result.edges = std::move(edges);
+}
+
+std::set<ObjectId> idsOf(const std::vector<const MapObject*>& objects)
+{
+  std::set<ObjectId> ids;
+  for (const MapObject* object : objects) ids.insert(object->id);
+  return ids;
+}
+
+std::vector<ObjectId> without(const std::set<ObjectId>& ids, const std::set<ObjectId>& others)
+{
+  std::vector<ObjectId> rest;
+  std::set_difference(
+      ids.begin(), ids.end(), others.begin(), others.end(), std::back_inserter(rest));
+  return rest;
+}
+
+/** Takes out of `added` and `removed` what went from one place to the other. The pairs are alike,
+ * and the sum of their ways is the shortest. */
+void pairMoves(
+    const CQuadricObjectMap& given,
+    const CQuadricObjectMap& now,
+    const RelocalizationOptions& options,
+    MapContinuation& changes)
+{
+  const auto rows = static_cast<Eigen::Index>(changes.removed.size());
+  const auto columns = static_cast<Eigen::Index>(changes.added.size());
+  constexpr double kNoMove = 1e6;  // more than any way [m]
+  Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(rows, columns + rows, kNoMove);
+  for (Eigen::Index r = 0; r < rows; ++r)
+    for (Eigen::Index c = 0; c < columns; ++c)
+    {
+      const MapObject& from = *given.find(changes.removed[static_cast<std::size_t>(r)]);
+      const MapObject& to = *now.find(changes.added[static_cast<std::size_t>(c)]);
+      if (areAlike(from, to, now.labels(), options))
+        cost(r, c) = (from.object.center() - to.object.center()).norm();
+    }
+  const auto columnOf = optimalAssignment(cost);
+  std::set<ObjectId> gone, came;
+  for (std::size_t r = 0; r < columnOf.size(); ++r)
+  {
+    const double way = cost(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(columnOf[r]));
+    if (way >= kNoMove) continue;
+    changes.moved.push_back({changes.removed[r], changes.added[columnOf[r]], way});
+    gone.insert(changes.removed[r]);
+    came.insert(changes.added[columnOf[r]]);
+  }
+  changes.removed = without({changes.removed.begin(), changes.removed.end()}, gone);
+  changes.added = without({changes.added.begin(), changes.added.end()}, came);
+}
+
+/** \exception NotLocalised */
+ConstellationMatch requireMatch(
+    const CQuadricObjectMap& run,
+    const CQuadricObjectMap& given,
+    const RelocalizationOptions& options)
+{
+  const auto local = run.confirmedObjects(), known = given.confirmedObjects();
+  const auto match = matchConstellation(local, known, run.labels(), options);
+  if (match) return *match;
+  throw NotLocalised(mrpt::format(
+      "it cannot be told where this is in the map: the %zu objects of the recording were "
+      "compared with the %zu of the map",
+      local.size(), known.size()));
+}
+
+/** Corrects a run, whose poses are in the map's frame, by the map's objects.
+ * \return Where its objects, then in that frame too, are in the map. Nothing when they can no
+ * longer be told there: near the limit the corrected ones may fall below it. `result` is then
+ * unchanged. */
+std::optional<ConstellationMatch> correctedMatch(
+    const CQuadricObjectMap& given,
+    BackEnd& backEnd,
+    const BackEnd::BoxesOf& boxesOf,
+    const RelocalizationOptions& options,
+    SlamResult& result)
+{
+  SlamResult corrected = result;
+  try
+  {
+    backEnd.correctWith(
+        [&](const CQuadricObjectMap& local)
+        { return priorsOf(local, given, requireMatch(local, given, options).pairs, options); },
+        boxesOf, corrected);
+    const auto match = requireMatch(corrected.map, given, options);
+    result = std::move(corrected);
+    return match;
+  }
+  catch (const NotLocalised&)
+  {
+    return std::nullopt;
+  }
+}
+
+MapContinuation changesBetween(
+    const CQuadricObjectMap& given,
+    const CQuadricObjectMap& now,
+    const RelocalizationOptions& options)
+{
+  MapContinuation changes;
+  const auto before = idsOf(given.confirmedObjects()), after = idsOf(now.confirmedObjects());
+  changes.knownObjects = before.size();
+  changes.added = without(after, before);
+  changes.removed = without(before, after);
+  pairMoves(given, now, options, changes);
+  return changes;
+}
+
+}  // namespace
+
+void continueMap(
+    const CQuadricObjectMap& given,
+    BackEnd& backEnd,
+    const std::function<CObservationObjects::Ptr(std::size_t)>& boxesOf,
+    const RelocalizationOptions& options,
+    SlamResult& finalResult)
+{
+  ConstellationMatch match = requireMatch(finalResult.map, given, options);
+  const auto place = match.T_map_local;
+  SlamResult result = finalResult;
+  for (auto& keyframe : result.keyframes)
+  {
+    mrpt::poses::CPose3DPDFGaussian pose(keyframe.T_map_robot);
+    if (keyframe.covariance) pose.cov = *keyframe.covariance;
+    pose.changeCoordinatesReference(place);
+    keyframe.T_map_robot = pose.mean;
+    if (keyframe.covariance) keyframe.covariance = pose.cov;
+  }
+  const auto corrected = correctedMatch(given, backEnd, boxesOf, options, result);
+  if (corrected) match = *corrected;
+  CQuadricObjectMap map = preparedMap(given, result.map);
+  for (const ObjectId id : goneObjects(given, result, match, boxesOf, options)) map.remove(id);
+
+  const std::vector<BoxDecision> before = std::move(result.decisions);
+  result.map = std::move(map);
+  result.decisions.clear();
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+    if (const auto boxes = boxesOf(k))
+      BackEnd::insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
+  result.map.consolidate();
+  renameObjectsOfEdges(before, result);
+  result.continuation = changesBetween(given, result.map, options);
+  match.T_map_local = place;
+  result.continuation->match = match;
+  result.continuation->lostInCorrection = !corrected;
+  finalResult = std::move(result);
+}
+
+}  // namespace quadmap

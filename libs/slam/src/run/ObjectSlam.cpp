@@ -1,0 +1,298 @@
+#include "run/ObjectSlam.h"
+
+#include <algorithm>
+
+#include "keyframes/BoxCounts.h"
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+
+namespace
+{
+/** Largest number of keyframes under way: one in each stage, and some more so that no stage waits
+ * for the input. Each has its images in memory, 1.5 MB. */
+constexpr std::size_t kCapacity = 6;
+
+constexpr std::size_t kBackEnd = 1;  // number of the stage
+
+bool hasDepth(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  const auto& depth = scan.rangeImage;
+  return scan.hasRangeImage &&
+         std::any_of(depth.data(), depth.data() + depth.size(), [](auto d) { return d != 0; });
+}
+
+std::optional<GraphOdometry> graphOf(const SlamOptions& options)
+{
+  if (options.odometry != PoseSource::Graph) return std::nullopt;
+  return GraphOdometry(options.odometryGraph);
+}
+
+/** Name, for messages, of poses that are given. \param kind Kind of the rawlog's odometry. */
+std::string nameOfGivenPoses(const SlamOptions& options, const std::string& kind)
+{
+  if (options.odometry == PoseSource::Graph) return "the pose graph " + options.odometryGraph;
+  if (options.odometry == PoseSource::GroundTruth) return "ground truth";
+  return "the rawlog's odometry" + (kind.empty() ? "" : ", " + kind);
+}
+
+}  // namespace
+
+ObjectSlam::ObjectSlam(
+    const SlamConfiguration& configuration,
+    const LabelTable& labels,
+    KeyframeSpool& spool,
+    const std::optional<Eigen::Vector3d>& up_robot,
+    bool keepGoing) :
+    COutputLogger("ObjectSlam"),
+    configuration_(configuration),
+    labels_(labels),
+    spool_(spool),
+    keepGoing_(keepGoing),
+    selector_(configuration.keyframes),
+    odometry_(
+        configuration.slam.odometry,
+        configuration.poses,
+        configuration.visual,
+        up_robot,
+        graphOf(configuration.slam)),
+    perception_(configuration, labels),
+    backEnd_(configuration, labels_),
+    tasks_(kCapacity),
+    pipeline_(
+        {
+            {    [this](std::size_t item) { measure(item); },
+             StagePipeline::Feedback{kBackEnd, BackEndStage::kLag}},
+            {   [this](std::size_t item) { addToMap(item); }     },
+            {[this](std::size_t item) { this->spool(item); }     }
+},
+        configuration.slam.workingThreads(),
+        kCapacity)
+{
+  result_.odometry.upFromFloor = up_robot.has_value();
+  result_.map.insertionOptions = configuration.mapInsertion;
+  result_.map.likelihoodOptions = configuration.mapLikelihood;
+  result_.map.renderOptions = configuration.mapRender;
+  result_.map.perceptionOptions = configuration.perception;
+  result_.map.setLabels(labels);
+  if (configuration.slam.association == AssociationSource::Given)
+    result_.map.insertionOptions.useInstanceIds = true;
+}
+
+void ObjectSlam::addFrame(const RgbdFrame& frame)
+{
+  SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
+  ++counts.frames;
+  if (const auto T_odom_robot = poseOf(frame))
+  {
+    moment_.exclude();
+    addPosedFrame(frame, *T_odom_robot);
+    return;
+  }
+  ++counts.framesWithoutPose;
+  moment_.add(frame);
+}
+
+std::optional<CPose3D> ObjectSlam::poseOf(const RgbdFrame& frame)
+{
+  const auto scope = times_.measure("odometry");
+  const auto T_odom_robot = odometry_.poseOf(frame);
+  if (result_.counts().frames == 1) tellOdometry(frame);
+  result_.odometry.visual = odometry_.visualCounts();
+  for (const auto& text : odometry_.takeWarnings()) warn(text);
+  return T_odom_robot;
+}
+
+void ObjectSlam::tellOdometry(const RgbdFrame& frame)
+{
+  result_.odometry.source = odometry_.source();
+  result_.odometry.visualSensor = odometry_.visualSensor();
+  if (odometry_.source() == PoseSource::Visual)
+    MRPT_LOG_INFO_FMT(
+        "poses: visual odometry of sensor %s, up %s", frame.scan->sensorLabel.c_str(),
+        result_.odometry.upFromFloor ? "from the floor it sees"
+                                     : "as the sensor is mounted: no floor seen at first");
+  else
+    MRPT_LOG_INFO_STREAM("poses: " << nameOfGivenPoses(configuration_.slam, frame.odometryKind));
+}
+
+void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_robot)
+{
+  const CPose3D T_odom_sensor = T_odom_robot + frame.scan->sensorPose;
+  const bool isNode =
+      odometry_.source() == PoseSource::Graph;  // the other program chose the keyframes
+  if (!isNode && !selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor))
+    return;
+  KeyframeTask next{frame, T_odom_robot, odometry_.keyframeStep()};
+  if (frame.objects && configuration_.slam.method != SlamMethod::Odometry)
+  {
+    next.boxes = CObservationObjects::Create(*frame.objects);
+    warnOfUnknownLabels(*next.boxes);
+    for (const auto& object : next.boxes->objects) anyInstanceId_ |= object.instanceId.has_value();
+  }
+  task(added_++) = std::move(next);
+  pipeline_.add();
+  takeFinished();
+}
+
+void ObjectSlam::measure(std::size_t item)
+{
+  KeyframeTask& keyframe = task(item);
+  if (!keyframe.boxes) return;
+  const auto scope = times_.measure("perception");
+  try
+  {
+    perception_.measure(keyframe, backEnd_.correctionFor(item));
+    if (configuration_.slam.association == AssociationSource::Given)
+      leaveOutAnonymous(*keyframe.boxes);
+  }
+  catch (const std::runtime_error& e)
+  {
+    if (!keepGoing_) throw BadFrame(keyframe.frame, e.what());
+    keyframe.problem = e.what();
+  }
+}
+
+void ObjectSlam::addToMap(std::size_t item)
+{
+  const auto scope = times_.measure("map");
+  backEnd_.add(item, task(item), result_);
+}
+
+void ObjectSlam::spool(std::size_t item)
+{
+  const KeyframeTask& keyframe = task(item);
+  if (keyframe.problem) return;
+  const auto scope = times_.measure("spool");
+  spool_.append(*keyframe.frame.scan, keyframe.boxes.get());
+}
+
+void ObjectSlam::takeFinished()
+{
+  for (const std::size_t finished = pipeline_.finished(); taken_ < finished; ++taken_)
+  {
+    account(task(taken_));
+    task(taken_) = {};
+  }
+}
+
+void ObjectSlam::account(const KeyframeTask& keyframe)
+{
+  const RgbdFrame& frame = keyframe.frame;
+  if (keyframe.problem)
+  {
+    badFrames_.emplace_back(frame, *keyframe.problem);
+    return;
+  }
+  const auto* boxes = keyframe.boxes.get();
+  if (boxes) countBoxes(*boxes, labels_, result_.labels);
+  SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
+  ++counts.keyframes;
+  if (boxes) counts.boxes += boxes->objects.size();
+  if (!frame.objects) ++counts.keyframesWithoutBoxes;
+  if (frame.objectsFromPixelLabels) ++counts.keyframesFromPixelLabels;
+  if (!hasDepth(*frame.scan)) ++counts.keyframesWithoutDepth;
+  MRPT_LOG_DEBUG_FMT(
+      "keyframe %zu: record %zu (%s), %zu boxes, %zu objects in the map",
+      taken_ - badFrames_.size(), frame.record, frame.scan->sensorLabel.c_str(),
+      boxes ? boxes->objects.size() : 0, keyframe.objectsInMap);
+}
+
+void ObjectSlam::settle()
+{
+  pipeline_.finish();
+  takeFinished();
+}
+
+void ObjectSlam::finish()
+{
+  const std::size_t missing = result_.counts().framesWithoutPose;
+  if (missing > 0 && missing == result_.counts().frames)
+    placeFramesWithoutPose();
+  else if (missing > 0 && odometry_.source() != PoseSource::Graph)  // a graph only has keyframes
+    warn(mrpt::format(
+        "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
+  settle();
+  requireInstanceIds();
+  warnOfMissingDepth();
+  for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
+  const auto scope = times_.measure("consolidation");
+  backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
+}
+
+void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
+{
+  const auto scope = times_.measure("relocalisation");
+  continueMap(
+      map, backEnd_.backEnd(), [this](std::size_t k) { return spool_.objects(k); },
+      configuration_.relocalization, result_);
+  const auto& match = result_.continuation->match;
+  MRPT_LOG_INFO_FMT(
+      "localised: %zu of the map's %zu objects found again (ln odds %.1f, next best place %.1f)",
+      match.pairs.size(), result_.continuation->knownObjects, match.logOdds, match.secondLogOdds);
+  if (result_.continuation->lostInCorrection)
+    warn(
+        "the map's objects could not correct the poses: where this is in the map could then no "
+        "longer be told; they are those of the run alone, moved into the map");
+}
+
+void ObjectSlam::placeFramesWithoutPose()
+{
+  const auto& frames = moment_.frames();
+  if (frames.empty() || configuration_.slam.odometry != PoseSource::Auto)
+    throw std::runtime_error(odometry_.whyNoPoses());
+  warn(
+      frames.size() == 1
+          ? "no odometry, but a single image: its robot pose is the origin of the map"
+          : "no odometry, but images of a single moment: the robot pose is the origin of the map");
+  for (const auto& frame : frames)
+  {
+    result_.countsBySensor[frame.scan->sensorLabel].framesWithoutPose = 0;
+    addPosedFrame(frame, odometry_.poseOfMoment());
+  }
+}
+
+void ObjectSlam::leaveOutAnonymous(CObservationObjects& boxes)
+{
+  for (auto& object : boxes.objects)
+  {
+    if (object.instanceId) continue;
+    object.measurement = ObjectMeasurement();
+    object.measurement.kind = MeasurementKind::Rejected;
+    object.measurement.reason = "no instance id, and associations are given";
+  }
+}
+
+void ObjectSlam::requireInstanceIds() const
+{
+  const auto boxes = result_.counts().boxes;
+  if (configuration_.slam.association == AssociationSource::Given && boxes > 0 && !anyInstanceId_)
+    throw std::runtime_error(mrpt::format(
+        "associations should be given, but none of the %zu boxes has an instance id", boxes));
+}
+
+void ObjectSlam::warnOfMissingDepth()
+{
+  const bool several = result_.countsBySensor.size() > 1;
+  for (const auto& [sensor, counts] : result_.countsBySensor)
+    if (counts.keyframesWithoutDepth > 0)
+      warn(mrpt::format(
+          "%zu of %zu keyframes%s have no valid depth at all", counts.keyframesWithoutDepth,
+          counts.keyframes, several ? (" of " + sensor).c_str() : ""));
+}
+
+void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)
+{
+  for (const auto& object : boxes.objects)
+    if (!labels_.properties(object.label).known && unknownLabels_.insert(object.label).second)
+      warn("label \"" + object.label + "\" is not in the label table: neutral properties are used");
+}
+
+void ObjectSlam::warn(const std::string& text)
+{
+  MRPT_LOG_WARN_STREAM(text);
+  result_.warnings.push_back(text);
+}
+
+}  // namespace quadmap

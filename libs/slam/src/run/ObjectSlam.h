@@ -1,0 +1,126 @@
+#pragma once
+
+#include <mrpt/system/COutputLogger.h>
+
+#include <cstddef>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "keyframes/KeyframeSpool.h"
+#include "pipeline/BackEndStage.h"
+#include "pipeline/KeyframeTask.h"
+#include "pipeline/PerceptionStage.h"
+#include "pipeline/StagePipeline.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/odometry/OdometryInput.h"
+#include "quadmap/odometry/SingleMoment.h"
+#include "quadmap/sensors/RgbdFrame.h"
+#include "quadmap/slam/KeyframeSelector.h"
+#include "quadmap/slam/SlamConfiguration.h"
+#include "quadmap/slam/SlamResult.h"
+#include "relocalization/ContinueMap.h"
+#include "run/ModuleTimes.h"
+
+namespace quadmap
+{
+/** One frame is wrong. The next ones may be right. */
+struct BadFrame : std::runtime_error
+{
+  BadFrame(const RgbdFrame& frame, const std::string& what) :
+      runtime_error(what), record(frame.record), sensor(frame.scan->sensorLabel)
+  {
+  }
+  std::size_t record;  //!< Index of the scan in its rawlog
+  std::string sensor;
+};
+
+/** Makes trajectory and object map from RGB-D frames with boxes. Perception measures the keyframes.
+ * Their measurements correct the poses of the odometry and go into the map. True poses are taken as
+ * given.
+ *
+ * The class works on several keyframes at the same time. The result is the same with any number of
+ * threads. Messages come from the caller's thread. */
+class ObjectSlam : public mrpt::system::COutputLogger
+{
+ public:
+  /** \param spool Receives the images. It must outlive this object.
+   *  \param up_robot See OdometryInput.
+   *  \param keepGoing Leave out bad frames, which are then in badFrames(). */
+  ObjectSlam(
+      const SlamConfiguration& configuration,
+      const LabelTable& labels,
+      KeyframeSpool& spool,
+      const std::optional<Eigen::Vector3d>& up_robot = {},
+      bool keepGoing = false);
+
+  /** Takes the next frame.
+   *  \exception BadFrame If this frame or one before cannot be used. The run cannot go on then.
+   *  \exception std::runtime_error For other errors, such as a full disk. It cannot go on either.
+   */
+  void addFrame(const RgbdFrame& frame);
+
+  /** Waits for the frames that are under way. \exception As in addFrame(). */
+  void settle();
+
+  /** Call it at the end of the input, before finish().
+   *  \exception std::runtime_error If the images do not fit the given poses. */
+  void requireAllPosesUsed() const { odometry_.requireAllUsed(); }
+
+  /** Call it after the last frame. It makes the final estimate.
+   *  \exception As in addFrame().
+   *  \exception std::runtime_error If there were frames, but none had a pose. */
+  void finish();
+
+  /** Continues the map of an earlier run. Call it after finish().
+   * \exception NotLocalised If the run cannot be found in the map. */
+  void continueFrom(const CQuadricObjectMap& map);
+
+  /** The result, complete after finish(). Before that only frames and warnings may be read. */
+  const SlamResult& result() const { return result_; }
+  const std::vector<BadFrame>& badFrames() const { return badFrames_; }
+  ModuleTimes& times() { return times_; }
+
+  /** Logs a warning and keeps it for the report. */
+  void warn(const std::string& text);
+
+ private:
+  std::optional<mrpt::poses::CPose3D> poseOf(const RgbdFrame& frame);
+  void tellOdometry(const RgbdFrame& frame);
+  void addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
+  void placeFramesWithoutPose();
+  void warnOfMissingDepth();
+  static void leaveOutAnonymous(CObservationObjects& boxes);
+  void requireInstanceIds() const;
+  void warnOfUnknownLabels(const CObservationObjects& boxes);
+
+  // The stages. Each is called from one thread at a time.
+  KeyframeTask& task(std::size_t item) { return tasks_[item % tasks_.size()]; }
+  void measure(std::size_t item);
+  void addToMap(std::size_t item);
+  void spool(std::size_t item);
+
+  void takeFinished();
+  void account(const KeyframeTask& task);
+
+  SlamConfiguration configuration_;
+  LabelTable labels_;
+  KeyframeSpool& spool_;
+  bool keepGoing_;
+  KeyframeSelector selector_;
+  OdometryInput odometry_;
+  SingleMoment moment_;
+  std::set<std::string> unknownLabels_;
+  bool anyInstanceId_ = false;  //!< Some box so far has one
+  PerceptionStage perception_;
+  BackEndStage backEnd_;
+  SlamResult result_;
+  std::vector<BadFrame> badFrames_;
+  ModuleTimes times_;
+  std::vector<KeyframeTask> tasks_;  //!< Those under way, in a ring
+  std::size_t added_ = 0, taken_ = 0;
+  StagePipeline pipeline_;  //!< The last member, as its threads use the others
+};
+
+}  // namespace quadmap

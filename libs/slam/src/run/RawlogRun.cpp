@@ -1,0 +1,246 @@
+#include "quadmap/slam/RawlogRun.h"
+
+#include <filesystem>
+#include <initializer_list>
+#include <stdexcept>
+
+#include "files/ResultWriter.h"
+#include "keyframes/KeyframeSpool.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/odometry/OdometrySurvey.h"
+#include "quadmap/sensors/RawlogSource.h"
+#include "run/ObjectSlam.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** The output directory. When the run fails, the directories that were made for it are removed. */
+class OutputDirectory
+{
+ public:
+  explicit OutputDirectory(const std::string& path)
+  {
+    std::error_code error;
+    for (fs::path p = path; !p.empty() && !fs::exists(p, error); p = p.parent_path())
+      made_.push_back(p);
+    fs::create_directories(path, error);
+    if (!error && fs::is_directory(path)) return;
+    removeEmpty();
+    throw std::runtime_error(
+        path + ": cannot be made: " + (error ? error.message() : "a file of that name exists"));
+  }
+  ~OutputDirectory() { removeEmpty(); }
+  OutputDirectory(const OutputDirectory&) = delete;
+  OutputDirectory& operator=(const OutputDirectory&) = delete;
+
+ private:
+  void removeEmpty() const
+  {
+    std::error_code ignored;  // a directory with files stays, and so do those above it
+    for (const auto& path : made_)
+      if (fs::is_directory(path, ignored)) fs::remove(path, ignored);
+  }
+
+  std::vector<fs::path> made_;  //!< The deepest first
+};
+
+class RawlogRun
+{
+ public:
+  explicit RawlogRun(const RawlogRunRequest& request) :
+      request_(request),
+      survey_(surveyOdometry(
+          request.rawlog,
+          sourceOptions(request),
+          request.configuration.slam.odometry,
+          request.configuration.perception,
+          request.configuration.visual)),
+      source_(request.rawlog, sourceOptions(request, survey_.odometryKind)),
+      directory_(request.outputDirectory),
+      spool_(request.outputDirectory),
+      slam_(
+          configurationOf(request, survey_),
+          LabelTable::installed(),
+          spool_,
+          survey_.up_robot,
+          request.keepGoing)
+  {
+    using mrpt::system::VerbosityLevel;
+    for (mrpt::system::COutputLogger* logger :
+         std::initializer_list<mrpt::system::COutputLogger*>{&slam_, &source_})
+    {
+      logger->logging_enable_console_output = false;
+      logger->setMinLoggingLevel(mrpt::system::LVL_DEBUG);
+    }
+    slam_.logRegisterCallback(
+        [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
+        { request_.onMessage(level, std::string(text)); });
+    source_.logRegisterCallback(
+        [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
+        {
+          if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
+        });
+  }
+
+  RawlogRunSummary run()
+  try
+  {
+    const bool interrupted = addAllFrames();
+    requireContent(interrupted);
+    finish();
+    return write(interrupted);
+  }
+  catch (const BadFrame& e)
+  {
+    throw std::runtime_error(problemOf(e).text());
+  }
+
+ private:
+  static RawlogSourceOptions sourceOptions(
+      const RawlogRunRequest& request, const std::string& odometryKind = {})
+  {
+    RawlogSourceOptions options;
+    options.odometryKind = odometryKind;
+    options.objectsFile = request.objectsFile;
+    options.sensorLabel = request.sensorLabel;
+    options.keepGoing = request.keepGoing;
+    if (request.configuration.slam.method != SlamMethod::Odometry)
+      options.pixelLabelClasses = LabelTable::installed();
+    options.minLabelPixels = request.configuration.perception.minLabelPixels;
+    options.maxBoxDelay = request.configuration.input.maxBoxDelay;
+    options.maxOdometryGap = request.configuration.input.maxOdometryGap;
+    return options;
+  }
+
+  /** The configuration of the run.
+   *  \exception std::invalid_argument If its method cannot continue the given map. */
+  static SlamConfiguration configurationOf(
+      const RawlogRunRequest& request, const OdometrySurvey& survey)
+  {
+    const SlamOptions& slam = request.configuration.slam;
+    if (request.map && slam.method != SlamMethod::Rgbd)
+      throw std::invalid_argument("--map: for method rgbd only");
+    if (request.map && slam.association == AssociationSource::Given)
+      throw std::invalid_argument(
+          "--map: not with association given: the ids of another recording mean other objects");
+    SlamConfiguration configuration = request.configuration;
+    configuration.slam.odometry = survey.source;
+    return configuration;
+  }
+
+  /** Reads the rawlog. \return True when asked to stop before its end. */
+  bool addAllFrames()
+  {
+    bool interrupted = false;
+    try
+    {
+      interrupted = addUntilStopped();
+    }
+    catch (...)
+    {
+      slam_.settle();  // errors of earlier frames are reported first
+      throw;
+    }
+    slam_.settle();
+    return interrupted;
+  }
+
+  bool addUntilStopped()
+  {
+    while (!request_.shouldStop())
+    {
+      const auto frame = nextFrame();
+      request_.onProgress(source_.progress());
+      if (!frame) return false;
+      slam_.addFrame(*frame);
+    }
+    return true;
+  }
+
+  std::optional<RgbdFrame> nextFrame()
+  {
+    const auto scope = slam_.times().measure("input");
+    return source_.next();
+  }
+
+  InputProblem problemOf(const BadFrame& e) const
+  {
+    return {request_.rawlog, e.record, e.sensor, e.what()};
+  }
+
+  void requireContent(bool interrupted)
+  {
+    const std::string& file = request_.rawlog;
+    if (slam_.result().counts().frames == 0)
+    {
+      if (interrupted) throw std::runtime_error(file + ": interrupted before the first image");
+      const std::string sensor =
+          request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
+      throw std::runtime_error(
+          file + ": no usable RGB-D images" + sensor + "; it has " + source_.contentSummary());
+    }
+    if (!interrupted) slam_.requireAllPosesUsed();
+    const bool wantsBoxes = request_.configuration.slam.method != SlamMethod::Odometry;
+    if (!wantsBoxes || source_.hasBoxes() || interrupted) return;
+    const std::string text =
+        file +
+        ": no object boxes, neither in it nor beside it, and no pixel labels; import them with the "
+        "images "
+        "(quadmap-import --detections), name their file with --objects, or use --method odometry";
+    if (!request_.keepGoing) throw std::runtime_error(text);
+    slam_.warn(text);
+  }
+
+  void finish()
+  {
+    try
+    {
+      slam_.finish();
+      if (request_.map) slam_.continueFrom(*request_.map);
+    }
+    catch (const BadFrame&)
+    {
+      throw;
+    }
+    catch (const NotLocalised& e)
+    {
+      throw std::runtime_error(request_.rawlog + ": " + e.what() + " (" + request_.mapFile + ")");
+    }
+    catch (const std::runtime_error& e)
+    {
+      throw std::runtime_error(request_.rawlog + ": " + e.what());
+    }
+  }
+
+  RawlogRunSummary write(bool interrupted)
+  {
+    InputDescription input{request_.rawlog,       request_.objectsFile,   request_.sensorLabel,
+                           source_.recordsRead(), source_.odometryKind(), interrupted,
+                           source_.problems()};
+    for (const auto& e : slam_.badFrames()) input.problems.push_back(problemOf(e));
+    RawlogRunSummary summary;
+    summary.files = writeResult(
+        request_.outputDirectory,
+        {request_.version, input, request_.configuration, slam_.result(), spool_, slam_.times()});
+    for (const auto& problem : input.problems) summary.dropped.push_back(problem.text());
+    summary.result = slam_.result();
+    summary.interrupted = interrupted;
+    return summary;
+  }
+
+  const RawlogRunRequest& request_;
+  OdometrySurvey survey_;
+  RawlogSource source_;
+  OutputDirectory directory_;
+  KeyframeSpool spool_;
+  ObjectSlam slam_;
+};
+
+}  // namespace
+
+RawlogRunSummary runOnRawlog(const RawlogRunRequest& request) { return RawlogRun(request).run(); }
+
+}  // namespace quadmap

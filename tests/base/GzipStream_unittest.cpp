@@ -1,0 +1,68 @@
+#include "quadmap/base/GzipStream.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "../obs/FileSizeLimit.h"
+#include "../obs/TemporaryFolder.h"
+#include "quadmap/obs/CObservationObjects.h"
+
+using namespace quadmap;
+
+namespace
+{
+/** More than 1 MB as an archive, so that the file has several members. */
+CObservationObjects largeObject()
+{
+  CObservationObjects object;
+  object.objects.resize(30000);
+  for (std::size_t i = 0; i < object.objects.size(); ++i)
+    object.objects[i].label = "label " + std::to_string(i);
+  return object;
+}
+}  // namespace
+
+TEST(GzipStream, MembersComeBackAndDamageIsSeen)
+{
+  std::vector<std::uint8_t> bytes(200000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * i / 77);
+  auto member = gzipMember(bytes, 1);
+  EXPECT_EQ(gunzipMember(member), bytes);
+  EXPECT_EQ(gunzipMember(gzipMember({}, 9)).size(), 0u);
+  EXPECT_EQ(member, gzipMember(bytes, 1)) << "no time stamp inside";
+  member[member.size() / 2] ^= 0x55;
+  EXPECT_THROW(gunzipMember(member), std::runtime_error);
+  EXPECT_THROW(gunzipMember({member.begin(), member.begin() + 100}), std::runtime_error);
+}
+
+TEST(GzipStream, MrptReadsArchives)
+{
+  const TemporaryFolder folder;
+  const auto object = largeObject();
+  ASSERT_GT(archiveBytes(object).size(), 1u << 20);
+  writeArchive(folder.path("x.gz"), object);
+  EXPECT_EQ(folder.fileCount(), 1u) << "no temporary file is left";
+  mrpt::io::CFileGZInputStream file(folder.path("x.gz"));
+  CObservationObjects read;
+  mrpt::serialization::archiveFrom(file) >> read;
+  EXPECT_TRUE(archiveBytes(read) == archiveBytes(object));
+}
+
+TEST(GzipStream, FullDiskKeepsTheOldFile)
+{
+  const TemporaryFolder folder;
+  const auto object = largeObject();
+  const auto path = folder.path("x.gz");
+  writeArchive(path, object);
+  const auto size = std::filesystem::file_size(path);
+  folder.write("x.gz", "old");
+  for (const auto bytes : {size - 1, size / 2, std::uintmax_t(0)})
+  {
+    const FileSizeLimit limit(bytes);
+    const std::string error = errorOf([&] { writeArchive(path, object); });
+    EXPECT_EQ(error.find(path + ": cannot be written: "), 0u) << bytes << ": " << error;
+    EXPECT_EQ(readFile(path), "old") << bytes;
+    EXPECT_EQ(folder.fileCount(), 1u) << bytes;
+  }
+}

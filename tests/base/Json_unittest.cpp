@@ -1,0 +1,51 @@
+#include "quadmap/base/Json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../obs/TemporaryFolder.h"
+
+namespace quadmap
+{
+namespace
+{
+TEST(ReadJson, NamesTheFileAndThePlaceOfWhatIsWrong)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(readJson(folder.write("a.json", "{\"b\": [1, 2]}"))["b"][1], 2);
+  const auto path = folder.write("bad.json", "{\"a\": 1,\n b}");
+  const std::string error = errorOf([&] { readJson(path); });
+  EXPECT_EQ(error.find(path + ": "), 0u) << error;
+  EXPECT_NE(error.find("line 2, column 2"), std::string::npos) << error;
+  EXPECT_NE(
+      errorOf([&] { readJson("/nowhere/x.json"); }).find("cannot be read"), std::string::npos);
+}
+
+TEST(JsonText, ReplacesWhatIsNotUtf8)
+{
+  EXPECT_EQ(
+      jsonText(Json{
+          {"z",         1},
+          {"a", "caf\xe9"}
+  }),
+      "{\"z\":1,\"a\":\"caf\xef\xbf\xbd\"}");
+}
+
+TEST(Rounded, KeepsDecimalsAndHasNoNegativeZero)
+{
+  EXPECT_EQ(rounded(1.23456, 3).dump(), "1.235");
+  EXPECT_EQ(rounded(-0.0001, 3).dump(), "0.0");
+  EXPECT_TRUE(rounded(NAN, 3).is_null());
+  EXPECT_TRUE(rounded(INFINITY, 3).is_null());
+}
+
+TEST(OrNull, IsNullWithoutANumber)
+{
+  EXPECT_TRUE(orNull(std::nullopt).is_null());
+  EXPECT_EQ(orNull(0.5), 0.5);
+}
+
+}  // namespace
+}  // namespace quadmap

@@ -1,0 +1,211 @@
+#include "quadmap/base/OutputFile.h"
+
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "../obs/FileSizeLimit.h"
+#include "../obs/TemporaryFolder.h"
+
+using namespace quadmap;
+namespace fs = std::filesystem;
+
+namespace
+{
+/** A disk of a given size, where mounting one is allowed. */
+class SmallDisk
+{
+ public:
+  SmallDisk(std::string mountPoint, const std::string& size) : mountPoint_(std::move(mountPoint))
+  {
+    fs::create_directory(mountPoint_);
+    mounted_ = ::mount("tmpfs", mountPoint_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
+  }
+  ~SmallDisk()
+  {
+    if (mounted_) ::umount2(mountPoint_.c_str(), MNT_DETACH);
+  }
+  bool mounted() const { return mounted_; }
+
+ private:
+  std::string mountPoint_;
+  bool mounted_ = false;
+};
+}  // namespace
+
+TEST(OutputFile, NothingAppearsUnderTheFinalNameBeforeCommit)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.path("objects.json");
+  {
+    OutputFile output(path);
+    EXPECT_EQ(output.finalPath(), path);
+    std::ofstream(output.temporaryPath()) << "half";
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_EQ(fs::path(output.temporaryPath()).parent_path(), folder.folder());
+    EXPECT_EQ(fs::path(output.temporaryPath()).extension(), ".json") << "writers look at it";
+  }
+  EXPECT_EQ(folder.fileCount(), 0u) << "not committed: no trace";
+}
+
+TEST(OutputFile, CommitRenames)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("objects.json", "old");
+  {
+    OutputFile output(path);
+    std::ofstream(output.temporaryPath()) << "new";
+    EXPECT_EQ(readFile(path), "old");
+    output.commit();
+    EXPECT_EQ(readFile(path), "new");
+    output.commit();  // does nothing the second time
+  }
+  EXPECT_EQ(readFile(path), "new");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(OutputFile, AnOldFileSurvivesAFailure)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.txt", "old");
+  {
+    OutputFile output(path);
+  }
+  EXPECT_EQ(readFile(path), "old");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(OutputFile, CompressedFilesKeepBothExtensions)
+{
+  const TemporaryFolder folder;
+  const OutputFile output(folder.path("cloud.txt.gz"));
+  const auto temporary = output.temporaryPath();
+  ASSERT_GT(temporary.size(), 7u);
+  EXPECT_EQ(temporary.substr(temporary.size() - 7), ".txt.gz");
+}
+
+TEST(OutputFile, TwoWritersOfOneNameDoNotShareATemporaryFile)
+{
+  const TemporaryFolder folder;
+  OutputFile a(folder.path("x.json")), b(folder.path("x.json"));
+  EXPECT_NE(a.temporaryPath(), b.temporaryPath());
+}
+
+TEST(OutputFile, FoldersThatDoNotExistOrCannotBeWrittenAreNamed)
+{
+  const TemporaryFolder folder;
+  const auto missing = folder.path("none/objects.json");
+  const auto error = errorOf([&] { OutputFile output(missing); });
+  EXPECT_NE(error.find(missing), std::string::npos) << error;
+  EXPECT_NE(error.find("No such file"), std::string::npos) << error;
+  EXPECT_NE(
+      errorOf([&] { OutputFile output(folder.folder().string()); }).find("directory"),
+      std::string::npos);
+  EXPECT_NE(errorOf([] { OutputFile output(""); }), "");
+  EXPECT_NE(
+      errorOf([] { OutputFile output("/proc/objects.json"); }).find("/proc/objects.json"),
+      std::string::npos)
+      << "nobody, root included, can create files there";
+}
+
+TEST(OutputFile, AReadOnlyFolderIsAnError)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(::chmod(folder.folder().c_str(), 0555), 0);
+  constexpr uid_t kNobody = 65534;
+  const bool isRoot = ::geteuid() == 0;  // root may write everywhere
+  if (isRoot)
+  {
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
+  const auto error = errorOf([&] { OutputFile output(folder.path("a.json")); });
+  if (isRoot)
+  {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
+  ::chmod(folder.folder().c_str(), 0700);
+  EXPECT_NE(error.find("a.json"), std::string::npos) << error;
+  EXPECT_NE(error.find("Permission denied"), std::string::npos) << error;
+}
+
+TEST(OutputFile, ATemporaryFileThatVanishedIsAnErrorAtCommit)
+{
+  const TemporaryFolder folder;
+  OutputFile output(folder.path("a.json"));
+  fs::remove(output.temporaryPath());
+  EXPECT_NE(errorOf([&] { output.commit(); }).find("a.json"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder.path("a.json")));
+}
+
+TEST(OutputFile, AFullDiskIsNoticedEvenWhenTheWriterSwallowsItsErrors)
+{
+  const TemporaryFolder folder;
+  const SmallDisk disk(folder.path("disk"), "64k");
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small disk needs root";
+  const auto path = folder.path("disk/a.txt");
+  {
+    OutputFile output(path);
+    std::ofstream(output.temporaryPath()) << std::string(200000, 'x');
+    const auto error = errorOf([&] { output.commit(); });
+    EXPECT_NE(error.find(path), std::string::npos) << error;
+    EXPECT_NE(error.find("No space left"), std::string::npos) << error;
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path("disk"))) << "neither the final nor the temporary file";
+  EXPECT_NO_THROW(writeTextFile(path, "fits"));
+}
+
+TEST(OutputFile, ALinkStandsForItsTarget)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("real"));
+  const auto target = folder.write("real/a.txt", "old");
+  fs::create_symlink(target, folder.path("link.txt"));
+  writeTextFile(folder.path("link.txt"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path("link.txt")));
+  EXPECT_EQ(readFile(target), "new");
+}
+
+TEST(OutputFile, DevicesAreWrittenDirectlyAndStayDevices)
+{
+  writeTextFile("/dev/null", "gone");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(WriteTextFile, WritesTheBytesGiven)
+{
+  const TemporaryFolder folder;
+  const std::string text("a\r\n\0b", 5);
+  writeTextFile(folder.path("a.txt"), text);
+  EXPECT_EQ(readFile(folder.path("a.txt")), text);
+  struct stat status
+  {
+  };
+  ASSERT_EQ(::stat(folder.path("a.txt").c_str(), &status), 0);
+  const auto mask = ::umask(0);
+  ::umask(mask);
+  EXPECT_EQ(status.st_mode & 0777, 0666u & ~mask) << "readable by others, as usual";
+}
+
+TEST(WriteTextFile, AFullDeviceIsAnError)
+{
+  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const auto error = errorOf([] { writeTextFile("/dev/full", std::string(100000, 'x')); });
+  EXPECT_NE(error.find("/dev/full"), std::string::npos) << error;
+  EXPECT_NE(error.find("No space left"), std::string::npos) << error;
+  EXPECT_NE(errorOf([] { writeTextFile("/dev/full", "x"); }), "") << "shows at closing only";
+}
+
+TEST(WriteTextFile, AFullDiskLeavesTheOldFileAndNoTemporaryOne)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("objects.json", "old");
+  std::string error;
+  {
+    const FileSizeLimit limit(1000);
+    error = errorOf([&] { writeTextFile(path, std::string(5000, 'x')); });
+  }
+  EXPECT_NE(error.find(path), std::string::npos) << error;
+  EXPECT_EQ(readFile(path), "old");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}

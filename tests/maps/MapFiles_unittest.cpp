@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "../obs/TemporaryFolder.h"
+#include "ObjectMapFixture.h"
+#include "quadmap/base/GzipStream.h"
+
+using namespace quadmap;
+using namespace quadmap::testing;
+
+namespace
+{
+std::string gzipped(const std::string& bytes)
+{
+  const auto member = gzipMember({bytes.begin(), bytes.end()}, 6);
+  return {member.begin(), member.end()};
+}
+
+std::string archiveOf(const mrpt::serialization::CSerializable& object)
+{
+  const auto bytes = archiveBytes(object);
+  return {bytes.begin(), bytes.end()};
+}
+
+/** A table that no program installs. */
+const char* const kGizmos = "[gizmo]\naliases = thingamajig\ntypicalSize = 0.7 0.4 0.6\n";
+
+CQuadricObjectMap mapOfGizmo(const TemporaryFolder& folder)
+{
+  CQuadricObjectMap map;
+  map.setLabels(LabelTable::fromFile(folder.write("gizmos.ini", kGizmos)));
+  SyntheticCamera camera(4);
+  walkAround(map, camera, {cuboid("thingamajig", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4)}, 12);
+  map.consolidate();
+  return map;
+}
+
+}  // namespace
+
+TEST(MapFiles, ReadsArchiveVersionZero)
+{
+  CQuadricObjectMap map;
+  map.loadFromFile(QUADMAP_SOURCE_DIR "/tests/maps/data/home-archive-version-0.quadmap");
+  EXPECT_EQ(map.objects().size(), 17u);
+  const auto confirmed = map.confirmedObjects();
+  ASSERT_EQ(confirmed.size(), 16u);
+  for (std::size_t i = 0; i < confirmed.size(); ++i) EXPECT_EQ(confirmed[i]->id, i + 1);
+
+  // From the objects.json of the same run
+  const MapObject& chair = *map.find(2);
+  EXPECT_EQ(
+      chair.labelCounts, (std::map<std::string, unsigned>{
+                             {"bench",  2},
+                             {"chair", 66},
+                             {"couch",  1}
+  }));
+  EXPECT_EQ(chair.observations(), 69u);
+  EXPECT_NEAR(chair.existence(), 0.9999546021312976, 1e-12);
+  EXPECT_NEAR(chair.covariance(0, 0), 1.5700334516038793e-05, 1e-15);
+  const Eigen::Vector3d center(0.6187274808786561, -0.7479527411719227, 0.44131296558033606);
+  const Eigen::Vector3d size(0.463850763628054, 0.46095516975434186, 0.9209850918509315);
+  EXPECT_LT((chair.object.center() - center).norm(), 1e-12);
+  EXPECT_LT((2 * chair.object.semiAxes() - size).norm(), 1e-12);
+  EXPECT_EQ(map.find(13)->label(), "tv");
+  EXPECT_EQ(map.find(13)->observations(), 26u);
+  EXPECT_EQ(map.withLabel("chair").size(), 4u);
+  EXPECT_FALSE(map.find(17) && map.find(17)->confirmed);
+
+  // It can be carried on, and is written in the version of today.
+  map.consolidate();
+  EXPECT_LT((map.find(2)->object.center() - center).norm(), 1e-3);
+  const TemporaryFolder folder;
+  map.saveToFile(folder.path("today.quadmap"));
+  CQuadricObjectMap again;
+  again.loadFromFile(folder.path("today.quadmap"));
+  EXPECT_EQ(again.find(2)->labelCounts, chair.labelCounts);
+}
+
+TEST(MapFiles, SavedMapReadsBack)
+{
+  const TemporaryFolder folder;
+  const CQuadricObjectMap map = smallMap();
+  map.saveToFile(folder.path("a.quadmap"));
+  EXPECT_EQ(folder.fileCount(), 1u) << "no temporary file is left";
+  CQuadricObjectMap loaded;
+  SyntheticCamera camera(5);
+  walkAround(loaded, camera, {cuboid("cup", {0, 0, 0.8}, {0.1, 0.1, 0.1}, 0)}, 6);
+  loaded.loadFromFile(folder.path("a.quadmap"));
+  EXPECT_EQ(archiveOf(loaded), archiveOf(map)) << "nothing of the map before is left";
+  const auto error = errorOf([&] { map.saveToFile("/nowhere/a.quadmap"); });
+  EXPECT_NE(error.find("/nowhere/a.quadmap"), std::string::npos) << error;
+}
+
+TEST(MapFiles, KeepTheirLabelTable)
+{
+  const TemporaryFolder folder;
+  mapOfGizmo(folder).saveToFile(folder.path("gizmo.quadmap"));
+  CQuadricObjectMap loaded;
+  loaded.loadFromFile(folder.path("gizmo.quadmap"));
+  ASSERT_EQ(loaded.confirmedObjects().size(), 1u) << loaded.asString();
+  EXPECT_EQ(loaded.confirmedObjects()[0]->label(), "gizmo");
+  EXPECT_EQ(loaded.withLabel("Thingamajig_2").size(), 1u);
+  EXPECT_EQ(loaded.labels().all().size(), 1u);
+
+  CQuadricObjectMap empty, given;
+  empty.saveToFile(folder.path("empty.quadmap"));
+  given.setLabels(LabelTable::fromFile(folder.path("gizmos.ini")));
+  given.loadFromFile(folder.path("empty.quadmap"));
+  EXPECT_TRUE(given.labels().properties("chair").known) << "a map without table: the installed one";
+}
+
+TEST(MapFiles, RefuseWhatIsNoWholeMap)
+{
+  const TemporaryFolder folder;
+  const CQuadricObjectMap map = smallMap();
+  const std::string bytes = archiveOf(map), file = gzipped(bytes);
+  std::string newer = bytes;
+  const std::string name = "quadmap::CQuadricObjectMap";
+  newer.at(newer.find(name) + name.size()) = 77;
+
+  std::map<std::string, std::string> wrong{
+      {                                                "",             "is no object map"},
+      {                                 "no map at all\n",             "is no object map"},
+      {                                    gzipped(newer),                "newer version"},
+      {gzipped(archiveOf(mrpt::maps::CSimplePointsMap())), "mrpt::maps::CSimplePointsMap"}
+  };
+  for (const double share : {0.05, 0.5, 0.9, 0.999})
+  {
+    const auto kept = static_cast<std::size_t>(share * static_cast<double>(file.size()));
+    wrong[file.substr(0, kept)] = "truncated";
+    wrong[bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size())))] =
+        "truncated";
+  }
+  wrong[file.substr(0, file.size() - 1)] = "truncated";  // all of the archive is there
+  for (std::size_t at = 20; at < file.size(); at += file.size() / 40)
+  {
+    std::string flipped = file;
+    flipped[at] = static_cast<char>(flipped[at] ^ 0x10);
+    wrong[flipped] = "";
+  }
+  CQuadricObjectMap loaded = map;
+  for (const auto& [content, expected] : wrong)
+  {
+    const std::string path = folder.write("x.quadmap", content);
+    const auto error = errorOf([&] { loaded.loadFromFile(path); });
+    EXPECT_EQ(error.rfind(path + ": ", 0), 0u) << error;
+    EXPECT_NE(error.find(expected), std::string::npos) << error << " of " << content.size();
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_EQ(loaded.objects().size(), map.objects().size()) << "the map is as it was";
+  }
+  for (const std::string& path : {folder.path("missing.quadmap"), folder.folder().string()})
+    EXPECT_EQ(errorOf([&] { loaded.loadFromFile(path); }), path + ": cannot be read");
+}
+
+TEST(MapLabels, AreReadWhenTheyAreNeeded)
+{
+  const TemporaryFolder folder;
+  folder.write("labels.ini", "[chair]\nshapeExponent = 7\n");
+  ASSERT_EQ(::setenv("QUADMAP_SHARE_DIR", folder.folder().c_str(), 1), 0);
+  const CQuadricObjectMap map;
+  const CQuadricObjectMap copy = map;
+  EXPECT_TRUE(copy.isEmpty());
+  EXPECT_FALSE(archiveOf(copy).empty());
+  const auto error = errorOf([&] { map.labels(); });
+  ASSERT_EQ(::unsetenv("QUADMAP_SHARE_DIR"), 0);
+  EXPECT_NE(error.find("labels.ini"), std::string::npos) << error;
+  EXPECT_TRUE(map.labels().properties("chair").known) << "after the fault was mended";
+}
+
+TEST(MapLabels, ManyThreadsMayAskFirst)
+{
+  for (int round = 0; round < 5; ++round)
+  {
+    const CQuadricObjectMap map;
+    std::vector<const LabelTable*> tables(4);
+    std::vector<std::thread> threads;
+    for (auto& table : tables)
+      threads.emplace_back(
+          [&table, &map]
+          {
+            if (map.labels().properties("chair").known) table = &map.labels();
+          });
+    for (auto& thread : threads) thread.join();
+    for (const auto* table : tables) EXPECT_EQ(table, &map.labels());
+  }
+}

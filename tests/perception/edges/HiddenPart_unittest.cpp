@@ -1,0 +1,112 @@
+#include "edges/HiddenPart.h"
+
+#include <gtest/gtest.h>
+
+namespace quadmap
+{
+namespace
+{
+constexpr ObjectSide kSides[] = {ObjectSide::Top, ObjectSide::Bottom, ObjectSide::Lateral};
+
+/** Of a thing 100 px high and wide, whose cuboid fits its box. */
+HiddenEvidence nothingHidden()
+{
+  HiddenEvidence e;
+  e.length_px = e.size_px = 100;
+  e.cuboidFit = 0.9;
+  return e;
+}
+
+TEST(HiddenPart, NothingSpeaksAgainstAFreeEdge)
+{
+  for (const auto side : kSides) EXPECT_LT(hiddenProbability(side, nothingHidden()), 0.02);
+}
+
+TEST(HiddenPart, ACuboidThatReachesBeyondTheEdgeSpeaksAgainstIt)
+{
+  HiddenEvidence e = nothingHidden();
+  e.cuboidBeyond_px = 30;
+  for (const auto side : kSides)
+    EXPECT_GT(hiddenProbability(side, e), hiddenProbability(side, nothingHidden()));
+}
+
+TEST(HiddenPart, ACuboidThatIsNotTheObjectsTellsNothing)
+{
+  HiddenEvidence none = nothingHidden();
+  none.cuboidFit = 0;
+  HiddenEvidence e = none;
+  e.cuboidBeyond_px = 60;
+  e.noDepth = 1;
+  for (const auto side : kSides)
+    EXPECT_EQ(hiddenProbability(side, e), hiddenProbability(side, none));
+}
+
+TEST(HiddenPart, ACloudThatGoesOnOutsideExplainsItsCuboid)
+{
+  HiddenEvidence e = nothingHidden();
+  e.cuboidBeyond_px = 30;
+  HiddenEvidence leaking = e;
+  leaking.cloudShort_px = -30;
+  for (const auto side : kSides)
+  {
+    EXPECT_LT(hiddenProbability(side, leaking), hiddenProbability(side, e));
+    EXPECT_DOUBLE_EQ(hiddenProbability(side, leaking), hiddenProbability(side, nothingHidden()));
+  }
+}
+
+TEST(HiddenPart, ACuboidMayErrByMoreTheLargerTheThing)
+{
+  HiddenEvidence small = nothingHidden(), large = nothingHidden();
+  small.cuboidBeyond_px = large.cuboidBeyond_px = 15;
+  large.size_px = 400;
+  EXPECT_LT(
+      hiddenProbability(ObjectSide::Lateral, large), hiddenProbability(ObjectSide::Lateral, small));
+}
+
+// What stands on its support meets it without a jump in depth; a shadow below an edge is that of
+// something in front.
+TEST(HiddenPart, MissingDepthBelowAnEdgeConfirmsThatTheCuboidGoesOn)
+{
+  HiddenEvidence e = nothingHidden();
+  e.noDepth = 1;
+  EXPECT_EQ(
+      hiddenProbability(ObjectSide::Bottom, e),
+      hiddenProbability(ObjectSide::Bottom, nothingHidden()));
+  e.cuboidBeyond_px = 15;
+  HiddenEvidence withDepth = e;
+  withDepth.noDepth = 0;
+  EXPECT_GT(
+      hiddenProbability(ObjectSide::Bottom, e),
+      3 * hiddenProbability(ObjectSide::Bottom, withDepth));
+}
+
+TEST(HiddenPart, AThingWhoseSupportIsUnknownMayGoOnBelow)
+{
+  HiddenEvidence e = nothingHidden();
+  e.coverageUnsupported = 0.9;
+  EXPECT_GT(
+      hiddenProbability(ObjectSide::Bottom, e),
+      3 * hiddenProbability(ObjectSide::Bottom, nothingHidden()));
+}
+
+TEST(HiddenPart, SomethingNearerAlongALongSideIsMoreThanChance)
+{
+  HiddenEvidence e = nothingHidden();
+  e.nearer = 0.5;
+  HiddenEvidence longer = e;
+  longer.length_px = 400;
+  EXPECT_GT(
+      hiddenProbability(ObjectSide::Lateral, longer), hiddenProbability(ObjectSide::Lateral, e));
+}
+
+TEST(HiddenPart, AThingWithoutACloudIsLessCertain)
+{
+  HiddenEvidence e = nothingHidden();
+  e.withoutCloud = true;
+  EXPECT_GT(
+      hiddenProbability(ObjectSide::Lateral, e),
+      hiddenProbability(ObjectSide::Lateral, nothingHidden()));
+}
+
+}  // namespace
+}  // namespace quadmap

@@ -1,0 +1,156 @@
+#include "PointGraph.h"
+
+#include <gtest/gtest.h>
+
+#include "PointWorld.h"
+
+using namespace quadmap;
+
+namespace
+{
+/** A short walk past a few things, as a graph with the true associations. */
+template <int D>
+PointGraph<D> shortWalk()
+{
+  PointWorldOptions options;
+  options.poses = 12;
+  options.objects = 5;
+  options.area = 4;
+  options.separation = 0.3;
+  options.fieldOfView = 6;
+  options.clutterShare = 0;
+  const PointWorld<D> world(3, options);
+  PointGraph<D> graph;
+  graph.poses = world.drifted();
+  graph.steps.assign(world.odometry.begin() + 1, world.odometry.end());
+  graph.objects = world.objects;
+  for (std::size_t k = 0; k < world.detections.size(); ++k)
+    for (const auto& z : world.detections[k])
+      graph.sights.push_back({k, *z.instance, z.position, z.covariance});
+  return graph;
+}
+
+template <int D>
+PointGraph<D> moved(PointGraph<D> graph, const Eigen::VectorXd& step)
+{
+  constexpr int kP = kPoseIncrement<D>;
+  for (std::size_t k = 1; k < graph.poses.size(); ++k)
+  {
+    const auto first = kP * static_cast<Eigen::Index>(k - 1);
+    graph.poses[k].t += step.segment<D>(first);
+    graph.poses[k].R =
+        rotationBy<D>(TurnVector<D>(step.segment<kTurn<D>>(first + D))) * graph.poses[k].R;
+  }
+  const auto firstObject = kP * static_cast<Eigen::Index>(graph.poses.size() - 1);
+  for (std::size_t i = 0; i < graph.objects.size(); ++i)
+    graph.objects[i] += step.segment<D>(firstObject + D * static_cast<Eigen::Index>(i));
+  return graph;
+}
+
+/** All residuals in standard deviations. */
+template <int D>
+Eigen::VectorXd residuals(const PointGraph<D>& graph)
+{
+  std::vector<double> all;
+  const auto add = [&](const Eigen::VectorXd& e, const Eigen::MatrixXd& covariance)
+  {
+    const Eigen::VectorXd r = Eigen::MatrixXd(covariance.llt().matrixL()).inverse() * e;
+    all.insert(all.end(), r.data(), r.data() + r.size());
+  };
+  for (std::size_t k = 0; k < graph.steps.size(); ++k)
+  {
+    const PointPose<D> is = graph.poses[k].inverse() * graph.poses[k + 1];
+    const PointPose<D>& said = graph.steps[k].T_from_to;
+    Eigen::VectorXd e(kPoseIncrement<D>);
+    e << is.t - said.t, turnOf<D>(said.R.transpose() * is.R);
+    add(e, graph.steps[k].covariance);
+  }
+  for (const auto& s : graph.sights)
+    add(graph.poses[s.pose].inverse() * graph.objects[s.object] - s.position, s.covariance);
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+/** The joint covariance (J^t J)^-1, with J by differences. */
+template <int D>
+Eigen::MatrixXd covarianceByDifferences(const PointGraph<D>& graph)
+{
+  constexpr double kStep = 1e-6;
+  const auto n = static_cast<Eigen::Index>(
+      kPoseIncrement<D> * (graph.poses.size() - 1) + D * graph.objects.size());
+  Eigen::MatrixXd J(residuals<D>(graph).size(), n);
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(n, i);
+    J.col(i) =
+        (residuals<D>(moved<D>(graph, step)) - residuals<D>(moved<D>(graph, -step))) / (2 * kStep);
+  }
+  return (J.transpose() * J).inverse();
+}
+
+template <typename Dimension>
+class PointGraphs : public ::testing::Test
+{
+};
+
+template <int N>
+using Dimension = std::integral_constant<int, N>;
+using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
+
+}  // namespace
+
+TYPED_TEST_SUITE(PointGraphs, Dimensions);
+
+TYPED_TEST(PointGraphs, MarginalsAreThoseOfTheWholeInformationMatrix)
+{
+  constexpr int D = TypeParam::value, kP = kPoseIncrement<D>;
+  constexpr double kNoHuber = 1e6;
+  const PointGraph<D> graph = shortWalk<D>();
+  const Eigen::MatrixXd all = covarianceByDifferences<D>(graph);
+  const auto marginals = graph.marginals(kNoHuber);
+  const auto objects = D * static_cast<Eigen::Index>(graph.objects.size());
+  const double tolerance = 1e-4 * all.diagonal().maxCoeff();  // error of the differences
+  EXPECT_LT(
+      (marginals.objects - all.bottomRightCorner(objects, objects)).cwiseAbs().maxCoeff(),
+      tolerance);
+  for (std::size_t k = 1; k < graph.poses.size(); ++k)
+  {
+    const auto first = kP * static_cast<Eigen::Index>(k - 1);
+    EXPECT_LT(
+        (marginals.pose[k] - all.block<kP, kP>(first, first)).cwiseAbs().maxCoeff(), tolerance);
+    EXPECT_LT(
+        (marginals.poseObjects[k] - all.block(first, all.cols() - objects, kP, objects))
+            .cwiseAbs()
+            .maxCoeff(),
+        tolerance);
+  }
+}
+
+TYPED_TEST(PointGraphs, OptimisationEndsWhereTheGradientIsZero)
+{
+  constexpr int D = TypeParam::value;
+  constexpr double kNoHuber = 1e6;
+  PointGraph<D> graph = shortWalk<D>();
+  const double before = 0.5 * residuals<D>(graph).squaredNorm();
+  const double cost = graph.optimise(kNoHuber, 50);
+  EXPECT_LT(cost, before);
+  EXPECT_NEAR(0.5 * residuals<D>(graph).squaredNorm(), cost, 1e-6 * cost);
+  const auto n = static_cast<Eigen::Index>(
+      kPoseIncrement<D> * (graph.poses.size() - 1) + D * graph.objects.size());
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const double step : {-1e-3, 1e-3})
+      EXPECT_GT(
+          0.5 * residuals<D>(moved<D>(graph, step * Eigen::VectorXd::Unit(n, i))).squaredNorm(),
+          cost)
+          << "step of entry " << i;
+}
+
+TYPED_TEST(PointGraphs, GivenPosesStay)
+{
+  constexpr int D = TypeParam::value;
+  PointGraph<D> graph = shortWalk<D>();
+  graph.posesFixed = true;
+  const auto poses = graph.poses;
+  graph.optimise(2.0, 50);
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    EXPECT_LT((graph.poses[k].t - poses[k].t).norm(), 1e-12);
+}
