@@ -34,8 +34,9 @@ class GraphWorld
     {
       const double at = 2 * M_PI * i / size.objects;
       const double far = size.radius + (i % 2 == 0 ? 1.5 : -1.2);
-      const Eigen::Vector3d half(
-          0.15 + 0.3 * uniform(), 0.15 + 0.3 * uniform(), 0.2 + 0.4 * uniform());
+      // Braces: values are drawn from left to right, whatever the compiler.
+      const Eigen::Vector3d half{
+          0.15 + 0.3 * uniform(), 0.15 + 0.3 * uniform(), 0.2 + 0.4 * uniform()};
       objects.emplace_back(
           mrpt::poses::CPose3D(far * std::cos(at), far * std::sin(at), half.z(), uniform(), 0, 0),
           half);
@@ -167,9 +168,9 @@ class GraphWorld
     const auto index = static_cast<std::size_t>(k);
     const mrpt::poses::CPose3D T = truth[index] - truth[index - 1];
     const double p = size_.stepSigma, a = size_.stepAngle;
-    return stepDistribution(mrpt::poses::CPose3D(
+    return stepDistribution(mrpt::poses::CPose3D{
         T.x() + gauss(p), T.y() + gauss(p), T.z() + gauss(p), T.yaw() + gauss(a),
-        T.pitch() + gauss(a), T.roll() + gauss(a)));
+        T.pitch() + gauss(a), T.roll() + gauss(a)});
   }
 
   Size size_;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "SyntheticScene.h"
 #include "quadmap/estimation/ViewResiduals.h"
@@ -150,16 +152,23 @@ TEST(ObjectEstimator, WhatIsSeenThroughAnObjectDoesNotMoveIt)
 {
   // A plant before a wall, seen from one side: every seed is taken from the wall, 0.6 m behind;
   // only the boxes are right, as right as a weak detector's are.
-  SyntheticCamera camera(4);
-  camera.disturbances.partialProbability = 1;
-  camera.disturbances.boxSigma = 4;
-  std::vector<ObjectView> views;
-  for (auto& v : viewsAround(camera, kCabinet, 90))
-    if ((kCabinet.object.center() - v.camera).x() > 1.8) views.push_back(v);
-  ASSERT_GE(views.size(), 10u);
-  for (auto& v : views) v.center += 0.6 * (v.center - v.camera).normalized();
-  const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
-  EXPECT_LT((result.state.head<3>() - kCabinet.object.center()).norm(), 0.15);
+  std::vector<double> errors;  // [m]
+  for (unsigned seed = 1; seed <= 20; ++seed)
+  {
+    SyntheticCamera camera(seed);
+    camera.disturbances.partialProbability = 1;
+    camera.disturbances.boxSigma = 4;
+    std::vector<ObjectView> views;
+    for (auto& v : viewsAround(camera, kCabinet, 90))
+      if ((kCabinet.object.center() - v.camera).x() > 1.8) views.push_back(v);
+    ASSERT_GE(views.size(), 10u);
+    for (auto& v : views) v.center += 0.6 * (v.center - v.camera).normalized();
+    const auto result = estimatorOf(views, {}).estimate({}, boxy("suitcase"), {});
+    errors.push_back((result.state.head<3>() - kCabinet.object.center()).norm());
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.15);
+  EXPECT_LT(errors.back(), 0.2);
 }
 
 TEST(ObjectEstimator, OneWrongCuboidIsOutvotedByBoxes)
@@ -254,19 +263,26 @@ TEST(ObjectEstimator, KeepsViewsFromAllSidesWhenThereAreTooMany)
 
 TEST(ObjectEstimator, StaysPutWhenTheSameMeasurementsComeAgainAndAgain)
 {
-  SyntheticCamera camera(6);
-  const auto views = viewsAround(camera, kCabinet, 30);
   EstimatorOptions options;
   options.maxMeasurements = 40;
-  const auto once = estimatorOf(views, options).estimate({}, boxy("suitcase"), options);
-  ObjectEstimator repeated;
-  for (int lap = 0; lap < 10; ++lap)
-    for (const auto& v : views) repeated.add(v, options);
-  const auto state = repeated.estimate({}, boxy("suitcase"), options).state;
+  std::vector<double> moves;  // the largest of the seven coordinates' [sigma]
+  for (unsigned seed = 1; seed <= 20; ++seed)
+  {
+    SyntheticCamera camera(seed);
+    const auto views = viewsAround(camera, kCabinet, 30);
+    const auto once = estimatorOf(views, options).estimate({}, boxy("suitcase"), options);
+    ObjectEstimator repeated;
+    for (int lap = 0; lap < 10; ++lap)
+      for (const auto& v : views) repeated.add(v, options);
+    const auto state = repeated.estimate({}, boxy("suitcase"), options).state;
+    const Eigen::Array<double, 7, 1> sigma = once.covariance.diagonal().array().sqrt();
+    moves.push_back(((state - once.state).array().abs() / sigma).maxCoeff());
+  }
   // Ten of the thirty measurements are there twice: that moves the mean by a part of its own
   // standard deviation, and ten laps move it no further than one.
-  const Eigen::Array<double, 7, 1> sigma = once.covariance.diagonal().array().sqrt();
-  EXPECT_LT(((state - once.state).array().abs() / sigma).maxCoeff(), 1.0);
+  std::sort(moves.begin(), moves.end());
+  EXPECT_LT(moves[moves.size() / 2], 1.0);
+  EXPECT_LT(moves.back(), 2.0);
 }
 
 TEST(ObjectEstimator, SummaryContinuesWhereTheMeasurementsStopped)

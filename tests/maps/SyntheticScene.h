@@ -70,9 +70,10 @@ class SyntheticCamera
   /** The pose with the noise of a motion-capture system or an odometry. */
   mrpt::poses::CPose3D disturbed(const mrpt::poses::CPose3D& T_map_sensor)
   {
-    const double p = disturbances.poseSigma, a = disturbances.poseAngleSigma;
-    return mrpt::poses::CPose3D(gauss(p), gauss(p), gauss(p), 0, 0, 0) + T_map_sensor +
-           mrpt::poses::CPose3D(0, 0, 0, gauss(a), gauss(a), gauss(a));
+    const Eigen::Vector3d moved = gauss3(disturbances.poseSigma);
+    const Eigen::Vector3d turned = gauss3(disturbances.poseAngleSigma);
+    return mrpt::poses::CPose3D(moved.x(), moved.y(), moved.z(), 0, 0, 0) + T_map_sensor +
+           mrpt::poses::CPose3D(0, 0, 0, turned.x(), turned.y(), turned.z());
   }
 
   CObservationObjects observe(
@@ -94,6 +95,14 @@ class SyntheticCamera
 
   double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   double gauss(double sigma) { return std::normal_distribution<double>(0, sigma)(random_); }
+
+  /** Drawn one after the other: compilers evaluate arguments in orders of their own. */
+  Eigen::Vector3d gauss3(double sigma)
+  {
+    Eigen::Vector3d out;
+    for (double& value : out) value = gauss(sigma);
+    return out;
+  }
 
  private:
   std::mt19937 random_;
@@ -186,7 +195,8 @@ class SyntheticCamera
     Eigen::Vector3d center = 0.5 * (upper + lower), half = 0.5 * (upper - lower);
     if (uniform() < disturbances.wreckProbability)
     {
-      center += 0.6 * half.norm() * Eigen::Vector3d(gauss(1), gauss(1), 0.2).normalized();
+      const double x = gauss(1), y = gauss(1);
+      center += 0.6 * half.norm() * Eigen::Vector3d(x, y, 0.2).normalized();
       half *= 1.8;
     }
     // Perception numbers the axes as it likes.

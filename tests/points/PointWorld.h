@@ -143,7 +143,7 @@ class PointWorld
     if constexpr (D == 3)
     {
       pose.t.z() = 0.8 + gauss(0.03);
-      pose.R = pose.R * rotationBy<3>(Eigen::Vector3d(gauss(0.03), gauss(0.03), 0));
+      pose.R = pose.R * rotationBy<3>(Eigen::Vector3d{gauss(0.03), gauss(0.03), 0});
     }
     return pose;
   }
