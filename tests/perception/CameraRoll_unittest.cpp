@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "SyntheticFrame.h"
+#include "../surfaces/SyntheticFrame.h"
 #include "quadmap/perception/FramePerception.h"
 
 using namespace quadmap;

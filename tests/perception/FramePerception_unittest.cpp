@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "SyntheticFrame.h"
+#include "../surfaces/SyntheticFrame.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RotationDistance.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include "SyntheticFrame.h"
+#include "../surfaces/SyntheticFrame.h"
 #include "quadmap/perception/FramePerception.h"
 
 using namespace quadmap;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "SyntheticFrame.h"
+#include "../surfaces/SyntheticFrame.h"
 
 namespace quadmap
 {

@@ -14,31 +14,6 @@ constexpr std::pair<ObservationModels, const char*> kModels[] = {
     { ObservationModels::Partial,  "partial"},
 };
 
-void describeDepth(PerceptionOptions& o, OptionList& list)
-{
-  list.number("minRange", o.minRange, {1e-3, 100}, "m", "Nearer depth is not trusted.");
-  list.number("maxRange", o.maxRange, {1e-3, 1000}, "m", "Farther depth is too noisy for shapes.");
-  list.number(
-      "depthSigmaFloor", o.depthSigmaFloor, {1e-6, 1}, "m",
-      "Depth noise at 0.4 m: sigma(z) = depthSigmaFloor + depthSigmaGrowth (z - 0.4 m)^2.");
-  list.number(
-      "depthSigmaGrowth", o.depthSigmaGrowth, {0, 1}, "1/m",
-      "Growth of the depth noise in that equation.");
-}
-
-void describePlanes(PerceptionOptions& o, OptionList& list)
-{
-  list.number(
-      "planeMinArea", o.planeMinArea, {1e-5, 1}, "",
-      "Smallest plane that may be a support, as a share of the image.");
-  list.angle(
-      "planeMaxTilt_deg", o.planeMaxTilt, {0.1, 45},
-      "Largest angle between up and the normal of a horizontal plane.");
-  list.number(
-      "planeTolerance", o.planeTolerance, {1e-4, 1}, "m",
-      "A point this near to its support belongs to it.");
-}
-
 void describeCloud(PerceptionOptions& o, OptionList& list)
 {
   list.number(
@@ -105,12 +80,10 @@ void describeEdges(PerceptionOptions& o, OptionList& list)
 void PerceptionOptions::describe(OptionList& list)
 {
   list.about("How one frame and its boxes become measurements.");
-  describeDepth(*this, list);
-  describePlanes(*this, list);
+  SurfaceOptions::describe(list);
   describeCloud(*this, list);
   describeChoice(*this, list);
   describeEdges(*this, list);
-  list.requireLess("minRange", "maxRange");
 }
 
 }  // namespace quadmap

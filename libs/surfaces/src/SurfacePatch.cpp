@@ -1,4 +1,4 @@
-#include "quadmap/perception/SurfacePatch.h"
+#include "quadmap/surfaces/SurfacePatch.h"
 
 namespace quadmap
 {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "../SyntheticFrame.h"
+#include "../../surfaces/SyntheticFrame.h"
 #include "quadmap/perception/FramePerception.h"
 
 // Where an object without depth is taken to be.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "../SyntheticFrame.h"
+#include "../../surfaces/SyntheticFrame.h"
 #include "quadmap/perception/FramePerception.h"
 
 // What is cut out of a box as the object, seen from outside: by the cuboid that comes of it.

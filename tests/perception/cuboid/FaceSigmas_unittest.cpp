@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../SyntheticFrame.h"
+#include "../../surfaces/SyntheticFrame.h"
 #include "quadmap/geometry/Support.h"
 #include "quadmap/perception/FramePerception.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "../SyntheticFrame.h"
+#include "../../surfaces/SyntheticFrame.h"
 #include "quadmap/perception/FramePerception.h"
 
 namespace quadmap

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../SyntheticFrame.h"
+#include "../../surfaces/SyntheticFrame.h"
 
 namespace quadmap
 {

@@ -1,4 +1,4 @@
-#include "planes/HorizontalFit.h"
+#include "frame/HorizontalFit.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::vector<Eigen::Vector3d> patch(
   const Eigen::Vector3d ahead = Eigen::Vector3d::UnitX().cross(normal).normalized();
   const Eigen::Vector3d across = normal.cross(ahead);
   std::uniform_real_distribution<double> share(-0.5, 0.5);
-  const PerceptionOptions options;
+  const SurfaceOptions options;
   std::vector<Eigen::Vector3d> out;
   for (int i = 0; i < count; ++i)
   {
@@ -46,7 +46,7 @@ TEST(HorizontalFit, TellsATableFromWhatLiesOnIt)
       patch(table + 0.028 * kUp + Eigen::Vector3d(0.2, 0, 0), kUp, 0.4, 0.15, 150, random);
   points.insert(points.end(), keyboard.begin(), keyboard.end());
   const Eigen::Vector3d tilted = (kUp + Eigen::Vector3d(0.08, 0, 0)).normalized();
-  const auto fit = fitMainHeight(points, tilted, kUp, PerceptionOptions());
+  const auto fit = fitMainHeight(points, tilted, kUp, SurfaceOptions());
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->plane.signedDistance(table), 0.0, 0.001);
   EXPECT_NEAR(fit->plane.signedDistance(table + Eigen::Vector3d(0.4, 0, 0)), 0.0, 0.003);
@@ -60,7 +60,7 @@ TEST(HorizontalFit, FollowsALargeSurfaceThatSaysUpIsElsewhere)
   const Eigen::Vector3d truth = (kUp + Eigen::Vector3d(0.017, 0, 0)).normalized();
   const Eigen::Vector3d middle(0, 0.6, 1.6);
   const auto points = patch(middle, truth, 2.0, 1.5, 600, random);
-  const auto fit = fitMainHeight(points, truth, kUp, PerceptionOptions());
+  const auto fit = fitMainHeight(points, truth, kUp, SurfaceOptions());
   ASSERT_TRUE(fit);
   EXPECT_LT(std::acos(fit->plane.n.dot(truth)), 0.003);
   EXPECT_GT(fit->samples.size(), 560U);
@@ -74,7 +74,7 @@ TEST(HorizontalFit, DoesNotBelieveTheSlopeOfASmallPatch)
   {
     const Eigen::Vector3d middle(0.5, 0.8, 3.5);
     const auto fit =
-        fitMainHeight(patch(middle, kUp, 0.2, 0.2, 60, random), kUp, kUp, PerceptionOptions());
+        fitMainHeight(patch(middle, kUp, 0.2, 0.2, 60, random), kUp, kUp, SurfaceOptions());
     ASSERT_TRUE(fit);
     worst = std::max(worst, std::acos(std::min(1.0, fit->plane.n.dot(kUp))));
     EXPECT_NEAR(fit->plane.signedDistance(middle), 0.0, 0.008);
@@ -84,11 +84,11 @@ TEST(HorizontalFit, DoesNotBelieveTheSlopeOfASmallPatch)
 
 TEST(HorizontalFit, NeedsPoints)
 {
-  EXPECT_FALSE(fitMainHeight({}, kUp, kUp, PerceptionOptions()));
+  EXPECT_FALSE(fitMainHeight({}, kUp, kUp, SurfaceOptions()));
   EXPECT_FALSE(fitMainHeight(
       {
           {  0, 0, 1},
           {0.1, 0, 1}
   },
-      kUp, kUp, PerceptionOptions()));
+      kUp, kUp, SurfaceOptions()));
 }

@@ -1,4 +1,4 @@
-#include "planes/PlaneExtent.h"
+#include "quadmap/surfaces/PlaneExtent.h"
 
 #include <gtest/gtest.h>
 

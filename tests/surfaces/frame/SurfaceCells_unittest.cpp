@@ -1,11 +1,11 @@
-#include "planes/SurfaceCells.h"
+#include "frame/SurfaceCells.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../SyntheticFrame.h"
-#include "planes/SurfaceRegions.h"
+#include "frame/SurfaceRegions.h"
 
 using namespace quadmap;
 
@@ -22,7 +22,7 @@ SyntheticFrame cabinetOnFloor(double noise)
   return frame;
 }
 
-DepthCloud cloudOf(const SyntheticFrame& frame) { return {frame.scan(), PerceptionOptions()}; }
+DepthCloud cloudOf(const SyntheticFrame& frame) { return {frame.scan(), SurfaceOptions()}; }
 
 struct Surroundings
 {

@@ -1,4 +1,4 @@
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/surfaces/RoomPlanes.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "cloud/HorizontalTop.h"
 #include "cloud/WallsBehind.h"
-#include "planes/SurfaceTolerance.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cloud/ObjectCloud.h"
+#include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {

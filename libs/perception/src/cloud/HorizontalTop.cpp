@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planes/SurfaceTolerance.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {

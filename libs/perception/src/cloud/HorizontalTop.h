@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "depth/DepthCloud.h"
-#include "planes/PlaneExtent.h"
 #include "quadmap/geometry/Plane.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/DepthCloud.h"
+#include "quadmap/surfaces/PlaneExtent.h"
 
 namespace quadmap
 {

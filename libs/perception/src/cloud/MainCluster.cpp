@@ -7,8 +7,8 @@
 #include "cloud/Cluster.h"
 #include "cloud/HorizontalTop.h"
 #include "cloud/PointClusters.h"
-#include "planes/SurfaceTolerance.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportRing.h"
 
 namespace quadmap

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloud/BoxCandidates.h"
+#include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {

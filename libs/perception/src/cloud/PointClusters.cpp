@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planes/DisjointSets.h"
+#include "quadmap/surfaces/DisjointSets.h"
 
 namespace quadmap
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cloud/BoxCandidates.h"
+#include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {

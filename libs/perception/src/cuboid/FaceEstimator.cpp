@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "cuboid/FaceSigmas.h"
-#include "planes/SurfaceTolerance.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {

@@ -7,6 +7,7 @@
 #include "cloud/ObjectCloud.h"
 #include "cuboid/UprightCloud.h"
 #include "quadmap/obs/ObjectMeasurement.h"
+#include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {

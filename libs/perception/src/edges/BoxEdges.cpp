@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "quadmap/perception/PerceptionOptions.h"
+
 namespace quadmap
 {
 double distanceToBorder(const PinholeCamera& camera, const ImageBox& box, BoxEdge edge)

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "cloud/ObjectCloud.h"
-#include "depth/DepthCloud.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectMeasurement.h"
+#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/DepthCloud.h"
 
 namespace quadmap
 {

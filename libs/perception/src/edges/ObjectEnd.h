@@ -4,6 +4,7 @@
 
 #include "edges/Occluders.h"
 #include "quadmap/geometry/Projection.h"
+#include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "edges/EdgeMeasurements.h"
-#include "planes/SurfaceTolerance.h"
+#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {

@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "planes/SurfaceTolerance.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {

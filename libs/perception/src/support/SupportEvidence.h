@@ -4,10 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "depth/DepthCloud.h"
-#include "planes/ScenePlanes.h"
 #include "quadmap/obs/DetectedObject.h"
 #include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/DepthCloud.h"
+#include "quadmap/surfaces/ScenePlanes.h"
 
 namespace quadmap
 {

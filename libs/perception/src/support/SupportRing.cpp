@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planes/SurfaceTolerance.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {

@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "depth/DepthCloud.h"
-#include "planes/ScenePlanes.h"
 #include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/DepthCloud.h"
+#include "quadmap/surfaces/ScenePlanes.h"
 #include "support/SupportEvidence.h"
 
 namespace quadmap

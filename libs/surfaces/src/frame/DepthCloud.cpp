@@ -1,4 +1,4 @@
-#include "depth/DepthCloud.h"
+#include "quadmap/surfaces/DepthCloud.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ void requireDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 }  // namespace
 
 DepthCloud::DepthCloud(
-    const mrpt::obs::CObservation3DRangeScan& scan, const PerceptionOptions& options) :
+    const mrpt::obs::CObservation3DRangeScan& scan, const SurfaceOptions& options) :
     options_(options)
 {
   requireDepth(scan);

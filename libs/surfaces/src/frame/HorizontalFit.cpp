@@ -1,4 +1,4 @@
-#include "planes/HorizontalFit.h"
+#include "frame/HorizontalFit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ struct Heights
 Heights heightsAlong(
     const std::vector<Eigen::Vector3d>& points,
     const Eigen::Vector3d& direction,
-    const PerceptionOptions& options)
+    const SurfaceOptions& options)
 {
   constexpr double kFlatness = 0.001;  // of real surfaces [m]
   Heights out;
@@ -107,7 +107,7 @@ std::optional<HorizontalFit> fitMainHeight(
     const std::vector<Eigen::Vector3d>& points,
     const Eigen::Vector3d& normal,
     const Eigen::Vector3d& up,
-    const PerceptionOptions& options)
+    const SurfaceOptions& options)
 {
   constexpr int kRefinements = 2;
   const Heights heights = heightsAlong(points, up, options);

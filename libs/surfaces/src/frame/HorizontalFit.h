@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "quadmap/geometry/Plane.h"
-#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/SurfaceOptions.h"
 
 namespace quadmap
 {
@@ -25,6 +25,6 @@ std::optional<HorizontalFit> fitMainHeight(
     const std::vector<Eigen::Vector3d>& points,
     const Eigen::Vector3d& normal,
     const Eigen::Vector3d& up,
-    const PerceptionOptions& options);
+    const SurfaceOptions& options);
 
 }  // namespace quadmap

@@ -1,9 +1,9 @@
-#include "planes/PlaneSegmentation.h"
+#include "quadmap/surfaces/PlaneSegmentation.h"
 
 #include <algorithm>
 #include <cstdint>
 
-#include "planes/SurfaceRegions.h"
+#include "frame/SurfaceRegions.h"
 
 namespace quadmap
 {
@@ -74,7 +74,7 @@ std::vector<double> PlaneSegmentation::sharesWithin(const DepthCloud::CellRange&
   return inside;
 }
 
-PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options)
+PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const SurfaceOptions& options)
 {
   constexpr double kMinCells = 30;
   const SurfaceCells cells(cloud);
@@ -122,7 +122,7 @@ void PlaneSegmentation::findLabelsAround()
     around_[i] = high[i] < 0 ? kNone : high[i] == low[i] ? high[i] : kSeveral;
 }
 
-void PlaneSegmentation::findRims(const DepthCloud& cloud, const PerceptionOptions& options)
+void PlaneSegmentation::findRims(const DepthCloud& cloud, const SurfaceOptions& options)
 {
   // The ends of every row and column; the hull's corners are among them.
   struct Span

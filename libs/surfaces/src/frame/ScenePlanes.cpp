@@ -1,10 +1,10 @@
-#include "planes/ScenePlanes.h"
+#include "quadmap/surfaces/ScenePlanes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "planes/HorizontalFit.h"
-#include "planes/SurfaceTolerance.h"
+#include "frame/HorizontalFit.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {
@@ -21,7 +21,7 @@ double shareBelow(const DepthCloud& cloud, const Plane& plane, double margin)
   return points.empty() ? 0.0 : static_cast<double>(below) / static_cast<double>(points.size());
 }
 
-void setMainHeight(ScenePlane& plane, const HorizontalFit& fit, const PerceptionOptions& options)
+void setMainHeight(ScenePlane& plane, const HorizontalFit& fit, const SurfaceOptions& options)
 {
   plane.plane = fit.plane;
   plane.samples = fit.samples;
@@ -38,7 +38,7 @@ void setMainHeight(ScenePlane& plane, const HorizontalFit& fit, const Perception
 
 /** Gives all pieces of the floor one common plane. The floor shows in pieces between the furniture,
  * and each piece alone is too small to tell the slope that they all have. */
-void alignFloorPieces(ScenePlanes& planes, const PerceptionOptions& options)
+void alignFloorPieces(ScenePlanes& planes, const SurfaceOptions& options)
 {
   constexpr double kSameHeight = 0.02, kMaxSlope = 0.015;  // [m], [rad]
   const ScenePlane& floor = planes.plane(*planes.floor);
@@ -104,7 +104,7 @@ KnownSurface knownSurfaceIn(
     const Plane& known,
     std::vector<Eigen::Vector3d> samples,
     const Eigen::Vector3d& up,
-    const PerceptionOptions& options)
+    const SurfaceOptions& options)
 {
   constexpr double kPoseError = 0.05;   // of its height [m]
   constexpr double kSameHeight = 0.02;  // of two planes of one frame [m]; a keyboard is thicker
@@ -213,7 +213,7 @@ ScenePlanes classifyPlanes(
     PlaneSegmentation segmentation,
     const Eigen::Vector3d& up,
     const std::vector<SurfacePatch>& known,
-    const PerceptionOptions& options)
+    const SurfaceOptions& options)
 {
   constexpr double kFloorMargin = 0.06;  // [m]
   constexpr double kMaxBelowFloor = 0.03;

@@ -1,4 +1,4 @@
-#include "planes/SurfaceCells.h"
+#include "frame/SurfaceCells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "depth/DepthCloud.h"
+#include "quadmap/surfaces/DepthCloud.h"
 
 namespace quadmap
 {

@@ -1,10 +1,10 @@
-#include "planes/SurfaceRegions.h"
+#include "frame/SurfaceRegions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "planes/DisjointSets.h"
+#include "quadmap/surfaces/DisjointSets.h"
 
 namespace quadmap
 {

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "planes/SurfaceCells.h"
+#include "frame/SurfaceCells.h"
 #include "quadmap/geometry/Plane.h"
 
 namespace quadmap

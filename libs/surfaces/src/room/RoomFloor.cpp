@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planes/RoomGeometry.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/surfaces/RoomPlanes.h"
+#include "room/RoomGeometry.h"
 
 // The floor of the room: frames vote for its height (doc/mathematics.md, 5, "Surfaces of the
 // room").

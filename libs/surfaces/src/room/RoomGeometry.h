@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "quadmap/perception/SurfacePatch.h"
+#include "quadmap/surfaces/SurfacePatch.h"
 
 namespace quadmap
 {

@@ -1,9 +1,9 @@
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/surfaces/RoomPlanes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "planes/RoomGeometry.h"
+#include "room/RoomGeometry.h"
 
 namespace quadmap
 {

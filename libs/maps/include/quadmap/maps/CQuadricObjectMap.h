@@ -25,7 +25,7 @@
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/perception/PerceptionOptions.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/surfaces/RoomPlanes.h"
 
 namespace quadmap
 {

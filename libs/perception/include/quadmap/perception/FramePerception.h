@@ -9,7 +9,7 @@
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
-#include "quadmap/perception/SurfacePatch.h"
+#include "quadmap/surfaces/SurfacePatch.h"
 
 namespace quadmap
 {

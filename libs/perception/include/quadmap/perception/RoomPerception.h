@@ -4,7 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include "quadmap/perception/FramePerception.h"
-#include "quadmap/perception/RoomPlanes.h"
+#include "quadmap/surfaces/RoomPlanes.h"
 
 namespace quadmap
 {

@@ -11,7 +11,7 @@
 #include "quadmap/geometry/ImageBox.h"
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/obs/CObservationObjects.h"
-#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/SurfaceOptions.h"
 
 namespace quadmap
 {
@@ -21,7 +21,7 @@ class DepthCloud
 {
  public:
   /** \exception std::runtime_error If the scan has no depth image or no usable calibration. */
-  DepthCloud(const mrpt::obs::CObservation3DRangeScan& scan, const PerceptionOptions& options);
+  DepthCloud(const mrpt::obs::CObservation3DRangeScan& scan, const SurfaceOptions& options);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -85,7 +85,7 @@ class DepthCloud
   std::size_t index(int c, int r) const { return static_cast<std::size_t>(r * columns_ + c); }
 
   PinholeCamera camera_;
-  PerceptionOptions options_;
+  SurfaceOptions options_;
   int stride_ = 1, columns_ = 0, rows_ = 0;
   std::vector<float> depth_, rayX_, rayY_;
   std::vector<Eigen::Vector3d> sparsePoints_;

@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "depth/DepthCloud.h"
-#include "planes/PlaneExtent.h"
 #include "quadmap/geometry/Plane.h"
+#include "quadmap/surfaces/DepthCloud.h"
+#include "quadmap/surfaces/PlaneExtent.h"
 
 namespace quadmap
 {
@@ -34,8 +34,8 @@ class PlaneSegmentation
   std::vector<double> sharesWithin(const DepthCloud::CellRange& range) const;
 
  private:
-  friend PlaneSegmentation segmentPlanes(const DepthCloud&, const PerceptionOptions&);
-  void findRims(const DepthCloud& cloud, const PerceptionOptions& options);
+  friend PlaneSegmentation segmentPlanes(const DepthCloud&, const SurfaceOptions&);
+  void findRims(const DepthCloud& cloud, const SurfaceOptions& options);
   void findLabelsAround();
 
   int columns_ = 0, rows_ = 0;
@@ -44,6 +44,6 @@ class PlaneSegmentation
 };
 
 /** All planes of the frame, at a quarter of the cloud's resolution. */
-PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const PerceptionOptions& options);
+PlaneSegmentation segmentPlanes(const DepthCloud& cloud, const SurfaceOptions& options);
 
 }  // namespace quadmap

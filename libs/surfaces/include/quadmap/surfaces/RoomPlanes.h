@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "quadmap/perception/SurfacePatch.h"
+#include "quadmap/surfaces/SurfacePatch.h"
 
 namespace quadmap
 {

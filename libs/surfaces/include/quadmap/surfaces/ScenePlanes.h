@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "planes/PlaneSegmentation.h"
-#include "quadmap/perception/SurfacePatch.h"
+#include "quadmap/surfaces/PlaneSegmentation.h"
+#include "quadmap/surfaces/SurfacePatch.h"
 
 namespace quadmap
 {
@@ -36,7 +36,7 @@ ScenePlanes classifyPlanes(
     PlaneSegmentation segmentation,
     const Eigen::Vector3d& up,
     const std::vector<SurfacePatch>& known,
-    const PerceptionOptions& options);
+    const SurfaceOptions& options);
 
 /** What the frame says about the surfaces of the room, optical frame. */
 FrameSurfaces surfacesOf(const DepthCloud& cloud, const ScenePlanes& planes);

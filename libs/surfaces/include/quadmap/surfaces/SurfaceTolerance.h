@@ -5,7 +5,7 @@
 
 #include "quadmap/geometry/Plane.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/SurfaceOptions.h"
 
 namespace quadmap
 {
@@ -14,15 +14,14 @@ namespace quadmap
 // deviation, equation (4.1).
 
 /** Does a point lie on a plane of the frame? Equation (4.2). */
-inline bool isOnPlane(
-    const Eigen::Vector3d& p, const Plane& plane, const PerceptionOptions& options)
+inline bool isOnPlane(const Eigen::Vector3d& p, const Plane& plane, const SurfaceOptions& options)
 {
   return std::abs(plane.signedDistance(p)) <= options.onPlane(p.z());
 }
 
 /** The bound for a surface that an object may stand on. It is wider than (4.2), because the point
  * may be where the object and the surface meet. */
-inline double contactTolerance(double z, const PerceptionOptions& options)
+inline double contactTolerance(double z, const SurfaceOptions& options)
 {
   return options.planeTolerance + 2.5 * options.depthSigma(z);
 }
@@ -30,7 +29,7 @@ inline double contactTolerance(double z, const PerceptionOptions& options)
 /** The height above its support below which a point is not taken for the object's. A thin object (a
  * book) allows less than a tall one. */
 inline double supportTolerance(
-    double z, const LabelProperties& label, const PerceptionOptions& options)
+    double z, const LabelProperties& label, const SurfaceOptions& options)
 {
   const double allowed = std::min(options.planeTolerance, 0.25 * label.typicalSize.z());
   return std::max(allowed, 2.5 * options.depthSigma(z));
@@ -46,14 +45,14 @@ inline double unevenSupportTolerance(double noise)
 
 /** The height up to which a point counts as one of a horizontal top, and not of what stands on it.
  * \param perDepth By how much the height changes with the depth [-]. */
-inline double topTolerance(double z, double perDepth, const PerceptionOptions& options)
+inline double topTolerance(double z, double perDepth, const SurfaceOptions& options)
 {
   constexpr double kUneven = 0.01;  // [m]
   return kUneven + 2.5 * perDepth * options.depthSigma(z);
 }
 
 /** How much nearer than an object something must be to stand in front of it, equation (9.3). */
-inline double depthTolerance(double z, const PerceptionOptions& options)
+inline double depthTolerance(double z, const SurfaceOptions& options)
 {
   return 0.05 + 3.0 * options.depthSigma(z);
 }
