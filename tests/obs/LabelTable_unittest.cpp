@@ -309,6 +309,21 @@ TEST(LabelTable, RoundTripsThroughAnArchive)
   EXPECT_ANY_THROW(LabelTable::readFrom(half));
 }
 
+TEST(LabelTable, IsCompletedByClassesItDoesNotHave)
+{
+  const TemporaryFolder folder;
+  const auto table = [&](const char* ini)
+  { return LabelTable::fromFile(folder.write("t.ini", ini)); };
+  const auto mine = table("[cup]\naliases = mug\ntypicalSize = 0.1 0.1 0.1\n");
+  const auto other = table(
+      "[cup]\ntypicalSize = 0.3 0.3 0.3\n[crane]\naliases = mug, lift\ntypicalSize = 2 2 5\n");
+  const auto both = mine.completedBy(other);
+  EXPECT_EQ(both.all().size(), 2u);
+  EXPECT_EQ(both.properties("cup").typicalSize.x(), 0.1) << "its own class stays";
+  EXPECT_EQ(both.canonical("lift"), "crane");
+  EXPECT_EQ(both.canonical("mug"), "cup") << "its own spelling stays";
+}
+
 TEST(FindShareFile, TheUsersFolderComesFirstAndErrorsNameThePlaces)
 {
   const TemporaryFolder folder;

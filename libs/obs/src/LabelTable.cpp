@@ -161,6 +161,14 @@ LabelProperties LabelTable::properties(const std::string& label) const
   return neutral;
 }
 
+LabelTable LabelTable::completedBy(const LabelTable& other) const
+{
+  LabelTable both = *this;
+  both.byName_.insert(other.byName_.begin(), other.byName_.end());
+  both.canonicalByKey_.insert(other.canonicalByKey_.begin(), other.canonicalByKey_.end());
+  return both;
+}
+
 bool LabelTable::compatible(const std::string& a, const std::string& b) const
 {
   const auto nameA = canonical(a), nameB = canonical(b);

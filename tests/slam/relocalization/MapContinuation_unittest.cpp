@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../../maps/ObjectMapFixture.h"
+#include "../../obs/TemporaryFolder.h"
 #include "backend/GivenPoses.h"
 #include "quadmap/slam/SlamResult.h"
 #include "relocalization/ContinueMap.h"
@@ -201,6 +202,23 @@ TEST(MapContinuation, NoticesAMoveByLessThanItsOwnSize)
   expectMapOf(run.result.map, now, 0.08);
   ASSERT_EQ(run.result.continuation->moved.size(), 1u);
   EXPECT_NEAR(run.result.continuation->moved[0].distance, 0.25 * std::sqrt(2.0), 0.08);
+}
+
+TEST(MapContinuation, LabelsThatOnlyTheMapKnowsStayKnown)
+{
+  const World world = furniture();
+  CQuadricObjectMap given = Session(world, {}, 15).result.map;
+  const TemporaryFolder folder;
+  given.setLabels(LabelTable::fromFile(
+      folder.write("labels.ini", "[crane]\ntypicalSize = 2 2 5\n[chair]\ntypicalSize = 9 9 9\n")));
+  Session run(world, kElsewhere, 16);
+  const LabelTable installed = run.result.map.labels();
+  run.continueIn(given);
+  EXPECT_TRUE(run.result.map.labels().properties("crane").known);
+  EXPECT_EQ(
+      run.result.map.labels().properties("chair").typicalSize,
+      installed.properties("chair").typicalSize)
+      << "what the run was told of a label counts";
 }
 
 TEST(MapContinuation, WhatWasNotLookedAtStays)

@@ -18,11 +18,12 @@ namespace quadmap
 {
 namespace
 {
-/** The given map with the options of the run, which carries it on. */
+/** The given map with the options and labels of the run, which carries it on. Labels that only the
+ * map knows stay known. */
 CQuadricObjectMap preparedMap(const CQuadricObjectMap& given, const CQuadricObjectMap& run)
 {
   CQuadricObjectMap map = given;
-  map.setLabels(run.labels());
+  map.setLabels(run.labels().completedBy(given.labels()));
   map.insertionOptions = run.insertionOptions;
   map.likelihoodOptions = run.likelihoodOptions;
   map.renderOptions = run.renderOptions;

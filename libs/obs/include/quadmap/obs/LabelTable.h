@@ -65,6 +65,10 @@ class LabelTable
    * pairs of which one lists the other in `confusedWith`. */
   bool compatible(const std::string& a, const std::string& b) const;
 
+  /** This table with the classes of another one that it does not have. Where both give a spelling
+   * a meaning, this one's counts. */
+  LabelTable completedBy(const LabelTable& other) const;
+
   const std::map<std::string, LabelProperties>& all() const { return byName_; }
 
   /** Writes all classes and spellings to a stream, for readFrom(). */
