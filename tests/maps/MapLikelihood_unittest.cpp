@@ -162,6 +162,11 @@ TEST(MapLikelihood, UnmeasuredBoxesAreMeasuredWithTheScanThatWaitsForThem)
   ASSERT_EQ(measured.objects.at(0).measurement.kind, MeasurementKind::Complete);
   EXPECT_EQ(byDepth, map.computeObservationLikelihood(measured, T));
   EXPECT_NE(byDepth, byEdges);
+  CObservationObjects cut = boxes;
+  cut.objects.at(0).box = {
+      0, 0, static_cast<double>(room.camera.width - 1),
+      static_cast<double>(room.camera.height - 1)};
+  EXPECT_TRUE(map.canComputeObservationLikelihood(cut)) << "the scan knows more than the edges";
   EXPECT_TRUE(map.insertObservation(boxes, T)) << "the scan still waits";
 }
 

@@ -112,6 +112,10 @@ try
   const auto* boxes = dynamic_cast<const CObservationObjects*>(&obs);
   if (!boxes) return false;
   if (std::any_of(boxes->objects.begin(), boxes->objects.end(), saysSomething)) return true;
+  // Depth can say something of a box of which every edge is cut.
+  if (std::any_of(boxes->objects.begin(), boxes->objects.end(), isUnmeasured) &&
+      pairing_.scanOf(*boxes))
+    return true;
   CObservationObjects filled = *boxes, byEdges = *boxes;
   measureWithoutDepth(byEdges, perceptionOptions);
   fillIn(byEdges, filled);
