@@ -93,7 +93,7 @@ TEST_F(EvaluatedRun, WritesTheJsonOfTheDesign)
   EXPECT_NEAR(j["trajectory"]["ate_rmse_odometry_m"].get<double>(), 0.2, 1e-6);
   EXPECT_EQ(j["trajectory"]["keyframes"], 8);
   const json& o = j["objects"];
-  EXPECT_EQ(o.size(), 10u);
+  EXPECT_EQ(o.size(), 13u);
   EXPECT_EQ(o["truth"], 2);
   EXPECT_EQ(o["estimated"], 2);
   EXPECT_EQ(o["matched"], 1);
@@ -107,7 +107,7 @@ TEST_F(EvaluatedRun, WritesTheJsonOfTheDesign)
   EXPECT_NEAR(o["iou_3d"].get<double>(), 0.17 * 0.36 / (2 * 0.08 - 0.17 * 0.36), 1e-5);
   ASSERT_EQ(j["matches"].size(), 1u);
   const json& m = j["matches"][0];
-  EXPECT_EQ(m.size(), 7u);
+  EXPECT_EQ(m.size(), 10u);
   EXPECT_EQ(m["truth_id"], "cup-a");
   EXPECT_EQ(m["id"], 7);
   EXPECT_EQ(m["label"], "cup");
@@ -122,7 +122,7 @@ TEST_F(EvaluatedRun, WritesNullForWhatDoesNotExist)
   EXPECT_TRUE(withoutObjects["trajectory"]["ate_rmse_odometry_m"].is_null());
   for (const auto& [key, value] : withoutObjects["objects"].items())
     EXPECT_TRUE(value.is_null()) << key;
-  EXPECT_EQ(withoutObjects["objects"].size(), 10u);
+  EXPECT_EQ(withoutObjects["objects"].size(), 13u);
   EXPECT_EQ(withoutObjects["matches"], json::array());
 
   input_.trueObjectsPath = folder_.path("gt.json");

@@ -183,10 +183,11 @@ std::string mappingTable(const BenchmarkResults& results)
 {
   return figuresTable(
       mappingGroups(results), {
-                                  {"Trans [m]",   "objects.trans_m", 3},
-                                  {"Rot [deg]",   "objects.rot_deg", 2},
-                                  {"Shape IoU", "objects.shape_iou", 3},
-                                  {  "3-D IoU",    "objects.iou_3d", 3}
+                                  {"Trans [m]",     "objects.trans_m", 3},
+                                  {"Rot [deg]",     "objects.rot_deg", 2},
+                                  {"Shape IoU",   "objects.shape_iou", 3},
+                                  {  "3-D IoU",      "objects.iou_3d", 3},
+                                  {     "NEES", "objects.nees_center", 1}
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -67,6 +68,42 @@ std::vector<std::size_t> assign(
   return columnOfRow;
 }
 
+/** (20.8) of the errors of an estimate, in the world of the truth. */
+void compareWithCovariance(
+    const Ellipsoid& truth, const ObjectRecord& estimated, ObjectComparison& result)
+{
+  if (!estimated.covariance) return;
+  const Eigen::Matrix3d S = estimated.covariance->topLeftCorner<3, 3>();
+  const Eigen::Vector3d error = estimated.object.center() - truth.center();
+  const Eigen::LLT<Eigen::Matrix3d> llt(S);
+  if (llt.info() != Eigen::Success) return;
+  result.centerNees = error.dot(llt.solve(error));
+  result.heightNees = error.z() * error.z() / S(2, 2);
+  const double yawVariance = (*estimated.covariance)(3, 3);
+  if (result.angle && yawVariance > 0)
+  {
+    // Objects of the map stand upright: what a relabeling leaves between them is a turn of the yaw.
+    const double yaw =
+        std::atan2(estimated.object.rotation()(1, 0), estimated.object.rotation()(0, 0));
+    const double trueYaw = std::atan2(truth.rotation()(1, 0), truth.rotation()(0, 0));
+    const double turn = std::remainder(yaw - trueYaw, M_PI / 2);
+    result.yawNees = turn * turn / yawVariance;
+  }
+}
+
+/** The object in another world, with its covariance. */
+ObjectRecord carried(ObjectRecord record, const mrpt::poses::CPose3D& T_to_from)
+{
+  record.object = record.object.transformed(T_to_from);
+  if (record.covariance)
+  {
+    Eigen::Matrix<double, 7, 7> turn = Eigen::Matrix<double, 7, 7>::Identity();
+    turn.topLeftCorner<3, 3>() = T_to_from.getRotationMatrix().asEigen();
+    record.covariance = turn * *record.covariance * turn.transpose();
+  }
+  return record;
+}
+
 /** Mean of a figure over the matches that have it. */
 template <typename Figure>
 std::optional<double> meanOf(const std::vector<ObjectMatch>& matches, const Figure& figure)
@@ -119,6 +156,7 @@ ObjectComparison compareObjects(const ObjectRecord& truth, const ObjectRecord& e
   }
   else
     result.shapeIoU = shapeIoUKeepingVertical(t, e);
+  compareWithCovariance(t, estimated, result);
   return result;
 }
 
@@ -151,33 +189,46 @@ std::optional<double> ObjectEvaluation::meanIoU3d() const
   return meanOf(matches, [](const ObjectComparison& c) { return std::optional(c.iou3d); });
 }
 
+std::optional<double> ObjectEvaluation::meanCenterNees() const
+{
+  return meanOf(matches, [](const ObjectComparison& c) { return c.centerNees; });
+}
+std::optional<double> ObjectEvaluation::meanHeightNees() const
+{
+  return meanOf(matches, [](const ObjectComparison& c) { return c.heightNees; });
+}
+std::optional<double> ObjectEvaluation::meanYawNees() const
+{
+  return meanOf(matches, [](const ObjectComparison& c) { return c.yawNees; });
+}
+
 ObjectEvaluation evaluateObjects(
     const std::vector<ObjectRecord>& truth,
     const std::vector<ObjectRecord>& estimated,
     const mrpt::poses::CPose3D& T_truth_estimated,
     const ObjectEvaluationOptions& options)
 {
-  std::vector<ObjectRecord> carried = estimated;
-  for (auto& record : carried) record.object = record.object.transformed(T_truth_estimated);
+  std::vector<ObjectRecord> inTruth;
+  for (const auto& record : estimated) inTruth.push_back(carried(record, T_truth_estimated));
 
-  const auto estimatedOfTruth = assign(truth, carried, options);
+  const auto estimatedOfTruth = assign(truth, inTruth, options);
   ObjectEvaluation result;
-  std::vector<bool> taken(carried.size(), false);
+  std::vector<bool> taken(inTruth.size(), false);
   for (std::size_t i = 0; i < truth.size(); ++i)
   {
     const std::size_t j = estimatedOfTruth[i];
-    if (j < carried.size())
+    if (j < inTruth.size())
     {
       taken[j] = true;
-      result.matches.push_back({truth[i], carried[j], compareObjects(truth[i], carried[j])});
+      result.matches.push_back({truth[i], inTruth[j], compareObjects(truth[i], inTruth[j])});
     }
     else if (truth[i].framesVisible && *truth[i].framesVisible < options.minFramesVisible)
       result.uncounted.push_back(truth[i]);
     else
       result.missed.push_back(truth[i]);
   }
-  for (std::size_t j = 0; j < carried.size(); ++j)
-    if (!taken[j]) result.spurious.push_back(carried[j]);
+  for (std::size_t j = 0; j < inTruth.size(); ++j)
+    if (!taken[j]) result.spurious.push_back(inTruth[j]);
   return result;
 }
 

@@ -42,16 +42,19 @@ Json objectsJson(const EvaluationReport& report)
   const ObjectEvaluation o = report.objects.value_or(ObjectEvaluation());
   const auto count = [&](std::size_t n) { return report.objects ? Json(n) : Json(); };
   return {
-      {    "truth",          count(o.truthCount())},
-      {"estimated",      count(o.estimatedCount())},
-      {  "matched",        count(o.matches.size())},
-      {"precision",          orNull(o.precision())},
-      {   "recall",             orNull(o.recall())},
-      {       "f1",                 orNull(o.f1())},
-      {  "trans_m", orNull(o.meanCenterDistance())},
-      {  "rot_deg", orNull(degrees(o.meanAngle()))},
-      {"shape_iou",       orNull(o.meanShapeIoU())},
-      {   "iou_3d",          orNull(o.meanIoU3d())}
+      {      "truth",          count(o.truthCount())},
+      {  "estimated",      count(o.estimatedCount())},
+      {    "matched",        count(o.matches.size())},
+      {  "precision",          orNull(o.precision())},
+      {     "recall",             orNull(o.recall())},
+      {         "f1",                 orNull(o.f1())},
+      {    "trans_m", orNull(o.meanCenterDistance())},
+      {    "rot_deg", orNull(degrees(o.meanAngle()))},
+      {  "shape_iou",       orNull(o.meanShapeIoU())},
+      {     "iou_3d",          orNull(o.meanIoU3d())},
+      {"nees_center",     orNull(o.meanCenterNees())},
+      {"nees_height",     orNull(o.meanHeightNees())},
+      {   "nees_yaw",        orNull(o.meanYawNees())}
   };
 }
 
@@ -61,13 +64,16 @@ Json matchesJson(const EvaluationReport& report)
   if (!report.objects) return list;
   for (const auto& [truth, estimated, c] : report.objects->matches)
     list.push_back({
-        { "truth_id",              idOf(truth)},
-        {       "id",          idOf(estimated)},
-        {    "label",              truth.label},
-        {  "trans_m",         c.centerDistance},
-        {  "rot_deg", orNull(degrees(c.angle))},
-        {"shape_iou",               c.shapeIoU},
-        {   "iou_3d",                  c.iou3d}
+        {   "truth_id",              idOf(truth)},
+        {         "id",          idOf(estimated)},
+        {      "label",              truth.label},
+        {    "trans_m",         c.centerDistance},
+        {    "rot_deg", orNull(degrees(c.angle))},
+        {  "shape_iou",               c.shapeIoU},
+        {     "iou_3d",                  c.iou3d},
+        {"nees_center",     orNull(c.centerNees)},
+        {"nees_height",     orNull(c.heightNees)},
+        {   "nees_yaw",        orNull(c.yawNees)}
     });
   return list;
 }
@@ -129,6 +135,12 @@ std::string objectsTable(const ObjectEvaluation& o)
         row("mean", "",
             {orDash(o.meanCenterDistance(), "%.3f"), orDash(degrees(o.meanAngle()), "%.2f"),
              orDash(o.meanShapeIoU(), "%.3f"), orDash(o.meanIoU3d(), "%.3f")});
+    if (o.meanCenterNees())
+      text += mrpt::format(
+          "Squared errors over the claimed variances: centre %.2f (3 expected), height %.2f (1), "
+          "yaw "
+          "%s (1)\n",
+          *o.meanCenterNees(), *o.meanHeightNees(), orDash(o.meanYawNees(), "%.2f").c_str());
   }
   text += objectList("Missed", o.missed);
   text += objectList("False", o.spurious);

@@ -34,6 +34,9 @@ struct ObjectComparison
   std::optional<double> angle;  //!< Rot [rad]; empty when an orientation is not defined
   double shapeIoU = 0;          //!< Shape, in [0, 1]
   double iou3d = 0;             //!< 3-D IoU, in [0, 1]
+  /** Squared errors over what the covariance claims, (20.8); 3, 1 and 1 are expected. They are
+   * empty without a covariance, that of the yaw also where an orientation is not defined. */
+  std::optional<double> centerNees, heightNees, yawNees;
 };
 
 /** Compares a true and an estimated object. Shape takes the relabeling of the axes that has the
@@ -64,6 +67,7 @@ struct ObjectEvaluation
   std::optional<double> meanCenterDistance() const;  //!< [m]
   std::optional<double> meanAngle() const;           //!< [rad]
   std::optional<double> meanShapeIoU() const, meanIoU3d() const;
+  std::optional<double> meanCenterNees() const, meanHeightNees() const, meanYawNees() const;
 };
 
 /** Assigns true and estimated objects of equal labels one to one. The assignment has as many pairs
