@@ -99,6 +99,47 @@ TEST(FactorGraph, MarginalsAreHonest)
   EXPECT_LT(objectSum / objects, 4.0);
 }
 
+TEST(FactorGraph, AlignedMarginalsAreHonestWhereTheWorldIsMovedToFit)
+{
+  GraphWorld::Size size;
+  size.poses = 25;
+  size.circles = 0.4;
+  double sum = 0, fixed = 0, objects = 0;
+  for (unsigned seed = 0; seed < 120; ++seed)
+  {
+    GraphWorld world(100 + seed, size);
+    FactorGraphOptions options = plain();
+    options.estimator.huber = 1e6;  // the noise is Gaussian
+    FactorGraph graph = world.graph(options);
+    graph.optimise();
+    const auto count = static_cast<Eigen::Index>(world.truth.size());
+    Eigen::Matrix3Xd estimated(3, count), truth(3, count);
+    for (Eigen::Index k = 0; k < count; ++k)
+    {
+      const auto e = graph.pose(static_cast<std::size_t>(k));
+      const auto& t = world.truth[static_cast<std::size_t>(k)];
+      estimated.col(k) << e.x(), e.y(), e.z();
+      truth.col(k) << t.x(), t.y(), t.z();
+    }
+    const Eigen::Isometry3d T(Eigen::umeyama(estimated, truth, false));
+    const auto given = graph.objectMarginals();
+    for (const auto& [id, covariance] : graph.alignedObjectMarginals(0))
+    {
+      const Eigen::Vector3d off =
+          T.linear().transpose() * (T * graph.object(id).center() - world.objects[id - 1].center());
+      const Eigen::Matrix3d S = covariance.topLeftCorner<3, 3>();
+      sum += off.dot(S.llt().solve(off));
+      const Eigen::Matrix3d atPoses = given.at(id).topLeftCorner<3, 3>();
+      fixed += off.dot(atPoses.llt().solve(off));
+      objects += 1;
+    }
+  }
+  // Bounds as above; those given all poses claim more than is true.
+  EXPECT_GT(sum / objects, 1.5);
+  EXPECT_LT(sum / objects, 4.0);
+  EXPECT_GT(fixed / objects, 1.5 * sum / objects);
+}
+
 TEST(FactorGraph, AgreesWithTheObjectMapWhenPosesAreFixed)
 {
   const TrueObject cabinet = cuboid("suitcase", {1.5, 0.4, 0.28}, {0.78, 0.43, 0.56}, 0.3);

@@ -21,6 +21,13 @@ Ellipsoid ellipsoidOf(const UprightState& state)
       state.tail<3>().array().exp());
 }
 
+UprightCovariance withoutNegative(const UprightCovariance& symmetric)
+{
+  const Eigen::SelfAdjointEigenSolver<UprightCovariance> eigen(symmetric);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 std::string MapObject::label() const
 {
   std::string best;

@@ -9,10 +9,6 @@ namespace
 {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/** What is known of an object's position and angles without measurements, as in the object map. */
-constexpr double kFreePositionSigma = 2.0;    // [m]
-constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
-
 /** Sigma of objects whose poses are asked for. The objects together must not seem to know anything
  * of the poses that no measurement told, and this much keeps what nothing holds away from zero. */
 constexpr double kLooseSigma = 100;  // [m], [rad]

@@ -5,6 +5,7 @@
 #include <ceres/problem.h>
 
 #include <Eigen/Sparse>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <vector>
@@ -23,9 +24,14 @@ class GraphProblem
   FactorGraph::Summary solve();
   FactorGraph::Marginals marginals(bool withObjects);
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
+  std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
 
  private:
   using SparseMatrix = Eigen::SparseMatrix<double>;
+  /** What is known of an object's position and angles without measurements, as in the object map. */
+  static constexpr double kFreePositionSigma = 2.0;    // [m]
+  static constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
+
   /** H of steps of the free blocks, and where theirs begin. */
   struct NormalMatrix
   {

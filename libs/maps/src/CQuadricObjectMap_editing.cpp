@@ -59,6 +59,18 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
   estimate(a, true);
 }
 
+void CQuadricObjectMap::setSharedError(ObjectId id, const UprightCovariance& error)
+{
+  Entry& object = require(id);
+  object.covariance += error - object.estimator.sharedError();
+  object.estimator.setSharedError(error);
+}
+
+const UprightCovariance& CQuadricObjectMap::sharedError(ObjectId id) const
+{
+  return objects_.at(id).estimator.sharedError();
+}
+
 void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
 {
   MapObject& object = require(id);

@@ -92,14 +92,6 @@ UprightCovariance freeInformation()
   return information;
 }
 
-/** The nearest matrix without negative eigenvalues. */
-UprightCovariance withoutNegative(const UprightCovariance& symmetric)
-{
-  const Eigen::SelfAdjointEigenSolver<UprightCovariance> eigen(symmetric);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
-
 /** Shortens a step so that it stays where the linearisation means something. */
 UprightState limited(UprightState step)
 {
@@ -221,7 +213,7 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   e.state = x;
   e.cost = best.cost;
   const UprightCovariance information = best.H + freeInformation();
-  e.covariance = information.ldlt().solve(UprightCovariance::Identity());
+  e.covariance = information.ldlt().solve(UprightCovariance::Identity()) + sharedError_;
   double complete = prior_.complete, defined = prior_.yawDefined;
   for (const auto& v : views_)
   {
@@ -242,6 +234,8 @@ void ObjectEstimator::absorb(
   prior_.xi += r.P * other.prior_.xi + L * r.c;
   prior_.complete += other.prior_.complete;
   prior_.yawDefined += other.prior_.yawDefined;
+  const UprightCovariance error = r.P * other.sharedError_ * r.P.transpose();
+  if (error.trace() > sharedError_.trace()) sharedError_ = error;
 }
 
 InformationPrior ObjectEstimator::summary(
@@ -249,8 +243,12 @@ InformationPrior ObjectEstimator::summary(
 {
   const NormalEquations eq = Evidence(views_, prior_, at, options).at(at, label.shapeExponent);
   InformationPrior all = prior_;
-  all.L = eq.H;
-  all.xi = eq.H * at - eq.g;
+  // (H^-1 + S)^-1 = (1 + H S)^-1 H, also where H knows nothing in some direction.
+  const Eigen::PartialPivLU<UprightCovariance> weaken(
+      UprightCovariance::Identity() + eq.H * sharedError_);
+  const UprightCovariance L = weaken.solve(eq.H);
+  all.L = 0.5 * (L + L.transpose());
+  all.xi = weaken.solve(UprightState(eq.H * at - eq.g));
   for (const auto& v : views_)
   {
     all.complete += v.complete ? 1 : 0;

@@ -247,6 +247,9 @@ void JointBackEnd::estimate(
   result.edges = graph.graphEdges();
   for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);
+  const std::size_t first = graph.poses() - result.keyframes.size();
+  for (const auto& [id, marginal] : graph.alignedObjectMarginals(first))
+    result.map.setSharedError(id, withoutNegative(marginal - result.map.find(id)->covariance));
 }
 
 void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "ConstellationMatch.h"
 #include "GoneObjects.h"
@@ -31,13 +32,14 @@ CQuadricObjectMap preparedMap(const CQuadricObjectMap& given, const CQuadricObje
   return map;
 }
 
-/** The edges between poses and objects with the ids of the continued map. They name the objects of
- * the run's own map, and each gets the id of the object that took over most of its boxes. */
-void renameObjectsOfEdges(const std::vector<BoxDecision>& before, SlamResult& result)
+/** For each object of the run's own map the object of the continued one that took over most of its
+ * boxes. */
+std::map<ObjectId, ObjectId> heirsOf(
+    const std::vector<BoxDecision>& before, const std::vector<BoxDecision>& after)
 {
   using Box = std::pair<std::size_t, std::size_t>;  // keyframe, box
   std::map<Box, ObjectId> now;
-  for (const auto& d : result.decisions)
+  for (const auto& d : after)
     if (d.decision.object) now[{d.keyframe, d.decision.box}] = *d.decision.object;
   std::map<ObjectId, std::map<ObjectId, std::size_t>> votes;
   for (const auto& d : before)
@@ -45,18 +47,43 @@ void renameObjectsOfEdges(const std::vector<BoxDecision>& before, SlamResult& re
     const auto heir = now.find({d.keyframe, d.decision.box});
     if (d.decision.object && heir != now.end()) ++votes[*d.decision.object][heir->second];
   }
-  std::vector<FactorGraph::GraphEdge> edges;
-  for (auto edge : result.edges)
+  std::map<ObjectId, ObjectId> heirs;
+  for (const auto& [object, counts] : votes)
+    heirs[object] = std::max_element(
+                        counts.begin(), counts.end(),
+                        [](const auto& a, const auto& b) { return a.second < b.second; })
+                        ->first;
+  return heirs;
+}
+
+/** The edges between poses and objects, which name the objects of the run's own map, with the ids
+ * of the continued one. */
+std::vector<FactorGraph::GraphEdge> renamed(
+    const std::vector<FactorGraph::GraphEdge>& edges, const std::map<ObjectId, ObjectId>& heirs)
+{
+  std::vector<FactorGraph::GraphEdge> out;
+  for (auto edge : edges)
   {
-    const auto found = votes.find(edge.object);
-    if (found == votes.end()) continue;
-    edge.object = std::max_element(
-                      found->second.begin(), found->second.end(),
-                      [](const auto& a, const auto& b) { return a.second < b.second; })
-                      ->first;
-    edges.push_back(edge);
+    const auto heir = heirs.find(edge.object);
+    if (heir == heirs.end()) continue;
+    edge.object = heir->second;
+    out.push_back(edge);
   }
-  result.edges = std::move(edges);
+  return out;
+}
+
+/** The continued map's objects err with the poses as the run's own did, in place and heading. Their
+ * axes may have other names, but poses hardly err in sizes. */
+void passSharedErrors(
+    const CQuadricObjectMap& own, const std::map<ObjectId, ObjectId>& heirs, CQuadricObjectMap& map)
+{
+  for (const auto& [object, heir] : heirs)
+  {
+    if (!own.find(object) || !map.find(heir)) continue;
+    UprightCovariance error = UprightCovariance::Zero();
+    error.topLeftCorner<4, 4>() = own.sharedError(object).topLeftCorner<4, 4>();
+    map.setSharedError(heir, error);
+  }
 }
 
 std::set<ObjectId> idsOf(const std::vector<const MapObject*>& objects)
@@ -191,13 +218,15 @@ void continueMap(
   for (const ObjectId id : goneObjects(given, result, match, boxesOf, options)) map.remove(id);
 
   const std::vector<BoxDecision> before = std::move(result.decisions);
-  result.map = std::move(map);
+  const CQuadricObjectMap own = std::exchange(result.map, std::move(map));
   result.decisions.clear();
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
     if (const auto boxes = boxesOf(k))
       BackEnd::insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
   result.map.consolidate();
-  renameObjectsOfEdges(before, result);
+  const auto heirs = heirsOf(before, result.decisions);
+  result.edges = renamed(result.edges, heirs);
+  passSharedErrors(own, heirs, result.map);
   result.continuation = changesBetween(given, result.map, options);
   match.T_map_local = place;
   result.continuation->match = match;

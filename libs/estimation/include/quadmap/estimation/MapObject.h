@@ -20,6 +20,9 @@ using UprightCovariance = Eigen::Matrix<double, 7, 7>;
 UprightState uprightStateOf(const Ellipsoid& object);
 Ellipsoid ellipsoidOf(const UprightState& state);
 
+/** The nearest matrix without negative eigenvalues. */
+UprightCovariance withoutNegative(const UprightCovariance& symmetric);
+
 /** One landmark of the object map. */
 struct MapObject
 {

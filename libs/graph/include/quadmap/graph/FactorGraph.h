@@ -98,6 +98,12 @@ class FactorGraph
   /** Covariances of the objects' increments, given all poses. */
   std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
 
+  /** Covariances of the upright objects' increments relative to the trajectory as a whole, (16.18)
+   * of doc/mathematics.md: the poses err, too, but a motion of everything together is no error of a
+   * map. \param firstPose The first one of the trajectory.
+   * \return Nothing when something is not determined at all. */
+  std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
+
   /** How much the views of one pose know of the relative pose of one object. */
   struct GraphEdge
   {

@@ -189,6 +189,14 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
    *  map. \exception std::out_of_range If one of them is not there, or both are the same. */
   void merge(ObjectId kept, ObjectId absorbed);
 
+  /** Tells how uncertain an object is because the poses it was seen from err alike
+   * (doc/mathematics.md, (16.18)). It is a part of the object's covariance from now on, however
+   * many measurements come. A stored map keeps it as a part of what is known. \exception
+   * std::out_of_range If there is no such object. */
+  void setSharedError(ObjectId id, const UprightCovariance& error);
+  /** \exception std::out_of_range If there is no such object. */
+  const UprightCovariance& sharedError(ObjectId id) const;
+
   /** Makes all measurements of an object say this label, in its canonical spelling.
    *  \exception std::out_of_range If there is no such object. */
   void relabel(ObjectId id, const std::string& label);

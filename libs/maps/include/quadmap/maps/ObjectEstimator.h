@@ -50,6 +50,11 @@ class ObjectEstimator
    *  \param here, there The states of this and of the other one; axes are matched between them. */
   void absorb(const ObjectEstimator& other, const UprightState& here, const UprightState& there);
 
+  /** Tells what the measurements have in common, because the poses they were taken from err alike:
+   * a covariance that estimate() adds, however many measurements there are. */
+  void setSharedError(const UprightCovariance& error) { sharedError_ = error; }
+  const UprightCovariance& sharedError() const { return sharedError_; }
+
   /** Everything as one prior, linearised at a state: what a file keeps. */
   InformationPrior summary(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
@@ -66,6 +71,7 @@ class ObjectEstimator
  private:
   std::deque<ObjectView> views_;
   InformationPrior prior_;
+  UprightCovariance sharedError_ = UprightCovariance::Zero();
 };
 
 /** Robust first guess: the median of where the measurements have each face; of partial measurements

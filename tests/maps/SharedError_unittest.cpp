@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "ObjectMapFixture.h"
+
+using namespace quadmap;
+using namespace quadmap::testing;
+
+namespace
+{
+/** One cabinet, seen from all around. */
+CQuadricObjectMap mapOfACabinet(SyntheticCamera& camera)
+{
+  CQuadricObjectMap map;
+  walkAround(map, camera, {cuboid("suitcase", {0, 0, 0.28}, {0.78, 0.43, 0.56}, 0.3)}, 40);
+  map.consolidate();
+  return map;
+}
+
+UprightCovariance errorOf(double meters, double radians)
+{
+  UprightCovariance error = UprightCovariance::Zero();
+  error.diagonal().head<3>().setConstant(meters * meters);
+  error(3, 3) = radians * radians;
+  return error;
+}
+
+const MapObject& onlyObject(const CQuadricObjectMap& map) { return map.objects().begin()->second; }
+
+}  // namespace
+
+TEST(SharedError, IsThereHoweverManyMeasurementsCome)
+{
+  SyntheticCamera camera(1);
+  CQuadricObjectMap map = mapOfACabinet(camera);
+  const ObjectId id = onlyObject(map).id;
+  const UprightCovariance before = onlyObject(map).covariance, error = errorOf(0.05, 0.02);
+  map.setSharedError(id, error);
+  EXPECT_LT((onlyObject(map).covariance - before - error).norm(), 1e-12);
+  map.setSharedError(id, error);
+  EXPECT_LT((onlyObject(map).covariance - before - error).norm(), 1e-12) << "it is set, not added";
+
+  walkAround(map, camera, {cuboid("suitcase", {0, 0, 0.28}, {0.78, 0.43, 0.56}, 0.3)}, 40);
+  map.consolidate();
+  ASSERT_EQ(map.objects().size(), 1u);
+  EXPECT_GE(onlyObject(map).covariance(0, 0), error(0, 0));
+  EXPECT_LT(onlyObject(map).covariance(0, 0), before(0, 0) + error(0, 0));
+  EXPECT_THROW(map.setSharedError(99, error), std::out_of_range);
+}
+
+TEST(SharedError, StaysWithAStoredMap)
+{
+  SyntheticCamera camera(2);
+  CQuadricObjectMap map = mapOfACabinet(camera);
+  map.setSharedError(onlyObject(map).id, errorOf(0.05, 0.02));
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << map;
+  stream.Seek(0);
+  CQuadricObjectMap loaded;
+  archive >> loaded;
+  loaded.consolidate();
+  const auto &stored = onlyObject(map), &read = onlyObject(loaded);
+  EXPECT_LT((uprightStateOf(read.object) - uprightStateOf(stored.object)).norm(), 1e-3);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(std::sqrt(read.covariance(i, i) / stored.covariance(i, i)), 1, 0.05) << i;
+}
