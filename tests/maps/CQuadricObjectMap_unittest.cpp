@@ -244,6 +244,26 @@ TEST(CQuadricObjectMap, PartialMeasurementsStartAnObjectOnlyWithParallax)
   EXPECT_EQ(moving.objects().begin()->second.completeCount, 0u);
 }
 
+TEST(CQuadricObjectMap, TwoBoxesOfOneImageAreNotTwoViews)
+{
+  const std::vector<TrueObject> world = {cuboid("suitcase", {0, 0, 0.3}, {0.6, 0.45, 0.6}, 0.4)};
+  SyntheticCamera camera(10);
+  camera.disturbances.partialProbability = 1;
+  CQuadricObjectMap map;
+  ASSERT_EQ(map.insertionOptions.waiting.minViews, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_TRUE(map.isEmpty()) << i << " images";
+    const auto T = poseAround(i, 12, {0, 0, 0.3});
+    auto obs = camera.observe(T, world);
+    obs.objects.push_back(obs.objects.at(0));
+    obs.objects[1].box.x1 += 0.6 * (obs.objects[1].box.x2 - obs.objects[1].box.x1);
+    map.insertObservation(obs, T);
+  }
+  ASSERT_EQ(map.objects().size(), 1u);
+  EXPECT_EQ(map.objects().begin()->second.observations(), 3u);
+}
+
 TEST(CQuadricObjectMap, DuplicateBoxesOfOneFrameCountOnce)
 {
   CQuadricObjectMap map;

@@ -23,6 +23,12 @@ double parallax(const std::vector<WaitingList::Entry>& entries)
   return std::acos(std::clamp(smallestCosine, -1.0, 1.0));
 }
 
+/** Two boxes of one image are two things, or one thing twice. They are not two views of it. */
+bool areOfOneImage(const WaitingList::Entry& a, const WaitingList::Entry& b)
+{
+  return a.time == b.time && a.view.camera == b.view.camera;
+}
+
 }  // namespace
 
 std::vector<WaitingList::Entry> WaitingList::add(
@@ -34,8 +40,20 @@ std::vector<WaitingList::Entry> WaitingList::add(
     return labels.compatible(other.view.label, entry.view.label) &&
            (other.view.center - entry.view.center).norm() <= gate;
   };
-  std::vector<Entry> group;
-  std::copy_if(entries_.begin(), entries_.end(), std::back_inserter(group), agrees);
+  const auto isNearer = [&](const Entry& a, const Entry& b) {
+    return (a.view.center - entry.view.center).norm() < (b.view.center - entry.view.center).norm();
+  };
+  std::vector<Entry> group;  // of each image the measurement that agrees best
+  for (const Entry& other : entries_)
+  {
+    if (!agrees(other) || areOfOneImage(other, entry)) continue;
+    const auto sameImage = std::find_if(
+        group.begin(), group.end(), [&](const Entry& e) { return areOfOneImage(e, other); });
+    if (sameImage == group.end())
+      group.push_back(other);
+    else if (isNearer(other, *sameImage))
+      *sameImage = other;
+  }
   group.push_back(entry);
 
   if (group.size() >= static_cast<std::size_t>(options.minViews) &&
