@@ -36,6 +36,7 @@ double PointGraph<D>::optimise(double huber, int maxIterations)
 
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // in every build of Ceres
   options.max_num_iterations = maxIterations;
   options.num_threads = 1;  // gives the same bytes on every machine
   options.logging_type = ceres::SILENT;
