@@ -211,6 +211,21 @@ TEST(MapEditing, MergeRelabelRemove)
   EXPECT_THROW(map.merge(suitcase, tv), std::out_of_range);
 }
 
+TEST(MapEditing, RelabelJudgesTheObjectByItsNewLabel)
+{
+  CQuadricObjectMap map = smallMap();
+  const ObjectId tv = map.nearest({1, 1, 1}, "tv")->id;
+  ASSERT_TRUE(map.find(tv)->orientationDefined);
+  ASSERT_TRUE(map.find(tv)->confirmed);
+  map.relabel(tv, "vase");
+  EXPECT_FALSE(map.find(tv)->orientationDefined) << "a round thing has no heading";
+  map.relabel(tv, "tv");
+  EXPECT_TRUE(map.find(tv)->orientationDefined);
+  map.insertionOptions.existence.maxCenterSigma = 1e-9;
+  map.relabel(tv, "tv");
+  EXPECT_FALSE(map.find(tv)->confirmed);
+}
+
 TEST(MapEditing, AnObjectCannotSwallowItself)
 {
   CQuadricObjectMap map = smallMap();

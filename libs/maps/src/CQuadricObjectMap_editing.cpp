@@ -73,10 +73,11 @@ const UprightCovariance& CQuadricObjectMap::sharedError(ObjectId id) const
 
 void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
 {
-  MapObject& object = require(id);
+  Entry& object = require(id);
   object.labelCounts = {
       {labels().canonical(label), std::max(1u, object.observations())}
   };
+  estimate(object, true);  // the label says what sizes are likely, and whether there is a front
 }
 
 void CQuadricObjectMap::remove(ObjectId id)
