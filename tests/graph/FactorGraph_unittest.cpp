@@ -361,6 +361,38 @@ TEST(FactorGraph, AnHeirTakesViewsOver)
   EXPECT_EQ(graph.optimise().freeObjects, objects - 1);
 }
 
+TEST(FactorGraph, AnHeirKnowsWhatFoldedViewsSaid)
+{
+  constexpr ObjectId kHeir = 100;
+  const auto run = [&](double heirYaw, ObjectId seen)
+  {
+    GraphWorld world(9);
+    FactorGraph graph = world.graph(plain());
+    graph.optimise();
+    graph.optimiseWindow(30);
+    if (seen == kHeir)
+    {
+      const Ellipsoid known = graph.object(1);
+      const Eigen::Vector3d half = known.semiAxes();
+      const bool swap = heirYaw != 0;
+      graph.setObject(
+          kHeir,
+          Ellipsoid(
+              known.pose() + mrpt::poses::CPose3D(0, 0, 0, heirYaw, 0, 0),
+              swap ? Eigen::Vector3d(half.y(), half.x(), half.z()) : half),
+          world.label());
+      graph.removeObject(1, kHeir);
+    }
+    // Object 1 is in view at the start of the circle, and again at its end.
+    return graph.marginals(30, true).objects.at(seen);
+  };
+  const Eigen::MatrixXd before = run(0, 1);
+  EXPECT_LT((run(0, kHeir) - before).cwiseAbs().maxCoeff(), 1e-6 * before.cwiseAbs().maxCoeff());
+  const Eigen::MatrixXd turned = run(M_PI / 2, kHeir);
+  EXPECT_NEAR(turned(4, 4), before(5, 5), 1e-6) << "its axes have each other's names";
+  EXPECT_NEAR(turned(0, 0), before(0, 0), 1e-6);
+}
+
 TEST(FactorGraph, GraphEdgesKnowWhatTheViewsKnow)
 {
   GraphWorld world(11);

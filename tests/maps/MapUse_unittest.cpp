@@ -226,6 +226,22 @@ TEST(MapEditing, RelabelJudgesTheObjectByItsNewLabel)
   EXPECT_FALSE(map.find(tv)->confirmed);
 }
 
+TEST(MapEditing, TellsWhichObjectsHaveTheAbsorbedOnes)
+{
+  CQuadricObjectMap map = smallMap();
+  MapObject third = *map.nearest({0, 0, 0.3}, "suitcase");
+  const ObjectId a = third.id, b = map.nearest({1, 1, 1}, "tv")->id, c = map.addObject(third);
+  map.merge(b, a);
+  map.merge(c, b);
+  EXPECT_EQ(
+      map.heirs(), (std::map<ObjectId, ObjectId>{
+                       {a, c},
+                       {b, c}
+  }));
+  map.insertObservation(CObservationObjects(), mrpt::poses::CPose3D());
+  EXPECT_TRUE(map.heirs().empty());
+}
+
 TEST(MapEditing, AnObjectCannotSwallowItself)
 {
   CQuadricObjectMap map = smallMap();

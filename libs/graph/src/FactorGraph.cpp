@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "quadmap/estimation/AxisRenaming.h"
+
 namespace quadmap
 {
 std::size_t FactorGraph::addPose(const mrpt::poses::CPose3D& T_map_robot)
@@ -62,25 +64,45 @@ void FactorGraph::addStandsOn(ObjectId upper, ObjectId lower)
   standsOn_.emplace_back(upper, lower);
 }
 
+/** Adds what one Gaussian knows of an upright object to that of its heir. */
+void FactorGraph::bequeath(const ObjectPrior& from, Object& heir)
+{
+  const auto stateOf = [](const ObjectBlock& block)
+  { return UprightState(Eigen::Map<const UprightState>(block.data())); };
+  const AxisRenaming r = axisRenaming(stateOf(from.at), stateOf(heir.block));
+  ObjectPrior moved;
+  moved.L = r.P * from.L * r.P.transpose();
+  moved.g = r.P * from.g;
+  Eigen::Map<UprightState>(moved.at.data()) = r.P * stateOf(from.at) + r.c;
+  if (!heir.folded)
+  {
+    heir.folded = moved;
+    return;
+  }
+  heir.folded->L += moved.L;
+  heir.folded->g += moved.g + moved.L * (stateOf(heir.folded->at) - stateOf(moved.at));
+}
+
 void FactorGraph::removeObject(ObjectId id, std::optional<ObjectId> heir)
 {
+  const auto removed = objects_.find(id);
+  if (heir && removed != objects_.end() && removed->second.folded)
+    if (Object& to = objects_.at(*heir);
+        to.freedom == ObjectFreedom::Upright && removed->second.freedom == to.freedom)
+      bequeath(*removed->second.folded, to);
   objects_.erase(id);
   standsOn_.erase(
       std::remove_if(
           standsOn_.begin(), standsOn_.end(),
           [&](const auto& pair) { return pair.first == id || pair.second == id; }),
       standsOn_.end());
-  // Views that are folded cannot change any more.
-  for (std::size_t k = foldedUpTo_; k < viewsByPose_.size(); ++k)
-  {
-    auto& views = viewsByPose_[k];
+  for (auto& views : viewsByPose_)
     if (heir)
       for (View& v : views) v.object = v.object == id ? *heir : v.object;
     else
       views.erase(
           std::remove_if(views.begin(), views.end(), [&](const View& v) { return v.object == id; }),
           views.end());
-  }
 }
 
 void FactorGraph::addView(std::size_t pose, ObjectId id, const BoxMeasurement& view)

@@ -108,6 +108,7 @@ void CQuadricObjectMap::internal_clear()
   room_ = RoomPlanes();
   objectOfInstance_.clear();
   lastDecisions_.clear();
+  heirs_.clear();
   unknownLabels_.clear();
 }
 

@@ -55,6 +55,9 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
     if (object == absorbed) object = kept;
   for (auto& decision : lastDecisions_)
     if (decision.object == absorbed) decision.object = kept;
+  for (auto& [gone, heir] : heirs_)
+    if (heir == absorbed) heir = kept;
+  heirs_[absorbed] = kept;
   objects_.erase(absorbed);
   estimate(a, true);
 }
@@ -84,6 +87,8 @@ void CQuadricObjectMap::remove(ObjectId id)
 {
   require(id);
   objects_.erase(id);
+  for (auto it = heirs_.begin(); it != heirs_.end();)
+    it = it->second == id ? heirs_.erase(it) : std::next(it);
   for (auto it = objectOfInstance_.begin(); it != objectOfInstance_.end();)
     it = it->second == id ? objectOfInstance_.erase(it) : std::next(it);
 }

@@ -40,6 +40,7 @@ bool CQuadricObjectMap::internal_insertObservation(
 bool CQuadricObjectMap::insertAt(const mrpt::obs::CObservation& obs, const UncertainPose& robotPose)
 {
   lastDecisions_.clear();
+  heirs_.clear();
   std::optional<FramePairing::Frame> frame;
   if (const auto* boxes = dynamic_cast<const CObservationObjects*>(&obs); boxes)
   {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/estimation/LabelPrior.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RotationDistance.h"
@@ -131,26 +132,6 @@ NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIte
   return eq;
 }
 
-/** x -> P x + c: the same object with its axes renamed by a number of quarter turns. */
-struct AxisRenaming
-{
-  UprightCovariance P = UprightCovariance::Identity();
-  UprightState c = UprightState::Zero();
-};
-
-AxisRenaming renaming(const UprightState& from, const UprightState& to)
-{
-  AxisRenaming r;
-  const double yaw = nearestEquivalentYaw(from[3], to[3]);
-  r.c[3] = yaw - from[3];
-  if (std::lround(r.c[3] / (M_PI / 2)) % 2 != 0)
-  {
-    r.P(4, 4) = r.P(5, 5) = 0;
-    r.P(4, 5) = r.P(5, 4) = 1;
-  }
-  return r;
-}
-
 /** Index of the view that is missed least. It is the older one of the two whose cameras are nearest
  * to each other. */
 std::ptrdiff_t mostRedundant(const std::deque<ObjectView>& views)
@@ -228,7 +209,7 @@ void ObjectEstimator::absorb(
     const ObjectEstimator& other, const UprightState& here, const UprightState& there)
 {
   views_.insert(views_.begin(), other.views_.begin(), other.views_.end());
-  const AxisRenaming r = renaming(there, here);
+  const AxisRenaming r = axisRenaming(there, here);
   const UprightCovariance L = r.P * other.prior_.L * r.P.transpose();
   prior_.L += L;
   prior_.xi += r.P * other.prior_.xi + L * r.c;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "MergedObjects.h"
 #include "OdometryChain.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ViewRedundancy.h"
@@ -133,27 +134,13 @@ CPose3D JointBackEnd::addKeyframe(
   graph_.optimiseWindow(firstFree);
 
   insertIntoMap(*boxes, pose, graph_.pose(pose), result, poseError());
-  forgetMerged(map);
+  followMerged(map, graph_, cameras_);
   graph_.removeViews(pose);
   addViews(*boxes, map.lastDecisions(), pose, map);
   const Eigen::Vector3d camera = positionOf(graph_.pose(pose) + boxes->sensorPose);
   for (const auto& decision : map.lastDecisions())
     if (decision.object) rememberCamera(camera, cameras_[*decision.object]);
   return graph_.pose(pose);
-}
-
-void JointBackEnd::forgetMerged(const CQuadricObjectMap& map)
-{
-  for (auto it = cameras_.begin(); it != cameras_.end();)
-  {
-    if (map.find(it->first))
-    {
-      ++it;
-      continue;
-    }
-    if (graph_.hasObject(it->first)) graph_.removeObject(it->first);
-    it = cameras_.erase(it);
-  }
 }
 
 FactorGraph JointBackEnd::globalGraph(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "BackEnd.h"
+#include "MergedObjects.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap
@@ -58,7 +59,6 @@ class JointBackEnd : public BackEnd
       const Decisions& decisions,
       std::size_t pose,
       const CQuadricObjectMap& map);
-  void forgetMerged(const CQuadricObjectMap& map);
   using Priors = std::map<ObjectId, ObjectPrior>;
 
   enum class FirstPose
@@ -84,8 +84,8 @@ class JointBackEnd : public BackEnd
   ExistenceOptions existence_;
   const LabelTable& labels_;
   FactorGraph graph_;
-  mrpt::poses::CPose3D lastOdometry_;                        //!< Of the last keyframe
-  std::map<ObjectId, std::deque<Eigen::Vector3d>> cameras_;  //!< Latest places it was seen from
+  mrpt::poses::CPose3D lastOdometry_;  //!< Of the last keyframe
+  CamerasOf cameras_;
 };
 
 }  // namespace quadmap

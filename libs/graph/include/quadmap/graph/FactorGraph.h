@@ -59,7 +59,8 @@ class FactorGraph
   void setObjectPrior(ObjectId id, const ObjectPrior& prior);
   /** `upper` stands on `lower`; both upright. */
   void addStandsOn(ObjectId upper, ObjectId lower);
-  /** Forgets the object and its views; another one may take the views over. */
+  /** Forgets the object and its views. Another one may take the views over, and what folded ones
+   * said as well when both are upright. */
   void removeObject(ObjectId id, std::optional<ObjectId> heir = std::nullopt);
 
   /** A view from a pose that optimiseWindow() frees no more is folded at once. */
@@ -139,6 +140,7 @@ class FactorGraph
     BoxMeasurement view;
   };
 
+  static void bequeath(const ObjectPrior& from, Object& heir);
   void foldBefore(std::size_t firstFree);
   void fold(const View& view, const PoseBlock& pose);
 

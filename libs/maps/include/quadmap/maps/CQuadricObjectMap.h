@@ -123,6 +123,10 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
    *  reference is valid as long as the map lives, its content until the next insertion. */
   const std::vector<Decision>& lastDecisions() const;
 
+  /** The objects that others absorbed since the last observation came, each with the object of the
+   * map that has its measurements now. */
+  const std::map<ObjectId, ObjectId>& heirs() const { return heirs_; }
+
   /** What insertion at a pose would decide, without inserting anything: boxes without measurements
    * take no part. The pose errs as for insertObservation(). */
   std::vector<Decision> match(const CObservationObjects& obs, const UncertainPose& robotPose) const;
@@ -253,6 +257,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   RoomPlanes room_;                                     // what the scans measured here showed
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
+  std::map<ObjectId, ObjectId> heirs_;
   std::set<std::string> unknownLabels_;
   std::shared_ptr<const LabelSource> labels_;  // copies of a map share it
 

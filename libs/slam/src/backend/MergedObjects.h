@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <deque>
+#include <map>
+
+#include "quadmap/graph/FactorGraph.h"
+#include "quadmap/maps/CQuadricObjectMap.h"
+
+namespace quadmap
+{
+/** The latest places from which each object was seen. */
+using CamerasOf = std::map<ObjectId, std::deque<Eigen::Vector3d>>;
+
+/** Gives the views of the objects that the map merged with its last observation to the objects that
+ * have their measurements now. */
+void followMerged(const CQuadricObjectMap& map, FactorGraph& graph, CamerasOf& cameras);
+
+}  // namespace quadmap
