@@ -334,6 +334,33 @@ TEST_F(RawlogRun, UnusableCalibrationIsAnErrorOrDropped)
   EXPECT_EQ(summary.result.keyframes.size(), 5u);
 }
 
+TEST_F(RawlogRun, WhateverAFrameThrowsItIsNamedOrDropped)
+{
+  const auto refuses = [&](RawlogRunRequest request, const std::string& where)
+  {
+    expectFailure(request, where);
+    request.keepGoing = true;
+    const auto summary = runOnRawlog(request);
+    ASSERT_EQ(summary.dropped.size(), 1u);
+    EXPECT_EQ(summary.dropped[0].find(request.rawlog + ": " + where), 0u) << summary.dropped[0];
+    EXPECT_EQ(summary.dropped[0].find_first_of("\n\r"), std::string::npos);
+  };
+  auto records = recordsOf({}, {});
+  const auto scanAt = [&](std::size_t i)
+  { return std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(records.at(i)); };
+  scanAt(7)->intensityImage.resize(20, 10, mrpt::img::CH_RGB);  // OpenCV's own exception
+  auto visual = requestFor(writeObjects(folder_.path("x.rawlog"), records), "visual");
+  visual.configuration.slam.odometry = PoseSource::Visual;
+  visual.configuration.slam.method = SlamMethod::Odometry;
+  refuses(visual, "record 7 (camera): ");
+
+  records = recordsOf({}, {});
+  scanAt(7)->sensorPose.x(1e308);  // the object is out of all numbers: std::invalid_argument
+  std::dynamic_pointer_cast<CObservationObjects>(records.at(8))->sensorPose.x(1e308);
+  refuses(
+      requestFor(writeObjects(folder_.path("y.rawlog"), records), "far"), "record 7 (camera): ");
+}
+
 TEST_F(RawlogRun, FramesWithoutDepthAreCounted)
 {
   auto records = recordsOf({}, {});

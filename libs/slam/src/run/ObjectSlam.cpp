@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keyframes/BoxCounts.h"
+#include "quadmap/base/ErrorText.h"
 
 namespace quadmap
 {
@@ -84,6 +85,7 @@ void ObjectSlam::addFrame(const RgbdFrame& frame)
 {
   SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
   ++counts.frames;
+  const auto bad = badFrames_.size();
   if (const auto T_odom_robot = poseOf(frame))
   {
     moment_.exclude();
@@ -91,13 +93,22 @@ void ObjectSlam::addFrame(const RgbdFrame& frame)
     return;
   }
   ++counts.framesWithoutPose;
-  moment_.add(frame);
+  if (badFrames_.size() == bad) moment_.add(frame);
 }
 
 std::optional<CPose3D> ObjectSlam::poseOf(const RgbdFrame& frame)
 {
   const auto scope = times_.measure("odometry");
-  const auto T_odom_robot = odometry_.poseOf(frame);
+  std::optional<CPose3D> T_odom_robot;
+  try
+  {
+    T_odom_robot = odometry_.poseOf(frame);
+  }
+  catch (const std::exception& e)
+  {
+    if (!keepGoing_) throw BadFrame(frame, rootMessage(e));
+    badFrames_.emplace_back(frame, rootMessage(e));
+  }
   if (result_.counts().frames == 1) tellOdometry(frame);
   result_.odometry.visual = odometry_.visualCounts();
   for (const auto& text : odometry_.takeWarnings()) warn(text);
@@ -147,17 +158,24 @@ void ObjectSlam::measure(std::size_t item)
     if (configuration_.slam.association == AssociationSource::Given)
       leaveOutAnonymous(*keyframe.boxes);
   }
-  catch (const std::runtime_error& e)
+  catch (const std::exception& e)  // OpenCV's, a failed allocation: nothing but this frame is lost
   {
-    if (!keepGoing_) throw BadFrame(keyframe.frame, e.what());
-    keyframe.problem = e.what();
+    if (!keepGoing_) throw BadFrame(keyframe.frame, rootMessage(e));
+    keyframe.problem = rootMessage(e);
   }
 }
 
 void ObjectSlam::addToMap(std::size_t item)
 {
   const auto scope = times_.measure("map");
-  backEnd_.add(item, task(item), result_);
+  try
+  {
+    backEnd_.add(item, task(item), result_);
+  }
+  catch (const std::exception& e)  // half of the frame may be in the map, so the run ends here
+  {
+    throw BadFrame(task(item).frame, rootMessage(e));
+  }
 }
 
 void ObjectSlam::spool(std::size_t item)

@@ -6,6 +6,7 @@
 
 #include "files/ResultWriter.h"
 #include "keyframes/KeyframeSpool.h"
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
@@ -209,9 +210,9 @@ class RawlogRun
     {
       throw std::runtime_error(request_.rawlog + ": " + e.what() + " (" + request_.mapFile + ")");
     }
-    catch (const std::runtime_error& e)
+    catch (const std::exception& e)
     {
-      throw std::runtime_error(request_.rawlog + ": " + e.what());
+      throw std::runtime_error(request_.rawlog + ": " + rootMessage(e));
     }
   }
 
