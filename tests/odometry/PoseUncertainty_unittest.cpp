@@ -65,6 +65,29 @@ TEST(PoseUncertainty, SummedIncrementsGiveTheirCovarianceBack)
   EXPECT_LT((step.cov.asEigen() - increment.cov.asEigen()).cwiseAbs().maxCoeff(), 1.1e-8);
 }
 
+TEST(PoseUncertainty, AStepBackInTimeUndoesWhatWasAdded)
+{
+  const auto increment = poseWith(CPose3D(0.3, 0.1, -0.05, 0.2, 0.1, -0.1), sampleCovariance(1));
+  auto from = poseWith(CPose3D(), sampleCovariance(2));
+  for (int i = 0; i < 100; ++i) from += increment;
+  auto to = from;
+  to += increment;
+  const auto back = odometryStep(sampleOptions(), to, from);
+  std::mt19937 random(4);
+  constexpr int kSamples = 20000;
+  Matrix6 sum = Matrix6::Zero();
+  for (int n = 0; n < kSamples; ++n)
+  {
+    const CPose3D sampled = CPose3D() - perturbed(increment, random);
+    const Eigen::Matrix<double, 6, 1> error =
+        sampled.asVectorVal().asEigen() - back.mean.asVectorVal().asEigen();
+    sum += error * error.transpose();
+  }
+  const Matrix6 sampled = sum / kSamples;
+  for (int i = 0; i < 6; ++i)
+    EXPECT_NEAR(back.cov(i, i), sampled(i, i), 0.05 * sampled(i, i)) << "coordinate " << i;
+}
+
 TEST(PoseUncertainty, PosesThatDoNotGetWorseErrIndependently)
 {
   const Matrix6 cov = sampleCovariance(3);

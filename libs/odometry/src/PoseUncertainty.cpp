@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "quadmap/base/OptionList.h"
+#include "quadmap/geometry/StepCovariance.h"
 
 namespace quadmap
 {
@@ -66,27 +67,19 @@ CPose3DPDFGaussian odometryStep(
 
 namespace
 {
-/** Covariance Q of the step that turned the covariance of `from` into that of `to`:
- *    P_to = J_from P_from J_from^t + J_step Q J_step^t
- * It is nothing when no covariance Q does so. doc/mathematics.md, (15.2). */
-std::optional<Eigen::Matrix<double, 6, 6>> addedCovariance(
-    const CPose3DPDFGaussian& from, const CPose3DPDFGaussian& to, const CPose3D& T_from_to)
+/** Covariance of the step between two poses whose source states theirs. */
+PoseCovariance statedCovariance(const CPose3DPDFGaussian& from, const CPose3DPDFGaussian& to)
 {
-  constexpr double kRounding = 1e-9;  // error of sums of many steps / largest variance
-  mrpt::math::CMatrixDouble66 J_from, J_step;
-  mrpt::poses::CPose3DPDF::jacobiansPoseComposition(from.mean, T_from_to, J_from, J_step);
-  const Eigen::Matrix<double, 6, 6> J = J_from.asEigen();
-  const Eigen::Matrix<double, 6, 6> added =
-      to.cov.asEigen() - J * from.cov.asEigen() * J.transpose();
-  const Eigen::Matrix<double, 6, 6> toStep = J_step.asEigen().inverse();
-  const Eigen::Matrix<double, 6, 6> Q = toStep * added * toStep.transpose();
-  if (!Q.allFinite()) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(Q);
-  const double least = -kRounding * to.cov.asEigen().cwiseAbs().maxCoeff();
-  if (eigen.eigenvalues().minCoeff() < least) return std::nullopt;
-  return Eigen::Matrix<double, 6, 6>(
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-      eigen.eigenvectors().transpose());
+  if (const auto added = addedCovariance(from, to)) return *added;
+  // A camera whose images come late is behind the others. The step back undoes what was added.
+  if (const auto added = addedCovariance(to, from))
+  {
+    CPose3DPDFGaussian back(from.mean - to.mean), step;
+    back.cov = *added;
+    back.inverse(step);
+    return step.cov.asEigen();
+  }
+  return (to - from).cov.asEigen();
 }
 
 }  // namespace
@@ -100,8 +93,7 @@ CPose3DPDFGaussian odometryStep(
   constexpr double kLeast = 1e-8;    // least variance, for an inverse [m^2], [rad^2]
   CPose3DPDFGaussian step = odometryStep(options, from.mean, to.mean);
   if (from.cov.asEigen().isZero() && to.cov.asEigen().isZero()) return step;
-  const auto added = addedCovariance(from, to, step.mean);
-  const Eigen::Matrix<double, 6, 6> stated = added ? *added : (to - from).cov.asEigen();
+  const PoseCovariance stated = statedCovariance(from, to);
   if (!stated.allFinite()) return step;
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)

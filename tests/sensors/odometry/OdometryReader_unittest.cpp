@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "../SampleRawlog.h"
+#include "quadmap/geometry/StepCovariance.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose2D;
@@ -111,5 +112,31 @@ TEST(OdometryReader, IncrementsOfEitherClassAreOneKind)
     ASSERT_EQ(frames.size(), 2u);
     EXPECT_LT(frames[0].T_odom_robot.value().distanceTo(CPose3D(1, 0, 0, 0, 0, 0)), 1e-9) << kind;
     EXPECT_LT(frames[1].T_odom_robot.value().distanceTo(CPose3D(1, 0, 0.5, 0, 0, 0)), 1e-9) << kind;
+  }
+}
+
+TEST(OdometryReader, BetweenTwoPosesASharedErrorStaysShared)
+{
+  // After a long way the heading is off by 0.1 rad, and one more step adds 1 mm to the position.
+  auto before = samplePose(kStart, CPose3D(5, 0, 0, 0.3, 0, 0));
+  for (int i = 0; i < 6; ++i) before->pose.cov(i, i) = i < 3 ? 0.04 : 0.01;
+  mrpt::poses::CPose3DPDFGaussian step(CPose3D(0.1, 0.02, 0, 0.1, 0, 0));
+  for (int i = 0; i < 6; ++i) step.cov(i, i) = i < 3 ? 1e-6 : 1e-8;
+  auto after = samplePose(kStart + 0.1, {});
+  after->pose = before->pose + step;
+  const TemporaryFolder folder;
+  const auto frames = readAll(writeObjects(
+      folder.path("x.rawlog"),
+      {before, sampleScan(kStart), sampleScan(kStart + 0.04), after, sampleScan(kStart + 0.1)}));
+  ASSERT_EQ(frames.size(), 3u);
+  for (const std::size_t k : {0u, 1u})
+  {
+    mrpt::poses::CPose3DPDFGaussian from(frames[k].T_odom_robot.value()),
+        to(frames[k + 1].T_odom_robot.value());
+    from.cov = frames[k].odometryCovariance.value();
+    to.cov = frames[k + 1].odometryCovariance.value();
+    const auto added = addedCovariance(from, to);
+    ASSERT_TRUE(added) << k;
+    EXPECT_LT(std::sqrt(added->diagonal().maxCoeff()), 0.0011) << "[m], [rad]";
   }
 }

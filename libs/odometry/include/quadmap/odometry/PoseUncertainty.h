@@ -34,8 +34,9 @@ mrpt::poses::CPose3DPDFGaussian odometryStep(
 
 /** The step between poses whose source states their covariance (x, y, z, yaw, pitch, roll):
  * doc/mathematics.md, (15.2). When the covariance grows from `from` to `to` as that of summed steps
- * does, the step has what was added. Otherwise the errors of the two poses are independent. The
- * options give the variance of coordinates for which the source states none (variance 0). */
+ * does, or from `to` to `from` in a step back in time, the step has what was added. Otherwise the
+ * errors of the two poses are independent. The options give the variance of coordinates for which
+ * the source states none (variance 0). */
 mrpt::poses::CPose3DPDFGaussian odometryStep(
     const PoseUncertaintyOptions& options,
     const mrpt::poses::CPose3DPDFGaussian& from_map,
