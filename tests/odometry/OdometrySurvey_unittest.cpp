@@ -30,6 +30,38 @@ TEST(OdometrySurvey, TakesTheRawlogsOdometryWhenThereIsSome)
   EXPECT_FALSE(survey.up_robot) << "not asked for";
 }
 
+TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (const auto& frame : homeFrames(6))
+  {
+    // Poses lie around the image, so that the second one has to be waited for.
+    records.push_back(samplePose(frame.time() - 0.01, *frame.T_odom_robot));
+    records.push_back(frame.scan);
+    records.push_back(samplePose(frame.time() + 1.5, *frame.T_odom_robot, "other"));
+  }
+  const auto file = writeObjects(folder.path("x.rawlog"), records);
+  const auto survey = surveyOdometry(file, {}, PoseSource::Auto);
+  EXPECT_EQ(survey.source, PoseSource::Auto);
+  EXPECT_EQ(survey.uselessKind, "");
+}
+
+TEST(OdometrySurvey, TellsOfOdometryThatFitsNoImage)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (const auto& frame : homeFrames(6))
+  {
+    records.push_back(samplePose(frame.time() - 3600, *frame.T_odom_robot));
+    records.push_back(frame.scan);
+  }
+  const auto survey =
+      surveyOdometry(writeObjects(folder.path("x.rawlog"), records), {}, PoseSource::Auto);
+  EXPECT_EQ(survey.source, PoseSource::Visual);
+  EXPECT_EQ(survey.uselessKind, "CObservationRobotPose odometry");
+}
+
 TEST(OdometrySurvey, FindsUpFromTheFloorWhenThereIsNone)
 {
   const TemporaryFolder folder;

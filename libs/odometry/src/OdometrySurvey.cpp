@@ -138,7 +138,8 @@ OdometrySurvey surveyOdometry(
     const PerceptionOptions& perception,
     const VisualOdometryOptions& visual)
 {
-  OdometrySurvey survey{wanted, {}, {}};
+  OdometrySurvey survey;
+  survey.source = wanted;
   const bool usesOdometry = wanted == PoseSource::Auto || wanted == PoseSource::Rawlog;
   if (!usesOdometry && wanted != PoseSource::Visual) return survey;
   options.keepGoing = true;
@@ -163,6 +164,8 @@ OdometrySurvey surveyOdometry(
     if (wanted == PoseSource::Rawlog || hasOdometry) return survey;
     if (wanted == PoseSource::Auto && moment.isPossible()) return survey;
     survey.source = PoseSource::Visual;
+    if (usesOdometry && !source.odometryKinds().empty())
+      survey.uselessKind = source.odometryKinds().front();
   }
   catch (const std::exception&)
   {

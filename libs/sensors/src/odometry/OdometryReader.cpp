@@ -143,6 +143,12 @@ void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
   sumOfActions_ += withUsableCovariance(movement->increment);
 }
 
+void OdometryReader::forgetOlderThan(double age)
+{
+  odometry_.forgetBefore(odometry_.latest() - age);
+  truth_.forgetBefore(truth_.latest() - age);
+}
+
 void OdometryReader::forgetBefore(double time)
 {
   odometry_.forgetBefore(time);

@@ -42,7 +42,8 @@ class OdometryReader
   const mrpt::poses::CPose3DPDFGaussian& sumOfActions() const { return sumOfActions_; }
   const PoseInterpolator& odometry() const { return odometry_; }
   const PoseInterpolator& truth() const { return truth_; }
-  void forgetBefore(double time);  //!< Forgets what no pose from this time on needs [s]
+  void forgetOlderThan(double age);  //!< Of each trajectory, by the time of its own last pose [s]
+  void forgetBefore(double time);    //!< Forgets what no pose from this time on needs [s]
 
  private:
   bool accept(const std::string& kind);

@@ -5,7 +5,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+
+#include "quadmap/geometry/StepCovariance.h"
 
 namespace quadmap
 {
@@ -31,7 +34,10 @@ CPose3DPDFGaussian interpolate(
     const CPose3DPDFGaussian& a, const CPose3DPDFGaussian& b, double share)
 {
   CPose3DPDFGaussian result(interpolate(a.mean, b.mean, share));
-  result.cov = (1 - share) * a.cov.asEigen() + share * b.cov.asEigen();
+  if (const auto added = addedCovariance(a, b))
+    result.cov = covarianceAfterStep(a, result.mean - a.mean, share * *added);
+  else
+    result.cov = (1 - share) * a.cov.asEigen() + share * b.cov.asEigen();
   return result;
 }
 }  // namespace
@@ -54,10 +60,12 @@ void PoseInterpolator::add(double time, const CPose3DPDFGaussian& pose)
     poses_.push_back({time, pose});
 }
 
-bool PoseInterpolator::reaches(double time) const
+double PoseInterpolator::latest() const
 {
-  return !poses_.empty() && poses_.back().time >= time - kSameTime;
+  return poses_.empty() ? -std::numeric_limits<double>::infinity() : poses_.back().time;
 }
+
+bool PoseInterpolator::reaches(double time) const { return latest() >= time - kSameTime; }
 
 std::optional<CPose3DPDFGaussian> PoseInterpolator::at(double time, double maxGap) const
 {

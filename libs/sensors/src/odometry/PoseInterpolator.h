@@ -20,12 +20,14 @@ class PoseInterpolator
   void add(double time, const mrpt::poses::CPose3DPDFGaussian& pose);
 
   bool empty() const { return poses_.empty(); }
+  double latest() const;  //!< Time of the last pose [s]; -infinity when there is none
   /** Whether the pose at this time [s] is known without any later pose. */
   bool reaches(double time) const;
 
-  /** The pose at a time [s], interpolated between its neighbours: rotation by slerp, position and
-   * covariance linearly. It is nothing outside the trajectory, and when the neighbours are more
-   * than `maxGap` [s] apart. */
+  /** The pose at a time [s], interpolated between its neighbours: rotation by slerp, position
+   * linearly. The covariance has its share of what the step between them adds; where nothing adds
+   * up (as with true poses), it is interpolated linearly. The pose is nothing outside the
+   * trajectory, and when the neighbours are more than `maxGap` [s] apart. */
   std::optional<mrpt::poses::CPose3DPDFGaussian> at(double time, double maxGap) const;
 
   /** Forgets what no pose from this time on needs [s]. */

@@ -82,8 +82,7 @@ void BoxBuffer::add(Entry entry)
   if (entry.boxes->timestamp == INVALID_TIMESTAMP)
     throw std::runtime_error("the boxes have no time stamp");
   const double time = secondsOf(entry);
-  auto& latest = latest_.emplace(label, time).first->second;
-  latest = std::max(latest, time);
+  latest_[label] = time;  // not the greatest: one wrong clock would end all waiting
   auto& queue = waiting_[label];
   const auto isLater = [](double t, const Entry& e) { return t < secondsOf(e); };
   queue.insert(std::upper_bound(queue.begin(), queue.end(), time, isLater), std::move(entry));

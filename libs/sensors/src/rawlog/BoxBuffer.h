@@ -56,7 +56,7 @@ class BoxBuffer
   std::optional<double> sidecarTime_;                 // latest time that was read [s]
   double stepBack_ = 0;                               // most by which its times go back [s]
   std::map<std::string, std::deque<Entry>> waiting_;  // by sensor, in the order of time
-  std::map<std::string, double> latest_;              // latest time of boxes, by sensor [s]
+  std::map<std::string, double> latest_;              // time of the last boxes, by sensor [s]
   std::map<std::string, std::size_t> dropped_;  // number of boxes that found no scan, by sensor
   std::size_t paired_ = 0;
   bool seenAny_ = false;

@@ -94,16 +94,30 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
   }
 }
 
-/** Whether everything that can belong to the frame was read. */
+/** Whether everything that can belong to the frame was read. The odometry in use and the sensor's
+ * own scans tell how far time has come. The clocks of all other records may be wrong. */
 bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
 {
+  if (pending_.size() > kMaxPending * lastScanTime_.size()) return true;
+  if (!posesAreKnown(pending)) return false;
   const double time = pending.frame.time();
-  const bool tooMany = pending_.size() > kMaxPending * lastScanTime_.size();
-  if (tooMany || latestTime_ > time + options.maxOdometryGap) return true;
-  if (latestTime_ <= time + options.maxBoxDelay) return false;
-  if (boxes.mayStillCome(pending.frame.scan->sensorLabel, time)) return false;
-  const bool odometryKnown = odometry.countsActions() || odometry.odometry().reaches(time);
-  return odometryKnown && (odometry.truth().empty() || odometry.truth().reaches(time));
+  const std::string& sensor = pending.frame.scan->sensorLabel;
+  const double now = std::max(lastScanTime_.at(sensor), odometry.odometry().latest());
+  if (now > time + options.maxOdometryGap) return true;
+  return now > time + options.maxBoxDelay && !boxes.mayStillCome(sensor, time);
+}
+
+/** Whether no record to come can give the frame a pose, or another one. A rawlog that has shown no
+ * odometry for long has none. */
+bool RawlogSource::Impl::posesAreKnown(const PendingFrame& pending) const
+{
+  const double time = pending.frame.time();
+  const PoseInterpolator &track = odometry.odometry(), &truth = odometry.truth();
+  const bool isLong =
+      lastScanTime_.at(pending.frame.scan->sensorLabel) > time + options.maxOdometryGap;
+  const bool odometryKnown =
+      odometry.countsActions() || track.reaches(time) || (track.empty() && isLong);
+  return odometryKnown && (truth.empty() || truth.reaches(time) || isLong);
 }
 
 std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)

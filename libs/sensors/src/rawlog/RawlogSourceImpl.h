@@ -50,6 +50,7 @@ struct RawlogSource::Impl
   void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
   void addScan(std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
   bool isReady(const PendingFrame& pending) const;
+  bool posesAreKnown(const PendingFrame& pending) const;
   std::optional<RgbdFrame> complete(PendingFrame pending);
   void addPoses(PendingFrame& pending);
   void addBoxes(RgbdFrame& frame);
@@ -65,7 +66,6 @@ struct RawlogSource::Impl
   std::map<std::string, std::size_t> content_;  // number of records by class
   std::set<std::string> warned_;
   std::set<std::string> unknownPixelLabels_;
-  double latestTime_ = -1e300;  // latest time of all records [s]
   bool ended_ = false, finished_ = false;
 };
 

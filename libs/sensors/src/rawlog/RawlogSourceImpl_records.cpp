@@ -85,9 +85,7 @@ void RawlogSource::Impl::readObservation(
   {
     return report({reader.file(), record, label, rootMessage(e)});
   }
-  if (observation->timestamp != INVALID_TIMESTAMP)
-    latestTime_ = std::max(latestTime_, mrpt::Clock::toDouble(observation->timestamp));
-  if (pending_.empty()) odometry.forgetBefore(latestTime_ - kMaxScanDelay);
+  if (pending_.empty()) odometry.forgetOlderThan(kMaxScanDelay);
   if (!odometry.ignoredKind().empty())
     warnOnce(
         reader.file() + ": poses are taken from " + odometry.kind() + ", not from " +

@@ -84,6 +84,11 @@ class RawlogRun
         {
           if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
         });
+    if (!survey_.uselessKind.empty())
+      slam_.warn(
+          request.rawlog + ": " + survey_.uselessKind +
+          " has no pose at the times of the first images (is a clock wrong?): visual odometry "
+          "replaces it");
   }
 
   RawlogRunSummary run()

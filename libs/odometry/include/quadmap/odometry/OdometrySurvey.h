@@ -20,6 +20,9 @@ struct OdometrySurvey
   /** The best of several kinds of odometry (see RawlogSourceOptions::odometryKind). It is empty
    * when there is at most one kind. */
   std::string odometryKind;
+  /** A kind that the rawlog has, but that gave the images no poses, so that visual odometry
+   * replaces it. It is empty otherwise. */
+  std::string uselessKind;
 };
 
 /** Looks at the first images of a rawlog. It finds out whether the rawlog has odometry, or shows a
