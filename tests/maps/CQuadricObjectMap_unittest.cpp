@@ -161,6 +161,49 @@ TEST(CQuadricObjectMap, WhatIsNotSeenAgainIsNotReported)
   EXPECT_EQ(map.objects().begin()->second.missCount, 30u);
 }
 
+TEST(CQuadricObjectMap, WhatIsFoundInHalfOfTheImagesFromOnePlaceIsThere)
+{
+  const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  walkAround(map, camera, chair, 6);
+  ASSERT_EQ(map.confirmedObjects().size(), 1u);
+  camera.disturbances.missProbability = 0.5;
+  const auto T = poseAround(0, 6);
+  for (int i = 0; i < 400; ++i) map.insertObservation(camera.observe(T, chair), T);
+  ASSERT_EQ(map.confirmedObjects().size(), 1u);
+  EXPECT_GT(map.confirmedObjects()[0]->missCount, 150u);
+}
+
+TEST(CQuadricObjectMap, ASteadyFalseAlarmFromOnePlaceIsNotReported)
+{
+  const std::vector<TrueObject> ghost = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  const auto T = poseAround(0, 6);
+  for (int i = 0; i < 100; ++i)
+  {
+    map.insertObservation(camera.observe(T, ghost), T);
+    EXPECT_TRUE(map.confirmedObjects().empty()) << i;
+  }
+}
+
+TEST(CQuadricObjectMap, AMissOfWhatIsAlwaysFoundSaysMore)
+{
+  const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto lostByMisses = [&](double missProbability)
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(8);
+    camera.disturbances.missProbability = missProbability;
+    walkAround(map, camera, chair, 40);
+    const double before = map.objects().begin()->second.existenceLogOdds;
+    walkAround(map, camera, {}, 4, {0, 0, 0.5}, 3.5);
+    return before - map.objects().begin()->second.existenceLogOdds;
+  };
+  EXPECT_GT(lostByMisses(0), 2 * lostByMisses(0.6));
+}
+
 TEST(CQuadricObjectMap, BoxesThatCannotBeUsedAreNoMisses)
 {
   const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};

@@ -18,14 +18,10 @@ ExistenceEvidence::ExistenceEvidence(const ExistenceOptions& options) :
 {
 }
 
-double existenceAfterDetection(double logOdds, double novelty, const ExistenceOptions& options)
+double existenceAfterDetections(double logOdds, double independent, const ExistenceOptions& options)
 {
-  return std::min(options.maxLogOdds, logOdds + novelty * ExistenceEvidence(options).detection());
-}
-
-double existenceAfterMiss(double logOdds, const ExistenceOptions& options)
-{
-  return std::max(-options.maxLogOdds, logOdds + ExistenceEvidence(options).miss());
+  return std::min(
+      options.maxLogOdds, logOdds + independent * ExistenceEvidence(options).detection());
 }
 
 std::optional<ImageBox> outlineInImage(

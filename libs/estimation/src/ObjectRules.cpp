@@ -128,7 +128,7 @@ bool areOneObject(
   if (shared > options.anyLabelIoU * (volumeA + volumeB - shared)) return true;
 
   // Thin things whose yaw is uncertain hardly overlap, for example a TV that is seen as boxes only.
-  // How far the ellipsoids penetrate along the line between the centres (13.4) tells more.
+  // How far the ellipsoids penetrate along the line between the centres (13.5) tells more.
   const Eigen::Vector3d n = (a.object.center() - b.object.center()) / std::max(distance, 1e-9);
   const bool penetrating =
       distance < options.penetration * (halfWidthAlong(a.object, n) + halfWidthAlong(b.object, n));

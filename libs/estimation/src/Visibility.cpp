@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "quadmap/geometry/Projection.h"
 
@@ -55,21 +54,6 @@ bool shouldBeVisible(
 
   return hiddenShare(*frame.depth, frame.camera, inside, nearestDepth - options.occluderMargin) <=
          options.maxHiddenShare;
-}
-
-/** nu of doc/mathematics.md, (13.1). */
-double viewNovelty(
-    const Eigen::Vector3d& camera,
-    const Eigen::Vector3d& center,
-    const std::deque<ObjectView>& earlier,
-    const ExistenceOptions& options)
-{
-  double moved = std::numeric_limits<double>::infinity();
-  for (const auto& view : earlier) moved = std::min(moved, (view.camera - camera).norm());
-  constexpr double kMinRange = 0.1;  // [m]
-  const double range = std::max(kMinRange, (center - camera).norm());
-  const double independent = options.independentViewAngle * range;
-  return std::clamp(moved / independent, options.repeatedViewWeight, 1.0);
 }
 
 std::optional<ImageBox> projectedBox(

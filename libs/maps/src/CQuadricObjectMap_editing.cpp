@@ -29,6 +29,7 @@ ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
   object.id = nextId_++;
   object.object = ellipsoidOf(uprightStateOf(estimated.object));
   object.confirmed = isConfirmed(object);
+  object.looks = ExistenceLooks(object.existenceLogOdds);
   object.estimator = ObjectEstimator::fromEstimate(
       {uprightStateOf(object.object), object.covariance, 0, object.orientationDefined},
       labels().properties(object.label()), insertionOptions.estimator);
@@ -48,6 +49,8 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
   a.completeCount += b.completeCount;
   a.partialCount += b.partialCount;
   a.missCount = std::min(a.missCount, b.missCount);
+  // What was a miss of the one was often a detection of the other: the better record is right.
+  if (b.existenceLogOdds > a.existenceLogOdds) a.looks = b.looks;
   a.existenceLogOdds = std::max(a.existenceLogOdds, b.existenceLogOdds);
   a.firstSeen = std::min(a.firstSeen, b.firstSeen);
   a.lastSeen = std::max(a.lastSeen, b.lastSeen);
@@ -114,7 +117,7 @@ bool CQuadricObjectMap::isDue(const Entry& object) const
   return object.observations() >= (1 + insertionOptions.estimateGrowth) * object.estimatedFrom;
 }
 
-/** Merges each touched object with those that are one with it, (13.3) and (13.4). */
+/** Merges each touched object with those that are one with it, (13.4) and (13.5). */
 void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)
 {
   while (!touched.empty())
@@ -149,6 +152,7 @@ void CQuadricObjectMap::consolidate()
     estimate(object, true);
     all.insert(id);
   }
+  judge(all);
   mergeOverlapping(all);
 }
 

@@ -24,17 +24,57 @@ double sizeDeviation(const Ellipsoid& object, const LabelProperties& label)
 
 }  // namespace
 
-/** (13.2) for each object that the frame should have shown and did not. */
-void CQuadricObjectMap::countMisses(const Frame& frame, const std::set<ObjectId>& touched)
+/** Notes each object that the frame should have shown and did not. \return Their ids. */
+std::set<ObjectId> CQuadricObjectMap::countMisses(
+    const Frame& frame, const std::set<ObjectId>& touched)
 {
   const auto& existence = insertionOptions.existence;
+  const auto& camera = frame.geometry.T_map_sensor;
+  std::set<ObjectId> missed;
   for (auto& [id, object] : objects_)
   {
     if (touched.count(id) != 0) continue;
     if (!shouldBeVisible(object.object, frame.geometry, existence)) continue;
     if (isShownByAFreeBox(object, frame)) continue;
     ++object.missCount;
-    object.existenceLogOdds = existenceAfterMiss(object.existenceLogOdds, existence);
+    object.looks.add(
+        {
+            {camera.x(), camera.y(), camera.z()},
+            mrpt::Clock::toDouble(frame.time), false
+    },
+        object.object.center(), existence);
+    missed.insert(id);
+  }
+  return missed;
+}
+
+/** (13.3): p_D of each label by the looks at its objects, each object as far as it exists. */
+std::map<std::string, double> CQuadricObjectMap::detectionProbabilities() const
+{
+  const auto& existence = insertionOptions.existence;
+  std::map<std::string, LookCounts> counts;
+  for (const auto& [id, object] : objects_)
+  {
+    const LookCounts looks = object.looks.independent(existence);
+    LookCounts& sum = counts[object.label()];
+    sum.seen += object.existence() * looks.seen;
+    sum.missed += object.existence() * looks.missed;
+  }
+  std::map<std::string, double> probabilities;
+  for (const auto& [label, sum] : counts)
+    probabilities[label] = detectionProbability(sum, existence.detectionProbability, existence);
+  return probabilities;
+}
+
+/** Takes stock of the objects that a frame looked at. */
+void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
+{
+  const auto probabilities = detectionProbabilities();
+  for (const ObjectId id : looked)
+  {
+    Entry& object = require(id);
+    object.existenceLogOdds =
+        object.looks.logOdds(probabilities.at(object.label()), insertionOptions.existence);
     object.confirmed = isConfirmed(object);
   }
 }
@@ -57,7 +97,7 @@ bool CQuadricObjectMap::isShownByAFreeBox(const MapObject& object, const Frame& 
   return false;
 }
 
-/** The list after (13.2). */
+/** The list after (13.3). */
 bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
 {
   const auto& existence = insertionOptions.existence;

@@ -78,15 +78,11 @@ bool CQuadricObjectMap::insertObjects(
   associate(frame);
   std::set<ObjectId> touched;
   joinOrStart(frame, touched);
-  countMisses(frame, touched);
+  std::set<ObjectId> looked = countMisses(frame, touched);
+  looked.insert(touched.begin(), touched.end());
   for (const ObjectId id : touched)
-  {
-    Entry& object = require(id);
-    if (isDue(object))
-      estimate(object, false);
-    else
-      object.confirmed = isConfirmed(object);
-  }
+    if (Entry& object = require(id); isDue(object)) estimate(object, false);
+  judge(looked);
   mergeOverlapping(touched);
   return !touched.empty();
 }
@@ -129,17 +125,15 @@ ObjectId CQuadricObjectMap::startObject(const std::vector<WaitingList::Entry>& e
   return id;
 }
 
-/** (13.1) is the evidence of the view; the estimator keeps its measurement. */
+/** The look is evidence that the object exists; the estimator keeps the view's measurement. */
 void CQuadricObjectMap::addView(Entry& object, const WaitingList::Entry& entry)
 {
-  const auto& existence = insertionOptions.existence;
   ++object.labelCounts[entry.view.label];
   ++(entry.view.complete ? object.completeCount : object.partialCount);
   object.lastSeen = entry.time;
-  object.existenceLogOdds = existenceAfterDetection(
-      object.existenceLogOdds,
-      viewNovelty(entry.view.camera, entry.view.center, object.estimator.views(), existence),
-      existence);
+  object.looks.add(
+      {entry.view.camera, mrpt::Clock::toDouble(entry.time), true}, entry.view.center,
+      insertionOptions.existence);
   object.estimator.add(entry.view, insertionOptions.estimator);
 }
 

@@ -164,6 +164,7 @@ try
     Entry& entry = objects_[object.id];
     static_cast<MapObject&>(entry) = object;
     entry.estimator = ObjectEstimator::fromSummary(readPrior(in));
+    entry.looks = ExistenceLooks(object.existenceLogOdds);
   }
   for (auto n = readCount(in, kMaxObjects, "instances"); n > 0; --n)
   {

@@ -89,16 +89,25 @@ void describeExistence(InsertionOptions& o, OptionList& list)
 {
   list.number(
       "detectionProbability", o.existence.detectionProbability, {0.001, 0.999}, "",
-      "A visible object is detected with this probability per frame.");
+      "A visible object is detected with this probability per frame, as long as the run has shown "
+      "nothing else: mean of the prior. What each label's objects show then counts on top.");
+  list.number(
+      "detectionPriorWeight", o.existence.detectionPriorWeight, {kSmall, 1e6}, "looks",
+      "Weight of that prior against the run's independent looks.");
   list.number(
       "falseAlarmProbability", o.existence.falseAlarmProbability, {0.0001, 0.999}, "",
       "A box appears where nothing is with this probability per frame.");
   list.angle(
       "independentViewAngle_deg", o.existence.independentViewAngle, {0.001, 180},
-      "A detection counts in full when the camera moved this far around the object since others.");
+      "A look counts in full, whether it shows the object or not, when the camera moved this far "
+      "around the object since others.");
+  list.number(
+      "independentViewTime", o.existence.independentViewTime, {kSmall, 1e6}, "s",
+      "A look counts in full, too, when there was none from about its place for so long.");
   list.number(
       "repeatedViewWeight", o.existence.repeatedViewWeight, {kSmall, 1}, "",
-      "Weight of a detection when the camera did not move at all.");
+      "Share of a further look that is independent when the camera did not move at all. All looks "
+      "from one place together count as much as 1 / (1 - share) independent ones.");
   list.number(
       "maxLogOdds", o.existence.maxLogOdds, {kSmall, 1000}, "ln",
       "Bound of the evidence, so that it can turn.");

@@ -316,7 +316,7 @@ MapObject QuadricObjects::finished(const QuadricObject& object, const PoseOf& po
   double independent = 0;
   for (const double share : independentShares(cameras, out.object.center(), existence))
     independent += share;
-  out.existenceLogOdds = existenceAfterDetection(0, independent, existence);
+  out.existenceLogOdds = existenceAfterDetections(0, independent, existence);
   return out;
 }
 

@@ -19,7 +19,7 @@ class ExistenceEvidence
   ExistenceEvidence(double detectionProbability, double falseAlarmProbability);
   explicit ExistenceEvidence(const ExistenceOptions& options);
 
-  /** Of a frame that shows the object, doc/mathematics.md, (13.1) with nu = 1; > 0. */
+  /** Of a frame that shows the object, doc/mathematics.md, (13.2); > 0. */
   double detection() const { return detection_; }
   /** Of a frame that should have shown the object and did not, doc/mathematics.md, (13.2); < 0. */
   double miss() const { return miss_; }
@@ -28,12 +28,9 @@ class ExistenceEvidence
   double detection_, miss_;
 };
 
-/** Log-odds after one more detection, doc/mathematics.md, (13.1), bounded by maxLogOdds.
- * \param novelty nu, how much of it earlier ones did not tell (see viewNovelty), in (0, 1]. */
-double existenceAfterDetection(double logOdds, double novelty, const ExistenceOptions& options);
-
-/** Log-odds after one more miss, doc/mathematics.md, (13.2), bounded by -maxLogOdds. */
-double existenceAfterMiss(double logOdds, const ExistenceOptions& options);
+/** Log-odds after so many independent detections, (13.2), bounded by maxLogOdds. */
+double existenceAfterDetections(
+    double logOdds, double independent, const ExistenceOptions& options);
 
 /** When a box that was not joined with an object shows it all the same. */
 struct ShownRule

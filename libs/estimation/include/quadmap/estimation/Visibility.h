@@ -2,7 +2,6 @@
 
 #include <mrpt/poses/CPose3D.h>
 
-#include <deque>
 #include <optional>
 
 #include "quadmap/estimation/MapObject.h"
@@ -14,15 +13,19 @@
 namespace quadmap
 {
 /** Evidence for and against an object's existence, as log-odds. A detection adds ln(pD/pFA), a
- * frame that should have shown the object and did not adds ln((1-pD)/(1-pFA)). */
+ * frame that should have shown the object and did not adds ln((1-pD)/(1-pFA)). Both count as far as
+ * they are independent of other looks. */
 struct ExistenceOptions
 {
-  double detectionProbability = 0.5;   //!< pD: of a visible object, per frame, in (0, 1)
+  double detectionProbability = 0.5;   //!< Prior mean of pD, of a visible object, in (0, 1)
+  double detectionPriorWeight = 10;    //!< Weight of that prior [independent looks], > 0
   double falseAlarmProbability = 0.1;  //!< pFA: a box where nothing is, in (0, pD)
-  /** A detector repeats a mistake as long as it looks from the same place: a detection counts in
-   * full when the camera has moved by this angle as seen from the object since any earlier one. */
+  /** A detector repeats a mistake as long as it looks from the same place: a look, be it a
+   * detection or a miss, counts in full when the camera has moved by this angle as seen from the
+   * object since any other one. */
   double independentViewAngle = 0.1;  //!< [rad], > 0; INI `independentViewAngle_deg`
-  double repeatedViewWeight = 0.25;   //!< Weight of one more detection from one place, in (0, 1]
+  double independentViewTime = 10;    //!< ... or has been away for so long [s], > 0
+  double repeatedViewWeight = 0.25;   //!< Share of a repeated look that is independent, in (0, 1]
   double maxLogOdds = 10;             //!< Bound, so that evidence can turn, > 0
   double confirmLogOdds = 3;          //!< Reported above this
   int minComplete = 3;                //!< Reported with this many complete measurements, >= 1
@@ -55,14 +58,6 @@ struct FrameGeometry
  * is known of what hides it without depth. */
 bool shouldBeVisible(
     const Ellipsoid& object, const FrameGeometry& frame, const ExistenceOptions& options);
-
-/** How much one more view from a camera tells that earlier ones did not, in (0, 1].
- * \param center Of the object [m]. */
-double viewNovelty(
-    const Eigen::Vector3d& camera,
-    const Eigen::Vector3d& center,
-    const std::deque<ObjectView>& earlier,
-    const ExistenceOptions& options);
 
 /** Box of the object's outline in the image: of the cuboid or the ellipsoid, whichever the shape
  * exponent is nearer to; not clipped. */

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "quadmap/estimation/Association.h"
+#include "quadmap/estimation/ExistenceLooks.h"
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/maps/FramePairing.h"
 #include "quadmap/maps/MapOptions.h"
@@ -139,6 +140,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   {
     friend class CQuadricObjectMap;
     ObjectEstimator estimator;
+    ExistenceLooks looks;
     unsigned estimatedFrom = 0;  // number of measurements of the latest estimate
   };
   using Objects = std::map<ObjectId, Entry>;
@@ -282,7 +284,9 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void joinOrStart(const Frame& frame, std::set<ObjectId>& touched);
   ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
   void addView(Entry& object, const WaitingList::Entry& entry);
-  void countMisses(const Frame& frame, const std::set<ObjectId>& touched);
+  std::set<ObjectId> countMisses(const Frame& frame, const std::set<ObjectId>& touched);
+  std::map<std::string, double> detectionProbabilities() const;  // of the labels, learnt so far
+  void judge(const std::set<ObjectId>& looked);
   /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
   bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;
   void mergeOverlapping(std::set<ObjectId> touched);

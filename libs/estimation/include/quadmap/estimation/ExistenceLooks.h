@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <deque>
+
+#include "quadmap/estimation/Visibility.h"
+
+namespace quadmap
+{
+/** Numbers of independent looks that saw an object and that did not. */
+struct LookCounts
+{
+  double seen = 0, missed = 0;
+};
+
+/** Probability p_D that a look sees an object, (13.3) of doc/mathematics.md: the counts on top of a
+ * prior that weighs as much as `existence.detectionPriorWeight` looks. */
+double detectionProbability(
+    const LookCounts& counts, double priorMean, const ExistenceOptions& existence);
+
+/** All looks at one object: the frames that showed it, and those that should have. Looks from one
+ * place at one time make the same mistakes, whether they see the object or not. They are kept as
+ * one visit, and visits near each other share what they know: doc/mathematics.md, (13.1). */
+class ExistenceLooks
+{
+ public:
+  struct Look
+  {
+    Eigen::Vector3d camera = Eigen::Vector3d::Zero();  //!< Where from, in the map [m]
+    double time = 0;                                   //!< [s]
+    bool seen = false;
+  };
+
+  ExistenceLooks() = default;
+  /** Knows only what all looks so far, which are not there any more, made of the log-odds. */
+  explicit ExistenceLooks(double logOdds) : before_{logOdds, {}} {}
+
+  /** \param center Of the object [m]. */
+  void add(const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options);
+
+  LookCounts independent(const ExistenceOptions& options) const;
+
+  /** Log-odds that the object exists, (13.2). \param labelProbability p_D of its label. */
+  double logOdds(double labelProbability, const ExistenceOptions& options) const;
+
+ private:
+  struct Visit
+  {
+    Eigen::Vector3d camera = Eigen::Vector3d::Zero();
+    double reach = 0;            // beyond it a camera's mistakes are others [m]
+    double first = 0, last = 0;  // times [s]
+    unsigned seen = 0, missed = 0;
+    double crowd = 0;  // sum of the correlations with all looks, its own included
+
+    unsigned looks() const { return seen + missed; }
+  };
+  struct Known
+  {
+    double logOdds = 0;
+    LookCounts counts;
+  };
+
+  static double correlation(const Visit& of, const Visit& with, const ExistenceOptions& options);
+  static LookCounts independent(const Visit& visit, const ExistenceOptions& options);
+  static void take(
+      const Visit& visit, double labelProbability, const ExistenceOptions& options, Known& known);
+
+  std::deque<Visit> visits_;  // in the order of their beginning
+  Known before_;              // of visits that are not kept any more
+};
+
+}  // namespace quadmap

@@ -1,0 +1,121 @@
+#include "quadmap/estimation/ExistenceLooks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace quadmap;
+
+namespace
+{
+const ExistenceOptions kOptions;
+const Eigen::Vector3d kObject(0, 0, 0);
+
+/** A place on a circle around the object. \param angle Where [rad]. */
+Eigen::Vector3d placeAt(double angle) { return {3 * std::cos(angle), 3 * std::sin(angle), 0}; }
+
+/** Looks at 10 Hz. \param step Angle from one look to the next [rad]. */
+ExistenceLooks looks(const std::vector<bool>& seen, double step, double time = 0)
+{
+  ExistenceLooks result;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    result.add(
+        {placeAt(step * static_cast<double>(i)), time + 0.1 * static_cast<double>(i), seen[i]},
+        kObject, kOptions);
+  return result;
+}
+
+std::vector<bool> alternating(std::size_t n)
+{
+  std::vector<bool> seen;
+  for (std::size_t i = 0; i < n; ++i) seen.push_back(i % 2 == 0);
+  return seen;
+}
+
+double logOdds(const ExistenceLooks& looks)
+{
+  return looks.logOdds(kOptions.detectionProbability, kOptions);
+}
+}  // namespace
+
+TEST(ExistenceLooks, FromOnePlaceCountAsFewHoweverManyTheyAre)
+{
+  const double most = 1 / (1 - kOptions.repeatedViewWeight);
+  for (const std::size_t n : {5u, 50u, 400u})
+  {
+    const ExistenceLooks seen = looks(std::vector<bool>(n, true), 0);
+    const ExistenceLooks missed = looks(std::vector<bool>(n, false), 0);
+    EXPECT_LT(seen.independent(kOptions).seen, most);
+    EXPECT_LT(logOdds(seen), kOptions.confirmLogOdds) << "a steady false alarm, " << n;
+    EXPECT_NEAR(seen.independent(kOptions).seen, missed.independent(kOptions).missed, 1e-12);
+  }
+}
+
+TEST(ExistenceLooks, DetectionsAndMissesOfOnePlaceWeighAlike)
+{
+  auto seen = alternating(400);
+  const ExistenceLooks inTurn = looks(seen, 0);
+  EXPECT_GT(logOdds(inTurn), 0) << "a detector that finds it every second time has found it";
+  std::shuffle(seen.begin(), seen.end(), std::mt19937(1));
+  EXPECT_NEAR(logOdds(looks(seen, 0)), logOdds(inTurn), 1e-9) << "in any order";
+  const LookCounts counts = inTurn.independent(kOptions);
+  EXPECT_NEAR(counts.seen, counts.missed, 1e-12);
+}
+
+TEST(ExistenceLooks, FromFarApartCountInFull)
+{
+  const ExistenceLooks apart = looks({true, false, true}, 0.5);
+  EXPECT_NEAR(apart.independent(kOptions).seen, 2, 1e-12);
+  EXPECT_NEAR(apart.independent(kOptions).missed, 1, 1e-12);
+  // Chords of 0.05 rad are half of the angle: two looks with k = 0.5.
+  const double share = 1 / (1 + 0.75 * 0.5);
+  EXPECT_NEAR(looks({true, true}, 0.05).independent(kOptions).seen, 2 * share, 1e-3);
+}
+
+TEST(ExistenceLooks, FromOnePlaceLongAfterwardsCountInFull)
+{
+  ExistenceLooks back;
+  for (const double time : {0.0, 2 * kOptions.independentViewTime})
+    back.add({placeAt(0), time, true}, kObject, kOptions);
+  EXPECT_NEAR(back.independent(kOptions).seen, 2, 1e-12);
+}
+
+TEST(ExistenceLooks, EvidenceCanTurn)
+{
+  ExistenceLooks gone = looks(std::vector<bool>(60, true), 0.1);
+  EXPECT_EQ(logOdds(gone), kOptions.maxLogOdds);
+  for (int i = 0; i < 60; ++i)
+    gone.add({placeAt(0.1 * i), 100 + 0.1 * i, false}, kObject, kOptions);
+  EXPECT_LT(logOdds(gone), -kOptions.confirmLogOdds);
+}
+
+TEST(ExistenceLooks, ForgottenVisitsLeaveWhatTheySaid)
+{
+  ExistenceLooks walk;
+  for (int i = 0; i < 5000; ++i)
+    walk.add(
+        {
+            {3, 0.5 * i, 0},
+            0.1 * i, i % 4 != 0
+    },
+        {0, 0.5 * i, 0}, kOptions);
+  EXPECT_NEAR(walk.independent(kOptions).seen, 3750, 1e-6);
+  EXPECT_NEAR(walk.independent(kOptions).missed, 1250, 1e-6);
+}
+
+TEST(ExistenceLooks, KnowWhatAFileSaid)
+{
+  EXPECT_EQ(ExistenceLooks(4.5).logOdds(0.7, kOptions), 4.5);
+  ExistenceLooks more(4.5);
+  more.add({placeAt(0), 0, true}, kObject, kOptions);
+  EXPECT_NEAR(more.logOdds(0.5, kOptions), 4.5 + std::log(5), 1e-12);
+}
+
+TEST(DetectionProbability, IsTheMeanOfPriorAndLooks)
+{
+  EXPECT_DOUBLE_EQ(detectionProbability({}, 0.5, kOptions), 0.5);
+  EXPECT_DOUBLE_EQ(detectionProbability({30, 0}, 0.5, kOptions), 35.0 / 40);
+  EXPECT_DOUBLE_EQ(
+      detectionProbability({0, 1e6}, 0.5, kOptions), 2 * kOptions.falseAlarmProbability);
+}
