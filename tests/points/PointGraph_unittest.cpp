@@ -1,6 +1,7 @@
 #include "PointGraph.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "PointWorld.h"
 
@@ -87,6 +88,14 @@ Eigen::MatrixXd covarianceByDifferences(const PointGraph<D>& graph)
   return (J.transpose() * J).inverse();
 }
 
+/** The most memory that this program has needed so far [bytes]. */
+long residentBytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * usage.ru_maxrss;
+}
+
 template <typename Dimension>
 class PointGraphs : public ::testing::Test
 {
@@ -106,23 +115,50 @@ TYPED_TEST(PointGraphs, MarginalsAreThoseOfTheWholeInformationMatrix)
   constexpr double kNoHuber = 1e6;
   const PointGraph<D> graph = shortWalk<D>();
   const Eigen::MatrixXd all = covarianceByDifferences<D>(graph);
-  const auto marginals = graph.marginals(kNoHuber);
   const auto objects = D * static_cast<Eigen::Index>(graph.objects.size());
   const double tolerance = 1e-4 * all.diagonal().maxCoeff();  // error of the differences
-  EXPECT_LT(
-      (marginals.objects - all.bottomRightCorner(objects, objects)).cwiseAbs().maxCoeff(),
-      tolerance);
-  for (std::size_t k = 1; k < graph.poses.size(); ++k)
+  std::size_t next = graph.poses.size();
+  const auto compare = [&](std::size_t k, const auto& marginal, const Eigen::MatrixXd&)
   {
+    EXPECT_EQ(k, --next) << "from the last to the first";
+    if (k == 0) return true;
     const auto first = kP * static_cast<Eigen::Index>(k - 1);
+    EXPECT_LT((marginal.pose - all.block<kP, kP>(first, first)).cwiseAbs().maxCoeff(), tolerance);
     EXPECT_LT(
-        (marginals.pose[k] - all.block<kP, kP>(first, first)).cwiseAbs().maxCoeff(), tolerance);
-    EXPECT_LT(
-        (marginals.poseObjects[k] - all.block(first, all.cols() - objects, kP, objects))
+        (marginal.poseObjects - all.block(first, all.cols() - objects, kP, objects))
             .cwiseAbs()
             .maxCoeff(),
         tolerance);
-  }
+    return true;
+  };
+  const Eigen::MatrixXd covariance = graph.marginals(kNoHuber, compare);
+  EXPECT_EQ(next, 0u);
+  EXPECT_LT(
+      (covariance - all.bottomRightCorner(objects, objects)).cwiseAbs().maxCoeff(), tolerance);
+}
+
+TYPED_TEST(PointGraphs, MemoryDoesNotGrowWithPosesTimesObjects)
+{
+  constexpr int D = TypeParam::value;
+  constexpr std::size_t kPoses = 4000, kObjects = 80;
+  PointGraph<D> graph;
+  graph.poses.resize(kPoses);
+  graph.steps.resize(kPoses - 1);
+  graph.objects.assign(kObjects, PointVector<D>::Ones());
+  for (std::size_t k = 0; k < kPoses; ++k)
+    graph.sights.push_back({k, k % kObjects, PointVector<D>::Ones(), PointMatrix<D>::Identity()});
+  std::size_t visited = 0;
+  const long before = residentBytes();
+  graph.marginals(
+      1,
+      [&](std::size_t, const auto&, const auto&)
+      {
+        ++visited;
+        return true;
+      });
+  EXPECT_EQ(visited, kPoses);
+  const double dense = 8.0 * kPoses * kPoseIncrement<D> * D * kObjects;
+  EXPECT_LT(static_cast<double>(residentBytes() - before), 0.5 * dense + 8e6);
 }
 
 TYPED_TEST(PointGraphs, OptimisationEndsWhereTheGradientIsZero)

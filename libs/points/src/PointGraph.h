@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "quadmap/points/PointTypes.h"
@@ -31,17 +32,24 @@ class PointGraph
    *  \return The cost, half the sum of squared residuals under the kernel. */
   double optimise(double huber, int maxIterations);
 
-  /** Covariances of increments (shift, turn along the axes of the map) of poses and objects. */
-  struct Marginals
+  /** Covariance of increments (shift, turn along the axes of the map) of one pose, and its cross
+   * covariance with those of all objects. */
+  struct PoseMarginal
   {
-    std::vector<PoseIncrementMatrix<D>> pose;
-    std::vector<Eigen::MatrixXd> poseObjects;  //!< Cross covariance of each pose with all objects
-    Eigen::MatrixXd objects;
+    PoseIncrementMatrix<D> pose;
+    Eigen::MatrixXd poseObjects;
   };
+  /** Is told the marginals of a pose and of the objects. \return False when it needs no more. */
+  using PoseVisitor = std::function<bool(
+      std::size_t pose, const PoseMarginal& marginal, const Eigen::MatrixXd& objects)>;
+
   /** Exact marginal covariances at the current estimate: doc/mathematics.md, section 18. The poses
    * are eliminated one by one, and their covariances are recovered backwards. Sights have the
-   * weights of Huber's kernel. */
-  Marginals marginals(double huber) const;
+   * weights of Huber's kernel. The memory grows with the number of objects times the square root of
+   * the number of poses.
+   * \param visit Is called for each pose, from the last one to the first.
+   * \return Covariance of all objects. */
+  Eigen::MatrixXd marginals(double huber, const PoseVisitor& visit = {}) const;
 };
 
 }  // namespace quadmap

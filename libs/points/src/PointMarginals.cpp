@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "PointGraph.h"
 #include "quadmap/estimation/RobustKernel.h"
@@ -7,13 +9,18 @@ namespace quadmap
 {
 namespace
 {
-/** Information matrix of a chain of poses and the objects. Pose k has three blocks: its own, the
- * one with pose k + 1, and the one with the objects. */
+/** Information matrix of a chain of poses and the objects. Pose k has its own block, the one with
+ * pose k + 1, and one with each object that it saw. */
 template <int D>
 struct Chain
 {
+  struct Link
+  {
+    Eigen::Index object = 0;  //!< Its first column
+    Eigen::Matrix<double, kPoseIncrement<D>, D> information;
+  };
   std::vector<PoseIncrementMatrix<D>> own, next;
-  std::vector<Eigen::MatrixXd> objects;
+  std::vector<std::vector<Link>> objects;
   Eigen::MatrixXd border;  //!< The block of the objects
 };
 
@@ -67,7 +74,7 @@ void addSight(
   byPose.template rightCols<kTurn<D>>() = -Rt * movedByTurn<D>(object - pose.t);
   const auto o = D * static_cast<Eigen::Index>(sight.object);
   chain.own[sight.pose] += byPose.transpose() * information * byPose;
-  chain.objects[sight.pose].template middleCols<D>(o) += byPose.transpose() * information * Rt;
+  chain.objects[sight.pose].push_back({o, byPose.transpose() * information * Rt});
   chain.border.template block<D, D>(o, o) += Rt.transpose() * information * Rt;
 }
 
@@ -87,7 +94,7 @@ Chain<D> informationOf(const PointGraph<D>& graph, double huber)
   Chain<D> chain;
   chain.own.assign(poses.size(), PoseIncrementMatrix<D>::Zero());
   chain.next.assign(poses.size(), PoseIncrementMatrix<D>::Zero());
-  chain.objects.assign(poses.size(), Eigen::MatrixXd::Zero(kPoseIncrement<D>, n));
+  chain.objects.resize(poses.size());
   chain.border = kVague * Eigen::MatrixXd::Identity(n, n);
   for (std::size_t k = 0; k < poses.size(); ++k)
     if (k == 0 || graph.posesFixed) chain.own[k] += kFixed * PoseIncrementMatrix<D>::Identity();
@@ -98,54 +105,102 @@ Chain<D> informationOf(const PointGraph<D>& graph, double huber)
   return chain;
 }
 
-/** Eliminates the poses one after the other: pose k is expressed by pose k + 1 and the objects.
- * \return The covariance of each pose on condition that these are known. */
+/** The information of pose k when the poses before it are eliminated: pose k is then expressed by
+ * pose k + 1 and the objects. */
 template <int D>
-std::vector<PoseIncrementMatrix<D>> eliminatePoses(Chain<D>& chain)
+class Elimination
 {
-  const std::size_t last = chain.own.size() - 1;
-  std::vector<PoseIncrementMatrix<D>> covariance(chain.own.size());
-  for (std::size_t k = 0; k <= last; ++k)
+ public:
+  Elimination(const Chain<D>& chain, std::size_t k, const PoseIncrementMatrix<D>& own) :
+      covariance_(own.inverse()),
+      objects_(Eigen::MatrixXd::Zero(kPoseIncrement<D>, chain.border.cols()))
   {
-    covariance[k] = chain.own[k].inverse();
-    const Eigen::MatrixXd byObjects = covariance[k] * chain.objects[k];
-    chain.border.noalias() -= chain.objects[k].transpose() * byObjects;
-    if (k == last) break;
-    chain.own[k + 1] -= chain.next[k].transpose() * covariance[k] * chain.next[k];
-    chain.objects[k + 1].noalias() -= chain.next[k].transpose() * byObjects;
+    for (const auto& link : chain.objects[k])
+      objects_.template middleCols<D>(link.object) += link.information;
   }
-  return covariance;
+
+  /** The same of pose k + 1. */
+  Elimination next(const Chain<D>& chain, std::size_t k) const
+  {
+    const auto& toNext = chain.next[k];
+    Elimination later(chain, k + 1, chain.own[k + 1] - toNext.transpose() * covariance_ * toNext);
+    later.objects_.noalias() -= toNext.transpose() * byObjects();
+    return later;
+  }
+
+  /** Covariance of the pose on condition that pose k + 1 and the objects are known. */
+  const PoseIncrementMatrix<D>& covariance() const { return covariance_; }
+  Eigen::MatrixXd byObjects() const { return covariance_ * objects_; }
+  /** What the pose tells of the objects. */
+  void eliminateFrom(Eigen::MatrixXd& border) const
+  {
+    border.noalias() -= objects_.transpose() * byObjects();
+  }
+
+ private:
+  PoseIncrementMatrix<D> covariance_;
+  Eigen::MatrixXd objects_;
+};
+
+/** Marginals of pose k from those of pose k + 1 (none for the last pose) and of the objects. */
+template <int D>
+typename PointGraph<D>::PoseMarginal recover(
+    const Chain<D>& chain,
+    std::size_t k,
+    const Elimination<D>& eliminated,
+    const Eigen::MatrixXd& objects,
+    const typename PointGraph<D>::PoseMarginal* later)
+{
+  typename PointGraph<D>::PoseMarginal result;
+  const Eigen::MatrixXd U_o = eliminated.byObjects();
+  result.poseObjects.noalias() = -U_o * objects;
+  result.pose = eliminated.covariance() - result.poseObjects * U_o.transpose();
+  if (!later) return result;
+  const PoseIncrementMatrix<D> U_n = eliminated.covariance() * chain.next[k];
+  result.poseObjects.noalias() -= U_n * later->poseObjects;
+  const PoseIncrementMatrix<D> mixed = U_n * later->poseObjects * U_o.transpose();
+  result.pose += mixed + mixed.transpose() + U_n * later->pose * U_n.transpose();
+  return result;
 }
 
 }  // namespace
 
 template <int D>
-typename PointGraph<D>::Marginals PointGraph<D>::marginals(double huber) const
+Eigen::MatrixXd PointGraph<D>::marginals(double huber, const PoseVisitor& visit) const
 {
-  Chain<D> chain = informationOf(*this, huber);
-  const auto covariance = eliminatePoses(chain);
-
-  // Going backwards, the covariances of pose k + 1 and of the objects are known.
-  Marginals result;
-  result.objects = inverseOf<D>(chain.border);
-  result.pose.resize(poses.size());
-  result.poseObjects.resize(poses.size());
-  for (std::size_t k = poses.size(); k-- > 0;)
+  // Each elimination has a row of all objects. Only some are kept, and those between are done
+  // again.
+  const std::size_t n = poses.size();
+  const auto stride = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
+  const Chain<D> chain = informationOf(*this, huber);
+  Eigen::MatrixXd border = chain.border;
+  std::vector<Elimination<D>> kept;
+  Elimination<D> eliminated(chain, 0, chain.own[0]);
+  for (std::size_t k = 0; k < n; ++k)
   {
-    const Eigen::MatrixXd U_o = covariance[k] * chain.objects[k];
-    result.poseObjects[k].noalias() = -U_o * result.objects;
-    result.pose[k] = covariance[k] - result.poseObjects[k] * U_o.transpose();
-    if (k + 1 == poses.size()) continue;
-    const PoseIncrementMatrix<D> U_n = covariance[k] * chain.next[k];
-    const Eigen::MatrixXd& later = result.poseObjects[k + 1];
-    result.poseObjects[k].noalias() -= U_n * later;
-    const PoseIncrementMatrix<D> mixed = U_n * later * U_o.transpose();
-    result.pose[k] += mixed + mixed.transpose() + U_n * result.pose[k + 1] * U_n.transpose();
+    if (k > 0) eliminated = eliminated.next(chain, k - 1);
+    if (k % stride == 0) kept.push_back(eliminated);
+    eliminated.eliminateFrom(border);
   }
-  return result;
+  const Eigen::MatrixXd objectCovariance = inverseOf<D>(border);
+  if (!visit) return objectCovariance;
+
+  std::optional<PoseMarginal> later;
+  for (std::size_t part = kept.size(); part-- > 0;)
+  {
+    const std::size_t first = part * stride, end = std::min(n, first + stride);
+    std::vector<Elimination<D>> between = {kept[part]};
+    for (std::size_t k = first; k + 1 < end; ++k) between.push_back(between.back().next(chain, k));
+    for (std::size_t k = end; k-- > first;)
+    {
+      later = recover<D>(chain, k, between[k - first], objectCovariance, later ? &*later : nullptr);
+      if (!visit(k, *later, objectCovariance)) return objectCovariance;
+    }
+  }
+  return objectCovariance;
 }
 
-template PointGraph<2>::Marginals PointGraph<2>::marginals(double) const;
-template PointGraph<3>::Marginals PointGraph<3>::marginals(double) const;
+template Eigen::MatrixXd PointGraph<2>::marginals(double, const PoseVisitor&) const;
+template Eigen::MatrixXd PointGraph<3>::marginals(double, const PoseVisitor&) const;
 
 }  // namespace quadmap

@@ -153,10 +153,9 @@ template <int D>
 bool PointSlamImpl<D>::reassociate(const Ids& ids)
 {
   const PointGraph<D> graph = graphOf(ids);
-  const auto marginals = graph.marginals(options_.huber);
   bool anyChanged = false;
-  std::vector<std::vector<PointDecision>> decisions;
-  for (std::size_t k = 0; k < frames_.size(); ++k)
+  std::vector<std::vector<PointDecision>> decisions(frames_.size());
+  const auto decideAgain = [&](std::size_t k, const auto& marginal, const Eigen::MatrixXd& objects)
   {
     const Frame& frame = frames_[k];
     Innovations innovations(frame.measurements.size());
@@ -165,19 +164,21 @@ bool PointSlamImpl<D>::reassociate(const Ids& ids)
       {
         const auto o = D * static_cast<Eigen::Index>(i);
         innovations[m].push_back(innovationOf<D>(
-            {graph.poses[k], graph.objects[i], marginals.pose[k],
-             marginals.poseObjects[k].template middleCols<D>(o),
-             marginals.objects.template block<D, D>(o, o)},
+            {graph.poses[k], graph.objects[i], marginal.pose,
+             marginal.poseObjects.template middleCols<D>(o), objects.template block<D, D>(o, o)},
             frame.measurements[m]));
       }
-    decisions.push_back(decide(frame, ids, innovations));
+    decisions[k] = decide(frame, ids, innovations);
     for (std::size_t m = 0; m < frame.decisions.size(); ++m)
     {
-      decisions.back()[m].startedObject = frame.decisions[m].startedObject &&
-                                          decisions.back()[m].object == frame.decisions[m].object;
-      anyChanged |= decisions.back()[m].object != frame.decisions[m].object;
+      PointDecision& decision = decisions[k][m];
+      decision.startedObject =
+          frame.decisions[m].startedObject && decision.object == frame.decisions[m].object;
+      anyChanged |= decision.object != frame.decisions[m].object;
     }
-  }
+    return true;
+  };
+  graph.marginals(options_.huber, decideAgain);
   for (std::size_t k = 0; k < frames_.size(); ++k) frames_[k].decisions = std::move(decisions[k]);
   for (std::size_t id = 0; id < landmarks_.size(); ++id)
     if (std::find(ids.begin(), ids.end(), id) == ids.end()) landmarks_[id].alive = false;

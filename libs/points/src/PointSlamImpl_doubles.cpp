@@ -43,8 +43,7 @@ template <int D>
 bool PointSlamImpl<D>::mergeDoubles(double logOdds, double& cost)
 {
   const Ids ids = mature();
-  const auto marginals = graphOf(ids).marginals(options_.huber);
-  const Doubles doubles = likelyDoubles(ids, marginals.objects);
+  const Doubles doubles = likelyDoubles(ids, graphOf(ids).marginals(options_.huber));
   if (!isWorthMerging(doubles, logOdds)) return false;
 
   const auto poses = poses_;

@@ -65,7 +65,7 @@ void PointSlamImpl<D>::estimateConfirmed()
   for (const std::size_t id : mature())
     if (landmarks_[id].object.confirmed) ids.push_back(id);
   estimate(ids);
-  const Eigen::MatrixXd covariance = graphOf(ids).marginals(options_.huber).objects;
+  const Eigen::MatrixXd covariance = graphOf(ids).marginals(options_.huber);
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     const auto o = D * static_cast<Eigen::Index>(i);

@@ -148,11 +148,16 @@ void PointSlamImpl<D>::restartFilter()
 {
   estimate(inFilter_);  // also moves what was seen only once to where the corrected poses saw it
   const PointGraph<D> graph = graphOf(inFilter_);
-  const auto marginals = graph.marginals(options_.huber);
-  const Eigen::Index p = kPoseIncrement<D>, n = marginals.objects.rows();
-  Eigen::MatrixXd P(p + n, p + n);
-  P << marginals.pose.back(), marginals.poseObjects.back(),
-      marginals.poseObjects.back().transpose(), marginals.objects;
+  Eigen::MatrixXd P;
+  graph.marginals(
+      options_.huber,
+      [&P](std::size_t, const auto& last, const Eigen::MatrixXd& objects)
+      {
+        const Eigen::Index p = kPoseIncrement<D>, n = objects.rows();
+        P.resize(p + n, p + n);
+        P << last.pose, last.poseObjects, last.poseObjects.transpose(), objects;
+        return false;
+      });
   filter_.reset(poses_.back(), graph.objects, P);
 }
 
