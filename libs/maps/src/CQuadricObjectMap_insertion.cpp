@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "InsertionFrame.h"
-#include "quadmap/estimation/Existence.h"
 #include "quadmap/obs/PixelLabels.h"
 #include "quadmap/perception/RoomPerception.h"
 
