@@ -65,6 +65,22 @@ TEST(OutputFile, CommitRenames)
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
+TEST(OutputFile, AReplacedFileKeepsItsPermissionsAndTheTemporaryOneIsNoMoreReadable)
+{
+  const TemporaryFolder folder;
+  const auto permissionsOf = [](const std::string& path)
+  { return fs::status(path).permissions() & fs::perms::all; };
+  for (const auto permissions : {fs::perms(0600), fs::perms(0640), fs::perms(0400)})
+  {
+    const auto path = folder.write("a.txt", "old");
+    fs::permissions(path, permissions);
+    OutputFile output(path);
+    EXPECT_EQ(permissionsOf(output.temporaryPath()), permissions | fs::perms::owner_write);
+    output.commit();
+    EXPECT_EQ(permissionsOf(path), permissions);
+  }
+}
+
 TEST(OutputFile, AnOldFileSurvivesAFailure)
 {
   const TemporaryFolder folder;

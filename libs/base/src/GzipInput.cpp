@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "quadmap/base/OutputSet.h"
+
 namespace quadmap
 {
 namespace
@@ -37,6 +39,7 @@ GzInput::GzInput(const std::string& path)
 {
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(path + ": is a directory, not a file");
+  requireOneRun(path);
   file_ = openOrThrow(path);
   fileBytes_ = std::filesystem::file_size(path);
 }

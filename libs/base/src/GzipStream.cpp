@@ -74,7 +74,8 @@ GzipFileWriter::GzipFileWriter(const std::string& path, int compressionLevel) :
     compressionLevel_(compressionLevel),
     out_(std::fopen(file_.temporaryPath().c_str(), "wb"))
 {
-  if (!out_) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+  if (!out_)
+    throw std::runtime_error(file_.finalPath() + ": cannot be written: " + std::strerror(errno));
 }
 
 GzipFileWriter::~GzipFileWriter()

@@ -5,10 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "quadmap/base/OutputSet.h"
+
 namespace quadmap
 {
 Json readJson(const std::string& path)
 {
+  requireOneRun(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
   try

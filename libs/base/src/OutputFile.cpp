@@ -1,14 +1,17 @@
 #include "quadmap/base/OutputFile.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+
+#include "FileSystem.h"
+#include "quadmap/base/OutputSet.h"
 
 namespace quadmap
 {
@@ -18,11 +21,6 @@ namespace fs = std::filesystem;
 
 /** Less free space than this means that the last write may have failed [bytes]. */
 constexpr unsigned long long kFullDisk = 4096;
-
-[[noreturn]] void fail(const std::string& path, int error)
-{
-  throw std::runtime_error(path + ": cannot be written: " + std::strerror(error));
-}
 
 /** `.objects.json.4711.tmp.json` for objects.json; compressed files keep both extensions. */
 fs::path temporaryFor(const fs::path& finalPath, unsigned attempt)
@@ -34,8 +32,10 @@ fs::path temporaryFor(const fs::path& finalPath, unsigned attempt)
   return finalPath.parent_path() / (name + ".tmp" + extension);
 }
 
-/** Creates an empty file that did not exist before, next to its final name. */
-std::string createTemporary(const fs::path& finalPath)
+/** Creates an empty file that did not exist before, next to its final name.
+ *  \param permissions Of the file that it will replace, if there is one: what others may not read
+ *  they may not read while it is written either. */
+std::string createTemporary(const fs::path& finalPath, std::optional<mode_t> permissions)
 {
   constexpr unsigned kAttempts = 100;
   for (unsigned attempt = 0; attempt < kAttempts; ++attempt)
@@ -44,12 +44,13 @@ std::string createTemporary(const fs::path& finalPath)
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0)
     {
+      if (permissions) ::fchmod(file, *permissions | S_IWUSR);  // writers open it by its name
       ::close(file);
       return path;
     }
-    if (errno != EEXIST) fail(finalPath.string(), errno);
+    if (errno != EEXIST) failToWrite(finalPath.string(), errno);
   }
-  fail(finalPath.string(), EEXIST);
+  failToWrite(finalPath.string(), EEXIST);
 }
 
 /** Is the file's file system full? Unknown counts as no. */
@@ -74,46 +75,43 @@ int flushToDisk(const std::string& path)
 
 }  // namespace
 
-OutputFile::OutputFile(std::string finalPath) : finalPath_(std::move(finalPath))
+OutputFile::OutputFile(std::string finalPath)
 {
-  if (finalPath_.empty()) throw std::runtime_error("output file: the name is empty");
+  if (finalPath.empty()) throw std::runtime_error("output file: the name is empty");
   std::error_code ignored;
-  const fs::path target =
-      fs::is_symlink(finalPath_, ignored) ? fs::weakly_canonical(finalPath_) : fs::path(finalPath_);
-  const auto type = fs::status(target, ignored).type();
-  if (type == fs::file_type::directory) fail(finalPath_, EISDIR);
-  isDevice_ = type == fs::file_type::character || type == fs::file_type::fifo ||
-              type == fs::file_type::block || type == fs::file_type::socket;
-  finalPath_ = target.string();
-  temporaryPath_ = isDevice_ ? finalPath_ : createTemporary(target);
-}
-
-OutputFile::~OutputFile()
-{
-  if (!committed_ && !isDevice_) ::unlink(temporaryPath_.c_str());
+  const fs::path target = withoutLink(finalPath);
+  if (fs::is_directory(target, ignored)) failToWrite(finalPath, EISDIR);
+  target_ = target.string();
+  finalPath_ = pathAfterCommit(target_);
+  temporaryPath_ = target_;
+  if (isDevice(target)) return;
+  permissions_ = permissionsOf(target);
+  const auto pause = Temporary::pause();
+  temporaryPath_ = createTemporary(target, permissions_);
+  temporary_.emplace(temporaryPath_);
 }
 
 void OutputFile::commit()
 {
-  if (committed_) return;
-  if (!isDevice_)
-  {
-    if (const int error = flushToDisk(temporaryPath_); error != 0) fail(finalPath_, error);
-    if (::rename(temporaryPath_.c_str(), finalPath_.c_str()) != 0) fail(finalPath_, errno);
-  }
-  committed_ = true;
+  if (!temporary_) return;
+  if (const int error = flushToDisk(temporaryPath_); error != 0) failToWrite(target_, error);
+  if (permissions_) ::chmod(temporaryPath_.c_str(), *permissions_);
+  if (::rename(temporaryPath_.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
+  temporary_->keep();
+  temporary_.reset();
+  syncFolder(fs::path(target_).parent_path());
 }
 
 void writeTextFile(const std::string& path, const std::string& text)
 {
   OutputFile output(path);
   std::FILE* file = std::fopen(output.temporaryPath().c_str(), "wb");
-  if (!file) fail(path, errno);
+  if (!file) failToWrite(path, errno);
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const int writeError = errno;
   const bool closed = std::fclose(file) == 0;  // flushes: the other place a full disk shows
-  if (!written) fail(path, writeError);
-  if (!closed) fail(path, errno);
+  if (!written) failToWrite(path, writeError);
+  if (!closed) failToWrite(path, errno);
   output.commit();
 }
 

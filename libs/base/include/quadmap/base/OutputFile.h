@@ -1,11 +1,17 @@
 #pragma once
 
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
+
+#include "quadmap/base/Temporary.h"
 
 namespace quadmap
 {
 /** A file that appears complete or not at all: write to temporaryPath(), then commit(). Without
- * commit() the destructor removes the temporary file and the final name stays untouched.
+ * commit() the destructor, or a signal that ends the program, removes the temporary file and the
+ * final name stays untouched.
  * A final name that is a link stands for what it points to; a device or pipe (/dev/null) cannot be
  * renamed onto and is written directly. */
 class OutputFile
@@ -13,23 +19,24 @@ class OutputFile
  public:
   /** \exception std::runtime_error If the directory is missing or not writable. */
   explicit OutputFile(std::string finalPath);
-  ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   /** In the same directory, with the same extension (writers look at it). */
   const std::string& temporaryPath() const { return temporaryPath_; }
+  /** The name it has in the end, for messages. */
   const std::string& finalPath() const { return finalPath_; }
 
   /** Checks that the file's data reached the disk (fsync) and renames it. Close the file first.
+   *  A file that is replaced keeps its permission bits.
    *  Some writers swallow errors: a disk that is full by now fails here too.
    *  \exception std::runtime_error For a full disk or a failed rename; names the file. */
   void commit();
 
  private:
-  std::string finalPath_, temporaryPath_;
-  bool isDevice_ = false;  //!< Written directly
-  bool committed_ = false;
+  std::string finalPath_, target_, temporaryPath_;
+  std::optional<mode_t> permissions_;   //!< Of the file that is replaced, if there is one
+  std::optional<Temporary> temporary_;  //!< Empty for a device, and after commit()
 };
 
 /** Writes a whole text that way. \exception std::runtime_error Names the file. */

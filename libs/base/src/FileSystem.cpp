@@ -1,0 +1,55 @@
+#include "FileSystem.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "quadmap/base/OutputSet.h"
+
+namespace quadmap
+{
+namespace fs = std::filesystem;
+
+void failToWrite(const std::string& path, int error)
+{
+  throw std::runtime_error(pathAfterCommit(path) + ": cannot be written: " + std::strerror(error));
+}
+
+fs::path withoutLink(const fs::path& path)
+{
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  fs::path target = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i)
+    target = target.parent_path() / fs::read_symlink(target, error);  // which may be absolute
+  return target;
+}
+
+bool isDevice(const fs::path& path)
+{
+  std::error_code ignored;
+  const auto type = fs::status(path, ignored).type();
+  return type == fs::file_type::character || type == fs::file_type::fifo ||
+         type == fs::file_type::block || type == fs::file_type::socket;
+}
+
+std::optional<mode_t> permissionsOf(const fs::path& path)
+{
+  struct stat s;
+  if (::stat(path.c_str(), &s) != 0) return std::nullopt;
+  return s.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
+}
+
+void syncFolder(const fs::path& folder)
+{
+  const int descriptor =
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);  // some file systems cannot; then there is nothing more to be done
+  ::close(descriptor);
+}
+
+}  // namespace quadmap

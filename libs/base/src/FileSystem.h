@@ -1,0 +1,27 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+/** What OutputFile and OutputSet share. */
+namespace quadmap
+{
+/** \exception std::runtime_error Always: this path, and the text of errno. */
+[[noreturn]] void failToWrite(const std::string& path, int error);
+
+/** What a path stands for: the target of a link. */
+std::filesystem::path withoutLink(const std::filesystem::path& path);
+
+/** A device or pipe: it cannot be replaced, only be written to. */
+bool isDevice(const std::filesystem::path& path);
+
+/** Permission bits of a file that exists. */
+std::optional<mode_t> permissionsOf(const std::filesystem::path& path);
+
+/** Makes what happened to the names in a folder survive a power cut. */
+void syncFolder(const std::filesystem::path& folder);
+
+}  // namespace quadmap

@@ -1,0 +1,208 @@
+#include "quadmap/base/OutputSet.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "FileSystem.h"
+#include "quadmap/base/OutputFile.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* kStagingEnd = ".partial";  //!< Ends the names of hidden folders
+constexpr const char* kListName = ".exchange";   //!< The list of files in such a folder
+
+/** Entries end with a zero, as names may hold any other byte. */
+std::vector<std::string> readList(const fs::path& staging)
+{
+  std::vector<std::string> entries;
+  std::ifstream file(staging / kListName, std::ios::binary);
+  for (std::string entry; std::getline(file, entry, '\0');)
+    if (entry.size() > 1) entries.push_back(entry);
+  return entries;
+}
+
+bool isStaging(const fs::path& path)
+{
+  const std::string name = path.filename().string(), end = kStagingEnd;
+  return name.size() > end.size() && name[0] == '.' &&
+         name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
+/** Copies a file to another file system, or into a device. */
+void copyTo(const fs::path& from, const fs::path& to)
+{
+  OutputFile output(to.string());
+  std::ofstream(output.temporaryPath(), std::ios::binary)
+      << std::ifstream(from, std::ios::binary).rdbuf();
+  std::error_code error;
+  if (!isDevice(to) && fs::file_size(output.temporaryPath(), error) != fs::file_size(from, error))
+    failToWrite(to.string(), ENOSPC);
+  output.commit();
+  fs::remove(from, error);
+}
+
+void moveTo(const fs::path& from, const fs::path& finalPath)
+{
+  const fs::path to = withoutLink(finalPath);
+  if (isDevice(to)) return copyTo(from, to);
+  if (const auto permissions = permissionsOf(to)) ::chmod(from.c_str(), *permissions);
+  if (::rename(from.c_str(), to.c_str()) == 0) return;
+  if (errno != EXDEV) failToWrite(finalPath.string(), errno);
+  copyTo(from, to);
+}
+
+/** Gives all entries their names. Those that have theirs from an earlier try stay as they are. */
+void exchange(
+    const fs::path& folder, const fs::path& staging, const std::vector<std::string>& entries)
+{
+  for (const auto& entry : entries)
+  {
+    const std::string name = entry.substr(1);
+    std::error_code ignored;
+    if (entry[0] == '-')
+      fs::remove(folder / name, ignored);
+    else if (fs::exists(staging / name, ignored))
+      moveTo(staging / name, folder / name);
+  }
+  syncFolder(folder);
+}
+
+/** \return Descriptor of the folder, which is made if needed and locked. */
+int lockedFolder(const std::string& staging, const std::string& shown)
+{
+  for (;;)
+  {
+    if (::mkdir(staging.c_str(), S_IRWXU) != 0 && errno != EEXIST) failToWrite(shown, errno);
+    const int descriptor = ::open(staging.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0 && errno == ENOENT) continue;  // another program just removed it
+    if (descriptor < 0) failToWrite(shown, errno);
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    {
+      ::close(descriptor);
+      throw std::runtime_error(
+          shown + ": another program is writing it now; wait for its end or choose another name");
+    }
+    struct stat locked, named;
+    if (::fstat(descriptor, &locked) == 0 && ::stat(staging.c_str(), &named) == 0 &&
+        locked.st_ino == named.st_ino && locked.st_dev == named.st_dev)
+      return descriptor;
+    ::close(descriptor);  // another program removed it before it was locked
+  }
+}
+
+}  // namespace
+
+OutputSet::OutputSet(std::string folder, const std::string& name) :
+    folder_(folder.empty() ? "." : std::move(folder)), staging_(folder_ + "/." + name + kStagingEnd)
+{
+  const auto pause = Temporary::pause();
+  lock_ = lockedFolder(staging_, folder_ + "/" + name);
+  try
+  {
+    exchange(folder_, staging_, readList(staging_));  // a program was killed while it did
+    for (const auto& left : fs::directory_iterator(staging_)) fs::remove_all(left.path());
+    temporary_.emplace(staging_);
+  }
+  catch (...)
+  {
+    ::close(lock_);
+    throw;
+  }
+}
+
+OutputSet::~OutputSet()
+{
+  temporary_.reset();
+  ::close(lock_);
+}
+
+std::string OutputSet::add(const std::string& name)
+{
+  std::error_code ignored;
+  if (fs::is_directory(fs::path(folder_) / name, ignored))
+    failToWrite(folder_ + "/" + name, EISDIR);
+  entries_.push_back("+" + name);
+  return written(name);
+}
+
+std::string OutputSet::addFolder(const std::string& name)
+{
+  const std::string shown = folder_ + "/" + name;
+  std::error_code error;
+  if (fs::exists(shown, error))
+    throw std::runtime_error(shown + ": exists already; remove it or choose another output name");
+  if (!fs::create_directory(written(name), error)) failToWrite(shown, error.value());
+  entries_.push_back("+" + name);
+  return written(name);
+}
+
+std::vector<std::string> OutputSet::names() const
+{
+  std::vector<std::string> names;
+  for (const auto& entry : entries_)
+    if (entry[0] == '+') names.push_back(entry.substr(1));
+  return names;
+}
+
+void OutputSet::addRemoval(const std::string& name) { entries_.push_back("-" + name); }
+
+void OutputSet::commit()
+{
+  std::string list;
+  for (const auto& entry : entries_)
+  {
+    const auto staged = fs::path(staging_) / entry.substr(1);
+    if (entry[0] == '+' && !fs::exists(staged)) failToWrite(staged.string(), ENOENT);
+    list += entry + '\0';
+  }
+  // Writers of ours synchronise each file, but folders have files of other writers.
+  if (::syncfs(lock_) != 0) failToWrite(folder_, errno);
+  const auto pause = Temporary::pause();
+  writeTextFile(staging_ + "/" + kListName, list);
+  temporary_->keep();  // whoever comes next completes what fails from here on
+  exchange(folder_, staging_, entries_);
+  fs::remove_all(staging_);
+}
+
+void requireOneRun(const std::string& file)
+{
+  const fs::path path = withoutLink(file);
+  const std::string wanted = fs::path(file).filename().string();
+  for (const fs::path& folder : {fs::path(file).parent_path(), path.parent_path()})
+  {
+    std::error_code error;
+    const fs::path listed = folder.empty() ? "." : folder;
+    for (fs::directory_iterator it(listed, error), end; !error && it != end; it.increment(error))
+    {
+      if (!isStaging(it->path())) continue;
+      const auto entries = readList(it->path());
+      const auto isWanted = [&](const std::string& e) { return e.substr(1) == wanted; };
+      if (std::any_of(entries.begin(), entries.end(), isWanted))
+        throw std::runtime_error(
+            file +
+            ": belongs to two runs: one was killed while it replaced the files of another (" +
+            it->path().string() + " has the rest); run it again");
+    }
+  }
+}
+
+std::string pathAfterCommit(const std::string& path)
+{
+  const fs::path whole(path);
+  const fs::path folder = whole.parent_path();
+  return isStaging(folder) ? (folder.parent_path() / whole.filename()).string() : path;
+}
+
+}  // namespace quadmap

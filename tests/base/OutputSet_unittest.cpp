@@ -1,0 +1,180 @@
+#include "quadmap/base/OutputSet.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+
+#include "../obs/TemporaryFolder.h"
+#include "quadmap/base/OutputFile.h"
+
+using namespace quadmap;
+namespace fs = std::filesystem;
+
+namespace
+{
+constexpr const char* kNames[] = {"a.txt", "b.json", "c.bin"};
+
+/** Writes the same text into all files of a set. */
+void writeSet(const TemporaryFolder& folder, const std::string& text)
+{
+  OutputSet set(folder.folder().string(), "run");
+  for (const auto* name : kNames) writeTextFile(set.add(name), text);
+  set.commit();
+}
+
+/** The texts of the files, as a program reads them that refuses mixtures. */
+std::vector<std::string> readSet(const TemporaryFolder& folder)
+{
+  std::vector<std::string> texts;
+  for (const auto* name : kNames)
+  {
+    requireOneRun(folder.path(name));
+    texts.push_back(readFile(folder.path(name)));
+  }
+  return texts;
+}
+
+/** The first file is replaced, the second cannot be: its link points into a folder that is missing.
+ */
+void leaveMixture(const TemporaryFolder& folder)
+{
+  writeSet(folder, "old");
+  fs::remove(folder.path("b.json"));
+  fs::create_symlink("missing/b.json", folder.path("b.json"));
+  EXPECT_NE(errorOf([&] { writeSet(folder, "new"); }).find("b.json"), std::string::npos);
+  ASSERT_EQ(readFile(folder.path("a.txt")), "new");
+  ASSERT_EQ(readFile(folder.path("c.bin")), "old");
+}
+}  // namespace
+
+TEST(OutputSet, NothingChangesBeforeCommitAndEverythingByIt)
+{
+  const TemporaryFolder folder;
+  folder.write("a.txt", "old");
+  folder.write("stale.txt", "old");
+  folder.write("other.txt", "of the user");
+  {
+    OutputSet set(folder.folder().string(), "run");
+    writeTextFile(set.add("a.txt"), "new");
+    writeTextFile(set.add("b.json"), "new");
+    set.addRemoval("stale.txt");
+    EXPECT_EQ(readFile(folder.path("a.txt")), "old");
+    EXPECT_FALSE(fs::exists(folder.path("b.json")));
+    set.commit();
+  }
+  EXPECT_EQ(readFile(folder.path("a.txt")), "new");
+  EXPECT_EQ(readFile(folder.path("b.json")), "new");
+  EXPECT_EQ(readFile(folder.path("other.txt")), "of the user");
+  EXPECT_EQ(folder.fileCount(), 3u) << "without stale.txt and the hidden folder";
+}
+
+TEST(OutputSet, WithoutCommitNoTraceIsLeft)
+{
+  const TemporaryFolder folder;
+  {
+    OutputSet set(folder.folder().string(), "run");
+    writeTextFile(set.add("a.txt"), "new");
+  }
+  EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+TEST(OutputSet, AMissingFileIsNoticedBeforeAnyIsReplaced)
+{
+  const TemporaryFolder folder;
+  folder.write("a.txt", "old");
+  OutputSet set(folder.folder().string(), "run");
+  writeTextFile(set.add("a.txt"), "new");
+  set.add("b.json");
+  EXPECT_NE(errorOf([&] { set.commit(); }).find(folder.path("b.json")), std::string::npos);
+  EXPECT_EQ(readFile(folder.path("a.txt")), "old");
+}
+
+TEST(OutputSet, FilesKeepTheirPermissionsAndLinksStayLinks)
+{
+  const TemporaryFolder folder;
+  folder.write("a.txt", "old");
+  ::chmod(folder.path("a.txt").c_str(), 0600);
+  fs::create_directory(folder.path("elsewhere"));
+  fs::create_symlink("elsewhere/b.json", folder.path("b.json"));
+  writeSet(folder, "new");
+  struct stat s;
+  ASSERT_EQ(::stat(folder.path("a.txt").c_str(), &s), 0);
+  EXPECT_EQ(s.st_mode & 0777u, 0600u);
+  EXPECT_TRUE(fs::is_symlink(folder.path("b.json")));
+  EXPECT_EQ(readFile(folder.path("elsewhere/b.json")), "new");
+}
+
+TEST(OutputSet, TwoProgramsExcludeEachOtherAndADeadOneLocksNothing)
+{
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+  {
+    OutputSet set(folder.folder().string(), "run");
+    writeTextFile(set.add("a.txt"), "of the child");
+    writeTextFile(folder.path("ready"), "");
+    ::pause();  // until it is killed
+  }
+  while (!fs::exists(folder.path("ready"))) ::usleep(1000);
+  EXPECT_NE(
+      errorOf([&] { OutputSet(folder.folder().string(), "run"); }).find("another program"),
+      std::string::npos);
+  EXPECT_EQ(errorOf([&] { OutputSet(folder.folder().string(), "other"); }), "");
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  EXPECT_EQ(errorOf([&] { writeSet(folder, "new"); }), "");
+  EXPECT_EQ(readSet(folder), std::vector<std::string>(3, "new"));
+  EXPECT_EQ(folder.fileCount(), 4u) << "what the child left is gone";
+}
+
+TEST(OutputSet, AMixtureIsRefusedFileByFile)
+{
+  const TemporaryFolder folder;
+  folder.write("other.txt", "");
+  leaveMixture(folder);
+  for (const auto* name : kNames)
+    EXPECT_NE(
+        errorOf([&] { requireOneRun(folder.path(name)); }).find("two runs"), std::string::npos)
+        << name;
+  EXPECT_EQ(errorOf([&] { requireOneRun(folder.path("other.txt")); }), "") << "is of no set";
+}
+
+TEST(OutputSet, TheNextProgramCompletesAMixture)
+{
+  const TemporaryFolder folder;
+  leaveMixture(folder);
+  fs::remove(folder.path("b.json"));
+  {
+    const OutputSet next(folder.folder().string(), "run");  // and writes nothing itself
+  }
+  EXPECT_EQ(readSet(folder), std::vector<std::string>(3, "new"));
+  EXPECT_EQ(folder.fileCount(), 3u);
+}
+
+TEST(OutputSet, KilledAtAnyMomentNoReaderSeesAMixture)
+{
+  const TemporaryFolder folder;
+  writeSet(folder, "first");
+  std::mt19937 random(7);
+  for (int round = 0; round < 30; ++round)
+  {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+      for (int run = 0;; ++run) writeSet(folder, std::to_string(round) + " " + std::to_string(run));
+    ::usleep(static_cast<useconds_t>(random() % 20000));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    std::vector<std::string> texts;
+    if (!errorOf([&] { texts = readSet(folder); }).empty()) continue;  // refused
+    EXPECT_EQ(texts, std::vector<std::string>(3, texts.at(0)));
+  }
+  writeSet(folder, "last");
+  EXPECT_EQ(readSet(folder), std::vector<std::string>(3, "last"));
+  EXPECT_EQ(folder.fileCount(), 3u);
+}
