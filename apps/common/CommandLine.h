@@ -1,7 +1,6 @@
 #pragma once
 
 #include <mrpt/3rdparty/tclap/CmdLine.h>
-#include <mrpt/core/exceptions.h>
 #include <mrpt/system/COutputLogger.h>
 
 #include <iostream>
@@ -9,6 +8,9 @@
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "StopSignals.h"
+#include "quadmap/base/ErrorText.h"
 
 /** What all programs of the project share: arguments, errors and the exit status.
  *
@@ -30,20 +32,13 @@ struct UsageError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** The first words of an exception: MRPT appends a call stack, which is not for users. */
-inline std::string userMessage(const std::exception& e)
-{
-  const auto* withCallStack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&e);
-  const std::string text = withCallStack ? withCallStack->originalWhat : std::string(e.what());
-  const auto end = text.find_last_not_of(" \t\r\n");
-  return end == std::string::npos ? "unknown error" : text.substr(0, end + 1);
-}
-
 /** Runs a program: 0 when `body` returns (or what it returns, if it is an int), 2 for a UsageError,
- * 1 for every other exception, each with "program: message" on stderr. */
+ * 1 for every other exception, each with "program: message" on stderr. A signal that ends the
+ * program leaves no temporary files. */
 template <typename F>
 int runMain(const char* program, F&& body) noexcept
 {
+  watchStopSignals();
   try
   {
     if constexpr (std::is_same_v<std::invoke_result_t<F>, int>)
@@ -56,12 +51,12 @@ int runMain(const char* program, F&& body) noexcept
   }
   catch (const UsageError& e)
   {
-    std::cerr << program << ": " << e.what() << " (see " << program << " --help)\n";
+    std::cerr << program << ": " << oneLine(e.what()) << " (see " << program << " --help)\n";
     return 2;
   }
   catch (const std::exception& e)
   {
-    std::cerr << program << ": " << userMessage(e) << "\n";
+    std::cerr << program << ": " << rootMessage(e) << "\n";
     return 1;
   }
 }

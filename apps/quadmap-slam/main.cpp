@@ -1,4 +1,3 @@
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 
@@ -12,15 +11,6 @@
 namespace
 {
 using namespace quadmap;
-
-volatile std::sig_atomic_t stopSignal = 0;  //!< Signal that asked to stop, or 0
-
-/** Ctrl-C or SIGTERM ends the run after the current frame; a second one ends it at once. */
-void requestStop(int signal)
-{
-  stopSignal = signal;
-  std::signal(signal, SIG_DFL);
-}
 
 /** Does the command line ask for the defaults alone? The arguments that a run requires are then not
  * needed. */
@@ -36,7 +26,8 @@ struct Cli
       "quadmap-slam",
       "Makes the trajectory and the object map of an RGB-D rawlog. Boxes come from the rawlog or "
       "from NAME.objects.rawlog beside it. Ctrl-C stops early: the files then hold what was done, "
-      "and the exit status is 130 (143 after SIGTERM).",
+      "and the exit status is 130 (143 after SIGTERM); a second one ends at once and changes "
+      "nothing.",
       QUADMAP_VERSION};
   std::vector<std::string> methodNames{"rgbd", "quadric", "point", "odometry"};
   std::vector<std::string> associationNames{"estimated", "given"};
@@ -99,6 +90,11 @@ struct Cli
                                       "LABEL", line.args()};
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Leave out broken records and say so, instead of failing.", line.args()};
+  TCLAP::SwitchArg replace{
+      "", "replace",
+      "A run that Ctrl-C stops early replaces even the result of a complete run in OUTDIR; without "
+      "it, its files go into OUTDIR/interrupted then.",
+      line.args()};
   TCLAP::ValueArg<int> every{
       "",  "every",    "Every n-th frame of a sensor is a keyframe (default: by motion).", false, 0,
       "N", line.args()};
@@ -154,17 +150,16 @@ CloudOptions sceneCloud()
   return cloud;
 }
 
-/** Writes scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time. */
-std::string writeSceneOf(const SlamResult& result, const std::string& directory)
+/** Writes scene.3Dscene. The cloud comes from map.simplemap, one keyframe at a time.
+ *  \param simpleMap Path of that file. */
+void writeSceneOf(const SlamResult& result, const std::string& simpleMap, const std::string& path)
 {
   SceneContent content;
   content.objects = result.map.toRecords();
   for (const auto& node : poseNodesOf(result.keyframes))
     content.trajectory.push_back(node.T_map_robot);
-  addKeyframes(directory + "/map.simplemap", sceneCloud(), content);
-  const std::string path = directory + "/scene.3Dscene";
+  addKeyframes(simpleMap, sceneCloud(), content);
   writeScene(*SceneBuilder().scene(content), path);
-  return path;
 }
 
 void printObjects(const std::vector<ObjectRecord>& objects)
@@ -201,7 +196,8 @@ void printSummary(const RawlogRunSummary& summary)
   std::printf(
       "%zu frames, %zu keyframes, %zu boxes, %zu objects\n", counts.frames, counts.keyframes,
       counts.boxes, summary.result.map.confirmedObjects().size());
-  for (const auto& file : summary.files) std::printf("wrote %s\n", file.c_str());
+  for (const auto& name : summary.files)
+    std::printf("wrote %s/%s\n", summary.directory.c_str(), name.c_str());
 }
 
 int run(Cli& cli)
@@ -213,6 +209,7 @@ int run(Cli& cli)
   request.objectsFile = cli.objects.getValue();
   request.sensorLabel = cli.sensor.getValue();
   request.keepGoing = cli.keepGoing.getValue();
+  request.replaceComplete = cli.replace.getValue();
   request.configuration = configurationOf(cli);
   if (cli.map.isSet())
   {
@@ -235,18 +232,20 @@ int run(Cli& cli)
                 << "\n";
   };
   request.onProgress = cli::ProgressBar();
-  request.shouldStop = [] { return stopSignal != 0; };
-  std::signal(SIGINT, requestStop);
-  std::signal(SIGTERM, requestStop);
+  request.shouldStop = [] { return cli::stopSignal != 0; };
+  request.onClosing = []
+  { cli::onStop = cli::OnStop::Defer; };  // so short that nothing need be lost
+  request.addFiles = [](const SlamResult& result, OutputSet& files)
+  { writeSceneOf(result, files.written("map.simplemap"), files.add("scene.3Dscene")); };
+  cli::onStop = cli::OnStop::Note;
 
-  RawlogRunSummary summary = runOnRawlog(request);
-  summary.files.push_back(writeSceneOf(summary.result, request.outputDirectory));
+  const RawlogRunSummary summary = runOnRawlog(request);
   for (const auto& note : notes) std::printf("%s\n", note.c_str());
   if (verbosity <= mrpt::system::LVL_INFO) printSummary(summary);
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;
   std::cerr << "quadmap-slam: interrupted, the files hold what was done\n";
-  return 128 + stopSignal;  // the exit status by which shells report a signal
+  return 128 + cli::stopSignal;  // the exit status by which shells report a signal
 }
 
 }  // namespace

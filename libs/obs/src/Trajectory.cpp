@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/base/OutputSet.h"
 
 namespace quadmap
 {
@@ -61,6 +62,7 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
 
 Trajectory readTumTrajectory(const std::string& path)
 {
+  requireOneRun(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read the trajectory");
 

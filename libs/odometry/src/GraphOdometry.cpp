@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/OutputSet.h"
 
 namespace quadmap
 {
@@ -44,6 +45,7 @@ class GraphFile
  public:
   explicit GraphFile(const std::string& path) : path_(path)
   {
+    requireOneRun(path);
     std::ifstream file(path);
     if (!file) throw std::runtime_error(path + ": cannot be read");
     std::stringstream text;

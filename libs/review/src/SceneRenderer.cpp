@@ -77,7 +77,7 @@ void writePicture(const mrpt::img::CImage& picture, const std::string& path)
   catch (const cv::Exception&)  // for an extension that OpenCV does not know
   {
   }
-  if (!written) throw std::runtime_error(path + ": the picture cannot be written");
+  if (!written) throw std::runtime_error(output.finalPath() + ": the picture cannot be written");
   output.commit();
 }
 

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "quadmap/base/OutputSet.h"
+
 namespace quadmap
 {
 namespace
@@ -30,6 +32,7 @@ SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path)
 {
   mrpt::poses::registerAllClasses_mrpt_poses();
   mrpt::obs::registerAllClasses_mrpt_obs();
+  requireOneRun(path);
   if (!std::filesystem::is_regular_file(path) || !file_.open(path))
     throw std::runtime_error(path + ": cannot be read");
   try

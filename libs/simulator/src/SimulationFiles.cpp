@@ -4,7 +4,6 @@
 #include <future>
 #include <thread>
 
-#include "quadmap/base/OutputFile.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/sensors/RawlogWriter.h"
 #include "quadmap/simulator/Simulator.h"
@@ -13,10 +12,10 @@ namespace quadmap::simulator
 {
 namespace
 {
-/** NAME of NAME.rawlog or NAME.rawlog.gz. */
+/** NAME of NAME.rawlog or NAME.rawlog.gz, without the folder. */
 std::string stemOf(const std::string& rawlog)
 {
-  std::filesystem::path path(rawlog);
+  std::filesystem::path path = std::filesystem::path(rawlog).filename();
   if (path.extension() == ".gz") path.replace_extension();
   if (path.extension() == ".rawlog") path.replace_extension();
   return path.string();
@@ -111,8 +110,8 @@ SimulationSummary simulateToFiles(
   summary.frames = simulator.frameCount();
   summary.truth = truthOf(simulator.scene(), framesVisible);
 
-  writeObjectsJson(stemOf(rawlog) + ".objects.gt.json", summary.truth);
-  writeTumTrajectory(stemOf(rawlog) + ".groundtruth.tum", trajectory);
+  writeObjectsJson(writer.add(stemOf(rawlog) + ".objects.gt.json"), summary.truth);
+  writeTumTrajectory(writer.add(stemOf(rawlog) + ".groundtruth.tum"), trajectory);
   writer.finish();
   return summary;
 }

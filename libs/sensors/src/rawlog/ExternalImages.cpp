@@ -2,7 +2,6 @@
 
 #include <mrpt/core/format.h>
 #include <mrpt/system/filesystem.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
+#include "quadmap/base/OutputSet.h"
 #include "rawlog/RecordReader.h"
 
 namespace quadmap
@@ -29,22 +29,6 @@ void requireCompleteJpeg(const std::string& path)
 }
 }  // namespace
 
-ExternalImages::ExternalImages(std::string folder) :
-    folder_(std::move(folder)), temporary_(folder_ + mrpt::format(".%d.tmp", ::getpid()))
-{
-  if (fs::exists(folder_))
-    throw std::runtime_error(folder_ + ": exists already; remove it or choose another output name");
-  std::error_code error;
-  if (!fs::create_directory(temporary_, error))
-    throw std::runtime_error(folder_ + ": cannot be created: " + error.message());
-}
-
-ExternalImages::~ExternalImages()
-{
-  std::error_code ignored;
-  if (!committed_) fs::remove_all(temporary_, ignored);
-}
-
 void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQuality)
 {
   const std::string name = mrpt::format(
@@ -56,13 +40,13 @@ void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQ
     if (scan.hasRangeImage)
     {
       now = name + "_depth.bin";
-      scan.rangeImage_convertToExternalStorage(now, temporary_ + "/");
-      requireCompleteGz(temporary_ + "/" + now);
+      scan.rangeImage_convertToExternalStorage(now, folder_ + "/");
+      requireCompleteGz(folder_ + "/" + now);
     }
     if (scan.hasIntensityImage)
     {
       now = name + ".jpg";
-      const std::string path = temporary_ + "/" + now;
+      const std::string path = folder_ + "/" + now;
       if (!scan.intensityImage.saveToFile(path, jpegQuality))
         throw std::runtime_error("cannot be written");
       requireCompleteJpeg(path);
@@ -71,16 +55,8 @@ void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQ
   }
   catch (const std::exception& e)
   {
-    throw std::runtime_error(folder_ + "/" + now + ": " + rootMessage(e));
+    throw std::runtime_error(pathAfterCommit(folder_) + "/" + now + ": " + rootMessage(e));
   }
-}
-
-void ExternalImages::commit()
-{
-  std::error_code error;
-  fs::rename(temporary_, folder_, error);
-  if (error) throw std::runtime_error(folder_ + ": cannot be written: " + error.message());
-  committed_ = true;
 }
 
 }  // namespace quadmap

@@ -5,29 +5,24 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace quadmap
 {
-/** A folder of external images that appears complete or not at all. */
+/** A folder of external images. */
 class ExternalImages
 {
  public:
-  /** \exception std::runtime_error If the folder exists already or cannot be made. */
-  explicit ExternalImages(std::string folder);
-  ~ExternalImages();  //!< Removes everything unless commit() was called
-  ExternalImages(const ExternalImages&) = delete;
-  ExternalImages& operator=(const ExternalImages&) = delete;
+  /** \param folder It exists. */
+  explicit ExternalImages(std::string folder) : folder_(std::move(folder)) {}
 
   /** Writes the images of a scan into the folder. The scan keeps the names of the files.
    *  \exception std::runtime_error For a full disk and the like. */
   void moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQuality);
 
-  void commit();
-
  private:
-  std::string folder_, temporary_;
+  std::string folder_;
   std::map<std::string, std::size_t> scans_;  // number of scans so far, by sensor
-  bool committed_ = false;
 };
 
 }  // namespace quadmap

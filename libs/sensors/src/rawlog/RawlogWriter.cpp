@@ -4,12 +4,12 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/serialization/CArchive.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
 
 #include "quadmap/base/GzipStream.h"
+#include "quadmap/base/OutputSet.h"
 #include "rawlog/ExternalImages.h"
 
 namespace quadmap
@@ -62,21 +62,29 @@ RawlogWriterOptions checked(RawlogWriterOptions options)
 
 struct RawlogWriter::Impl
 {
-  Impl(std::string f, RawlogWriterOptions o) :
-      file(std::move(f)), options(checked(o)), rawlog(file, options.compressionLevel)
+  Impl(const std::string& f, RawlogWriterOptions o) :
+      file(f),
+      options(checked(o)),
+      files(fs::path(f).parent_path().string(), nameOf(f)),
+      rawlog(files.add(nameOf(f)), options.compressionLevel)
   {
-    if (options.external) images = std::make_unique<ExternalImages>(imagesFolderOf(file));
+    if (options.external)
+      images = std::make_unique<ExternalImages>(files.addFolder(nameOf(imagesFolderOf(f))));
   }
+
+  /** The name of a file without its folder. */
+  static std::string nameOf(const std::string& path) { return fs::path(path).filename().string(); }
 
   std::string file;
   RawlogWriterOptions options;
+  OutputSet files;
   GzipFileWriter rawlog;
   std::unique_ptr<GzipFileWriter> sidecar;  // created with the first boxes
   std::unique_ptr<ExternalImages> images;   // null when images are in the rawlog
 };
 
-RawlogWriter::RawlogWriter(std::string file, RawlogWriterOptions options) :
-    impl_(std::make_unique<Impl>(std::move(file), options))
+RawlogWriter::RawlogWriter(const std::string& file, RawlogWriterOptions options) :
+    impl_(std::make_unique<Impl>(file, options))
 {
 }
 
@@ -93,7 +101,7 @@ void RawlogWriter::write(const CObservationObjects& boxes)
 {
   if (!impl_->sidecar)
     impl_->sidecar = std::make_unique<GzipFileWriter>(
-        objectsFileOf(impl_->file), impl_->options.compressionLevel);
+        add(Impl::nameOf(objectsFileOf(impl_->file))), impl_->options.compressionLevel);
   writeTo(*impl_->sidecar, boxes);
 }
 
@@ -109,16 +117,16 @@ void RawlogWriter::writePose(
   writeTo(impl_->rawlog, pose);
 }
 
+std::string RawlogWriter::add(const std::string& name) { return impl_->files.add(name); }
+
 void RawlogWriter::finish()
 {
-  impl_->rawlog.close();
-  if (impl_->sidecar) impl_->sidecar->close();
-  if (impl_->images) impl_->images->commit();
+  impl_->rawlog.commit();
   if (impl_->sidecar)
     impl_->sidecar->commit();
   else
-    fs::remove(objectsFileOf(impl_->file));
-  impl_->rawlog.commit();
+    impl_->files.addRemoval(Impl::nameOf(objectsFileOf(impl_->file)));
+  impl_->files.commit();
 }
 
 }  // namespace quadmap

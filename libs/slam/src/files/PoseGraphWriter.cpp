@@ -240,7 +240,7 @@ void writePoseGraph(
   std::ofstream out(file.temporaryPath());
   GraphText(out, nodes, result, spool, uncertainty).write();
   out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written");
+  if (!out) throw std::runtime_error(file.finalPath() + ": cannot be written");
   file.commit();
 }
 

@@ -268,7 +268,7 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
   AssociationLines(out, nodes, run).write();
   out << "\n  ]\n}\n";
   out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written");
+  if (!out) throw std::runtime_error(file.finalPath() + ": cannot be written");
   file.commit();
 }
 

@@ -24,7 +24,7 @@ Trajectory trajectoryOf(const std::vector<PoseNode>& nodes, mrpt::poses::CPose3D
 
 }  // namespace
 
-std::vector<std::string> writeResult(const std::string& directory, const RunRecord& run)
+void writeResult(OutputSet& files, const RunRecord& run)
 {
   const SlamResult& result = run.result;
   const std::vector<PoseNode> nodes = poseNodesOf(result.keyframes);
@@ -48,14 +48,11 @@ std::vector<std::string> writeResult(const std::string& directory, const RunReco
       {            "report.json",
        [&](auto& path) { writeReport(path, nodes, run); }                                                           }, // the last one, as it has the times
   };
-  std::vector<std::string> files;
   for (const auto& [name, write] : writers)
   {
     const auto scope = run.times.measure(std::string("write ") + name);
-    files.push_back(directory + "/" + name);
-    write(files.back());
+    write(files.add(name));
   }
-  return files;
 }
 
 }  // namespace quadmap

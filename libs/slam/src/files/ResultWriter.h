@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "keyframes/KeyframeSpool.h"
+#include "quadmap/base/OutputSet.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/SlamConfiguration.h"
@@ -33,9 +34,9 @@ struct RunRecord
   ModuleTimes& times;
 };
 
-/** Writes the files of the output directory (doc/formats.md). Each appears complete or not at all.
- * \return Their paths. \exception std::runtime_error If one cannot be written. */
-std::vector<std::string> writeResult(const std::string& directory, const RunRecord& run);
+/** Writes the files of the output directory (doc/formats.md).
+ * \exception std::runtime_error If one cannot be written. */
+void writeResult(OutputSet& files, const RunRecord& run);
 
 /** Writes report.json. All that differs between two runs on the same input is under "timing". */
 void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, const RunRecord& run);

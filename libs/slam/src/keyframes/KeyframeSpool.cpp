@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/GzipStream.h"
+#include "quadmap/base/Temporary.h"
 
 namespace quadmap
 {
@@ -72,6 +73,7 @@ CObservation3DRangeScan::Ptr storedForm(const CObservation3DRangeScan& scan)
 KeyframeSpool::KeyframeSpool(const std::string& directory) : directory_(directory)
 {
   std::string path = directory + "/.keyframes.XXXXXX";
+  const auto pause = Temporary::pause();  // no signal ends the program between the next lines
   descriptor_ = ::mkostemp(path.data(), O_CLOEXEC);
   if (descriptor_ < 0) fail("cannot be written", errno);
   ::unlink(path.c_str());

@@ -2,11 +2,17 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <list>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "files/ResultWriter.h"
 #include "keyframes/KeyframeSpool.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/Json.h"
+#include "quadmap/base/Temporary.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
@@ -18,6 +24,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
+constexpr const char* kSetName = "results";  //!< The files of one run, see OutputSet
+
 /** The output directory. When the run fails, the directories that were made for it are removed. */
 class OutputDirectory
 {
@@ -25,34 +33,47 @@ class OutputDirectory
   explicit OutputDirectory(const std::string& path)
   {
     std::error_code error;
+    const auto pause = Temporary::pause();
     for (fs::path p = path; !p.empty() && !fs::exists(p, error); p = p.parent_path())
-      made_.push_back(p);
+      made_.emplace_front(p.string(), Temporary::Kind::EmptyFolder);
     fs::create_directories(path, error);
     if (!error && fs::is_directory(path)) return;
-    removeEmpty();
     throw std::runtime_error(
         path + ": cannot be made: " + (error ? error.message() : "a file of that name exists"));
   }
-  ~OutputDirectory() { removeEmpty(); }
+  ~OutputDirectory()
+  {
+    while (!made_.empty()) made_.pop_back();
+  }
   OutputDirectory(const OutputDirectory&) = delete;
   OutputDirectory& operator=(const OutputDirectory&) = delete;
 
  private:
-  void removeEmpty() const
-  {
-    std::error_code ignored;  // a directory with files stays, and so do those above it
-    for (const auto& path : made_)
-      if (fs::is_directory(path, ignored)) fs::remove(path, ignored);
-  }
-
-  std::vector<fs::path> made_;  //!< The deepest first
+  std::list<Temporary> made_;  //!< The deepest last
 };
+
+/** Whether a folder has the result of a run that nobody stopped. */
+bool hasCompleteResult(const std::string& directory)
+{
+  const std::string report = directory + "/report.json";
+  if (!fs::exists(report)) return false;
+  try
+  {
+    return readJson(report).at("input").at("interrupted") == false;
+  }
+  catch (const std::exception&)  // what cannot be read cannot be lost
+  {
+    return false;
+  }
+}
 
 class RawlogRun
 {
  public:
   explicit RawlogRun(const RawlogRunRequest& request) :
       request_(request),
+      directory_(request.outputDirectory),
+      files_(std::make_unique<OutputSet>(request.outputDirectory, kSetName)),
       survey_(surveyOdometry(
           request.rawlog,
           sourceOptions(request),
@@ -60,7 +81,6 @@ class RawlogRun
           request.configuration.perception,
           request.configuration.visual)),
       source_(request.rawlog, sourceOptions(request, survey_.odometryKind)),
-      directory_(request.outputDirectory),
       spool_(request.outputDirectory),
       slam_(
           configurationOf(request, survey_),
@@ -96,6 +116,7 @@ class RawlogRun
   {
     const bool interrupted = addAllFrames();
     requireContent(interrupted);
+    request_.onClosing();
     finish();
     return write(interrupted);
   }
@@ -221,16 +242,34 @@ class RawlogRun
     }
   }
 
+  /** The files go into a folder of their own, so that those of a complete run stay. */
+  void moveBeside()
+  {
+    const std::string folder = request_.outputDirectory + "/interrupted";
+    slam_.warn(
+        request_.outputDirectory +
+        ": keeps the result of an earlier run that was not interrupted; this one is in " + folder +
+        " (--replace puts it in its place)");
+    interruptedDirectory_.emplace(folder);
+    files_ = std::make_unique<OutputSet>(folder, kSetName);
+  }
+
   RawlogRunSummary write(bool interrupted)
   {
     InputDescription input{request_.rawlog,       request_.objectsFile,   request_.sensorLabel,
                            source_.recordsRead(), source_.odometryKind(), interrupted,
                            source_.problems()};
     for (const auto& e : slam_.badFrames()) input.problems.push_back(problemOf(e));
+    if (interrupted && !request_.replaceComplete && hasCompleteResult(request_.outputDirectory))
+      moveBeside();
     RawlogRunSummary summary;
-    summary.files = writeResult(
-        request_.outputDirectory,
+    summary.directory = files_->folder();
+    writeResult(
+        *files_,
         {request_.version, input, request_.configuration, slam_.result(), spool_, slam_.times()});
+    request_.addFiles(slam_.result(), *files_);
+    summary.files = files_->names();
+    files_->commit();
     for (const auto& problem : input.problems) summary.dropped.push_back(problem.text());
     summary.result = slam_.result();
     summary.interrupted = interrupted;
@@ -238,9 +277,11 @@ class RawlogRun
   }
 
   const RawlogRunRequest& request_;
+  OutputDirectory directory_;
+  std::optional<OutputDirectory> interruptedDirectory_;
+  std::unique_ptr<OutputSet> files_;  //!< Locked from the start
   OdometrySurvey survey_;
   RawlogSource source_;
-  OutputDirectory directory_;
   KeyframeSpool spool_;
   ObjectSlam slam_;
 };

@@ -20,14 +20,14 @@ struct RawlogWriterOptions
 };
 
 /** Writes a rawlog of stock MRPT classes in observation format, and the boxes into its sidecar (see
- * objectsFileOf()). The same content gives the same bytes. No file has its final name before
- * finish(). */
+ * objectsFileOf()). The same content gives the same bytes. The files are one thing: they get their
+ * names together in finish(), and two programs cannot write them at the same time. */
 class RawlogWriter
 {
  public:
   /** \exception std::runtime_error If the files cannot be created.
    *  \exception std::invalid_argument For options out of range. */
-  RawlogWriter(std::string file, RawlogWriterOptions options);
+  RawlogWriter(const std::string& file, RawlogWriterOptions options);
   ~RawlogWriter();  //!< Removes what was written, unless finish() was called
 
   /** Writes a scan. \param scan With external images it only keeps the names of their files. */
@@ -42,6 +42,10 @@ class RawlogWriter
       mrpt::Clock::time_point time,
       const std::string& label,
       const mrpt::poses::CPose3D& T_parent_robot);
+
+  /** Adds a file that belongs to the recording, beside the rawlog.
+   *  \return Where to write it before finish(). */
+  std::string add(const std::string& name);
 
   /** Completes all files and gives them their names. When there were no boxes, an older sidecar of
    *  the same name is removed. \exception std::runtime_error For a full disk and the like. */

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/base/OutputSet.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
 
@@ -21,6 +22,9 @@ struct RawlogRunRequest
   bool keepGoing = false;           //!< Leave out what is broken instead of failing
   CQuadricObjectMap::ConstPtr map;  //!< Map to continue; null for a new one
   std::string mapFile;              //!< Name of the map's file, for messages
+  /** A run that was stopped early replaces the result of one that was not. Without it, its files
+   * go into the folder `interrupted` of the output directory. */
+  bool replaceComplete = false;
   SlamConfiguration configuration;
   std::string version;  //!< Version of the program, for the report
 
@@ -29,17 +33,24 @@ struct RawlogRunRequest
       [](mrpt::system::VerbosityLevel, const std::string&) {};
   std::function<void(double)> onProgress = [](double) {};   //!< Share of the rawlog, in [0, 1]
   std::function<bool()> shouldStop = [] { return false; };  //!< Asked before every frame
+  std::function<void()> onClosing = [] {};  //!< No more frames: the result is computed and written
+
+  /** Writes more files of the same result. They appear together with the others. */
+  std::function<void(const SlamResult&, OutputSet&)> addFiles = [](const SlamResult&, OutputSet&) {
+  };
 };
 
 struct RawlogRunSummary
 {
   SlamResult result;
   std::vector<std::string> dropped;  //!< What keepGoing left out, one line each
-  std::vector<std::string> files;    //!< Paths of the files that were written
+  std::string directory;             //!< Where the files are
+  std::vector<std::string> files;    //!< Their names
   bool interrupted = false;          //!< shouldStop() ended it; the files have what was done
 };
 
-/** Runs ObjectSlam on a rawlog and writes all files of the output directory.
+/** Runs ObjectSlam on a rawlog and writes all files of the output directory, which appear together.
+ * Two runs into one directory exclude each other.
  * \exception std::invalid_argument If the method cannot continue a map.
  * \exception std::runtime_error For a broken input. The message is one line that names file, record
  * and sensor where they are known. No file is then left behind. */

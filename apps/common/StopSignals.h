@@ -1,0 +1,66 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+#include "quadmap/base/Temporary.h"
+
+/** What Ctrl-C, SIGTERM and the end of the terminal do. A thread of its own receives these signals,
+ * so that what they do may take locks and remove files. */
+namespace quadmap::cli
+{
+enum class OnStop
+{
+  End,   //!< The program ends at once, without temporary files
+  Note,  //!< The program goes on and ends soon; a second signal ends it at once
+  Defer  //!< The program goes on, whatever comes: it is about to end
+};
+
+inline std::atomic<OnStop> onStop{OnStop::End};
+inline std::atomic<int> stopSignal{0};  //!< The first signal that was noted, or 0
+
+/** Ends the program as the signal does by default. */
+[[noreturn]] inline void endBySignal(int signal)
+{
+  Temporary::removeAll();
+  std::signal(signal, SIG_DFL);
+  sigset_t only;
+  sigemptyset(&only);
+  sigaddset(&only, signal);
+  pthread_sigmask(SIG_UNBLOCK, &only, nullptr);
+  ::raise(signal);
+  ::_exit(128 + signal);
+}
+
+inline void receiveStopSignals(sigset_t signals)
+{
+  for (;;)
+  {
+    int signal = 0;
+    if (sigwait(&signals, &signal) != 0) continue;
+    if (onStop == OnStop::End) endBySignal(signal);
+    int none = 0;
+    stopSignal.compare_exchange_strong(none, signal);
+    auto note = OnStop::Note;
+    onStop.compare_exchange_strong(note, OnStop::End);
+  }
+}
+
+/** To be called before any other thread starts: they inherit which signals they do not receive. */
+inline void watchStopSignals()
+{
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  struct sigaction hangup = {};
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);  // ignored under nohup
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread(receiveStopSignals, signals).detach();
+}
+
+}  // namespace quadmap::cli
