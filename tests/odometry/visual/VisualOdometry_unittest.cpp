@@ -64,6 +64,37 @@ TEST(VisualOdometry, FollowsTheCamera)
   EXPECT_TRUE(odometry.takeWarnings().empty());
 }
 
+TEST(VisualOdometry, ImagesUpsideDownWithNegativeFyGiveTheSamePoses)
+{
+  const auto frames = homeFrames(20);
+  std::vector<mrpt::serialization::CSerializable::Ptr> mirrored;
+  for (const auto& frame : homeFrames(20))
+  {
+    auto& scan = *frame.scan;
+    cv::Mat turned;
+    cv::flip(scan.intensityImage.asCvMatRef(), turned, 0);
+    scan.intensityImage = mrpt::img::CImage(turned, mrpt::img::DEEP_COPY);
+    const auto depth = scan.rangeImage;
+    for (int row = 0; row < depth.rows(); ++row)
+      for (int column = 0; column < depth.cols(); ++column)
+        scan.rangeImage(row, column) = depth(depth.rows() - 1 - row, column);
+    for (auto* camera : {&scan.cameraParams, &scan.cameraParamsIntensity})
+      camera->setIntrinsicParamsFromValues(
+          camera->fx(), -camera->fy(), camera->cx(), camera->nrows - 1 - camera->cy());
+    mirrored.push_back(frame.scan);
+  }
+  const TemporaryFolder folder;
+  VisualOdometry ofOriginal({}), ofMirrored({});
+  const auto expected = follow(ofOriginal, frames);
+  const auto poses = follow(ofMirrored, readAll(writeObjects(folder.path("x.rawlog"), mirrored)));
+  ASSERT_EQ(poses.size(), expected.size());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    ASSERT_TRUE(poses[i] && expected[i]) << i;
+    EXPECT_LT((*poses[i] - *expected[i]).norm(), 1e-6) << i;
+  }
+}
+
 TEST(VisualOdometry, StartsWhereItIsTold)
 {
   const auto frames = homeFrames(5);

@@ -40,6 +40,21 @@ void expectProblem(
   EXPECT_EQ(source.problems().front().text(), error);
 }
 
+/** Writes a rawlog whose pose at x = 1234.5 m has a quaternion of zeros. */
+std::string withoutRotation(
+    const TemporaryFolder& folder,
+    const std::vector<mrpt::serialization::CSerializable::Ptr>& objects)
+{
+  std::string bytes = readFile(writeObjects(folder.path("x.rawlog"), objects, false));
+  const double x = 1234.5, one = 1;
+  const std::string xBytes(reinterpret_cast<const char*>(&x), sizeof x);
+  const std::string oneBytes(reinterpret_cast<const char*>(&one), sizeof one);
+  const auto real = bytes.find(oneBytes, bytes.find(xBytes));
+  EXPECT_LT(real, bytes.size());
+  bytes.replace(real, sizeof one, std::string(sizeof one, '\0'));
+  return folder.write("x.rawlog", bytes);
+}
+
 /** Number of bytes that zlib's own decoder gets from the beginning of a gzip file. */
 std::size_t inflatedBytes(std::string compressed)
 {
@@ -257,6 +272,10 @@ TEST(RawlogErrors, UnreadableExternalImages)
   folder.write(depth, goodDepth);
   folder.write(color, "no image here");
   expectProblem(file, {where, color + " cannot be read"}, 1);
+  folder.write(color, goodColor.substr(0, goodColor.size() / 2));
+  testing::internal::CaptureStderr();
+  expectProblem(file, {where, color + " cannot be read", "Premature end"}, 1);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "libjpeg prints nothing itself";
   folder.write(color, goodColor);
   EXPECT_EQ(readAll(file).size(), 2u);
 }
@@ -295,6 +314,8 @@ TEST(RawlogErrors, ScansNobodyCanUse)
   expect(noCalibration, [](Scan& s) { s.cameraParams.intrinsicParams(1, 1) = 0; });
   expect(noCalibration, [](Scan& s) { s.cameraParams.intrinsicParams(0, 2) = kNaN; });
   expect("rangeUnits=0", [](Scan& s) { s.rangeUnits = 0; });
+  expect("rangeUnits=inf", [](Scan& s) { s.rangeUnits = HUGE_VALF; });
+  expect("rangeUnits=1e-30", [](Scan& s) { s.rangeUnits = 1e-30f; });
   expect("rangeUnits=nan", [](Scan& s) { s.rangeUnits = static_cast<float>(kNaN); });
   expect("has no range image", [](Scan& s) { s.hasRangeImage = false; });
   expect(
@@ -321,6 +342,15 @@ TEST(RawlogErrors, PosesNobodyCanUse)
           folder.path("x.rawlog"),
           {samplePose(kStart, CPose3D(kNaN, 0, 0, 0, 0, 0)), sampleScan(kStart)}),
       {"x.rawlog: record 0 (odometry): ", "not finite"}, 1);
+  expectProblem(
+      writeObjects(
+          folder.path("x.rawlog"),
+          {samplePose(kStart, CPose3D(1e300, 0, 0, 0, 0, 0)), sampleScan(kStart)}),
+      {"x.rawlog: record 0 (odometry): ", "absurd"}, 1);
+  expectProblem(
+      withoutRotation(
+          folder, {samplePose(kStart, CPose3D(1234.5, 0, 0, 0, 0, 0)), sampleScan(kStart)}),
+      {"x.rawlog: record 0 (odometry): ", "quaternion"}, 1);
   expectProblem(
       writeObjects(
           folder.path("x.rawlog"),

@@ -178,6 +178,8 @@ TEST(TumDataset, RejectsBadCalibrations)
   expect(withValue("width", "64.5"), "'width' is 64.5: must be a whole number in 1..20000");
   expect(withValue("height", "0"), "'height' is 0: must be a whole number");
   expect(withValue("depth_factor", "-1"), "depth_factor=-1: must be > 0");
+  expect(withValue("depth_factor", "1e-300"), "depth_factor=1e-300: must be in [1, 1e+07]");
+  expect(withValue("depth_factor", "1e300"), "depth_factor=1e+300: must be in [1, 1e+07]");
   auto up = std::string(SampleRecording::kCalibration);
   up.replace(up.find("0., -1., 0."), 11, "0., 0., 0.");
   expect(up, "'world_up' must be a finite direction");

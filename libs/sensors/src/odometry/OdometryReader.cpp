@@ -138,8 +138,8 @@ void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
   const auto movement = movementIn(actions);
   if (!movement || !(countsActions_ || accept(movement->kind))) return;
   countsActions_ = true;
-  if (!isFinite(movement->increment.mean))
-    throw std::runtime_error("the movement has numbers that are not finite");
+  if (const auto why = whyUnusable(movement->increment.mean))
+    throw std::runtime_error("the movement " + *why);
   sumOfActions_ += withUsableCovariance(movement->increment);
 }
 

@@ -42,15 +42,23 @@ CPose3DPDFGaussian interpolate(
 }
 }  // namespace
 
-bool isFinite(const mrpt::poses::CPose3D& pose)
+std::optional<std::string> whyUnusable(const mrpt::poses::CPose3D& pose)
 {
+  constexpr double kFarthest = 1e8;      // [m], ten times the largest coordinates of maps (UTM)
+  constexpr double kLeastRotated = 0.9;  // least determinant, for numbers that were rounded
   const auto matrix = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
-  return matrix.asEigen().allFinite();
+  const Eigen::Matrix4d T = matrix.asEigen();
+  if (!T.allFinite()) return "has numbers that are not finite";
+  const double distance = T.topRightCorner<3, 1>().norm();
+  if (!(distance <= kFarthest)) return mrpt::format("is %g m away, which is absurd", distance);
+  if (!(T.topLeftCorner<3, 3>().determinant() >= kLeastRotated))
+    return "has no rotation (its quaternion is zero?)";
+  return std::nullopt;
 }
 
 void PoseInterpolator::add(double time, const CPose3DPDFGaussian& pose)
 {
-  if (!isFinite(pose.mean)) throw std::runtime_error("the pose has numbers that are not finite");
+  if (const auto why = whyUnusable(pose.mean)) throw std::runtime_error("the pose " + *why);
   if (!poses_.empty() && time < poses_.back().time)
     throw std::runtime_error(
         mrpt::format("the time goes back by %.6f s", poses_.back().time - time));

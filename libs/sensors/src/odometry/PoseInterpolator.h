@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <string>
 
 namespace quadmap
 {
@@ -42,7 +43,9 @@ class PoseInterpolator
   std::deque<Stamped> poses_;  // in the order of time
 };
 
-/** Whether all six numbers are finite. */
-bool isFinite(const mrpt::poses::CPose3D& pose);
+/** Why a pose or motion of a file cannot be one: numbers that are not finite or absurd, no
+ * rotation.
+ */
+std::optional<std::string> whyUnusable(const mrpt::poses::CPose3D& pose);
 
 }  // namespace quadmap

@@ -11,6 +11,7 @@
 #include "quadmap/obs/FrameAgreement.h"
 #include "quadmap/obs/PixelLabels.h"
 #include "quadmap/sensors/RawlogNames.h"
+#include "rawlog/MirroredImages.h"
 #include "rawlog/RawlogSourceImpl.h"
 #include "rawlog/ScanCheck.h"
 
@@ -41,7 +42,8 @@ void check(const RawlogSourceOptions& options)
 std::string InputProblem::text() const
 {
   const std::string where = sensor.empty() ? "" : " (" + sensor + ")";
-  return file + ": record " + std::to_string(record) + where + ": " + what;
+  // Labels come from the file.
+  return oneLine(file + ": record " + std::to_string(record) + where + ": " + what);
 }
 
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
@@ -139,6 +141,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
   addPoses(pending);
   addBoxes(frame);
   if (!frame.objects && options.pixelLabelClasses) addPixelLabels(frame);
+  makeFyPositive(frame);
   ++framesRead;
   return std::move(frame);
 }
@@ -202,7 +205,7 @@ void RawlogSource::Impl::addPixelLabels(RgbdFrame& frame)
   }
   catch (const std::exception& e)
   {
-    report({reader.file(), frame.record, frame.scan->sensorLabel, e.what()});
+    report({reader.file(), frame.record, frame.scan->sensorLabel, rootMessage(e)});
   }
 }
 

@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "DepthUnit.h"
+#include "ImageFile.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/sensors/BoxCheck.h"
@@ -62,10 +65,15 @@ void loadExternalColor(CObservation3DRangeScan& scan)
 {
   const std::string path = scan.intensityImage.getExternalStorageFileAbsolutePath();
   requireFile(path);
-  mrpt::img::CImage image;
-  if (!image.loadFromFile(path))
-    throw std::runtime_error("its external image " + path + " cannot be read");
-  scan.intensityImage = image;
+  try
+  {
+    const cv::Mat image = readImageFile(path, cv::IMREAD_COLOR);
+    scan.intensityImage = mrpt::img::CImage(image, mrpt::img::SHALLOW_COPY);
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error("its external image " + path + " " + e.what());
+  }
 }
 
 /** Loads the external images into the scan. */
@@ -113,9 +121,10 @@ void prepareScan(CObservation3DRangeScan& scan, const std::string& imagesFolder)
   loadExternalImages(scan, imagesFolder);
   if (scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
     throw std::runtime_error("its range image is empty");
-  if (!std::isfinite(scan.rangeUnits) || scan.rangeUnits <= 0)
-    throw std::runtime_error(
-        mrpt::format("rangeUnits=%g: must be > 0 m", static_cast<double>(scan.rangeUnits)));
+  if (!isPlausibleDepthUnit(scan.rangeUnits))
+    throw std::runtime_error(mrpt::format(
+        "rangeUnits=%g: must be > 0 m, in [%g, %g] m", static_cast<double>(scan.rangeUnits),
+        kSmallestDepthUnit, kLargestDepthUnit));
   requireCalibration(scan);
   if (!scan.sensorPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite())
     throw std::runtime_error("its sensorPose has numbers that are not finite");

@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "DepthUnit.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "tum/TumFiles.h"
 
@@ -157,6 +158,10 @@ TumCalibration readTumCalibration(const std::string& path)
   calibration.depthFactor = file.number("depth_factor");
   if (calibration.depthFactor <= 0)
     file.reject(mrpt::format("depth_factor=%g: must be > 0", calibration.depthFactor));
+  if (!isPlausibleDepthUnit(1 / calibration.depthFactor))
+    file.reject(mrpt::format(
+        "depth_factor=%g: must be in [%g, %g], as metres = value / depth_factor",
+        calibration.depthFactor, 1 / kLargestDepthUnit, 1 / kSmallestDepthUnit));
   const char* const coefficients[] = {
       "k1", "k2", "p1", "p2", "k3"};  // in the order of MRPT's plumb_bob
   for (std::size_t i = 0; i < std::size(coefficients); ++i)

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "ImageFile.h"
 #include "quadmap/geometry/PinholeCamera.h"
 #include "tum/TumFiles.h"
 
@@ -27,17 +28,15 @@ mrpt::poses::CPose3D uprightRotation(const Eigen::Vector3d& up)
 
 cv::Mat loadImage(const std::string& path, int flags, const mrpt::img::TCamera& camera)
 {
-  if (!fs::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
   cv::Mat image;
   try
   {
-    image = cv::imread(path, flags);
+    image = readImageFile(path, flags);
   }
-  catch (const cv::Exception& e)
+  catch (const std::exception& e)
   {
-    throw std::runtime_error(path + ": cannot be read as an image: " + e.err);
+    throw std::runtime_error(path + ": " + e.what());
   }
-  if (image.empty()) throw std::runtime_error(path + ": cannot be read as an image");
   if (image.cols != static_cast<int>(camera.ncols) || image.rows != static_cast<int>(camera.nrows))
     throw std::runtime_error(mrpt::format(
         "%s: is %dx%d, calibration.yaml is for %ux%u", path.c_str(), image.cols, image.rows,
