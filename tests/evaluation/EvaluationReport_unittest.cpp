@@ -84,6 +84,18 @@ TEST_F(EvaluatedRun, AlignsAndCompares)
   EXPECT_NEAR(report.objects->matches[0].comparison.centerDistance, 0.05, 1e-6);
 }
 
+TEST_F(EvaluatedRun, TheErrorOfASinglePoseIsNoFigure)
+{
+  writeTumTrajectory(folder_.path("trajectory.tum"), {square(CPose3D(), 0.1).front()});
+  const EvaluationReport report = evaluateRun(input_);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.front().find("only one pose"), std::string::npos);
+  input_.trueObjectsPath.reset();
+  EXPECT_NE(errorWith(input_).find("trajectory.tum: only one pose"), std::string::npos);
+  input_.inPlace = true;
+  EXPECT_EQ(errorWith(input_), "");
+}
+
 TEST_F(EvaluatedRun, WritesTheJsonOfTheDesign)
 {
   const json j = json::parse(toJson(evaluateRun(input_)));

@@ -180,7 +180,8 @@ TEST(MapDefinition, MistakesInTheIniAreErrors)
         "insertOpts]\nmaxIterations=4abc", "insertOpts]\nuseInstanceIds=yess",
         "insertOpts]\ndetectionProbability=0.05", "likelihoodOpts]\noutlierShare=2",
         "renderOpts]\nopaqueness=1", "creationOpts]\nlabels=x",
-        "creationOpts]\nlabelTable=/nowhere/labels.ini", "perceptionOpts]\nmaxRnage=3"})
+        "creationOpts]\nlabelTable=/nowhere/labels.ini", "perceptionOpts]\nmaxRnage=3",
+        "insertionOpts]\nalpha=1", "]\nalpha=1", "creationOpt]\n"})
     EXPECT_ANY_THROW(
         multiMapFrom("[map]\nCQuadricObjectMap_count=1\n[map_CQuadricObjectMap_00_" + wrong + "\n"))
         << wrong;

@@ -47,6 +47,19 @@ TEST_F(SimpleMapFile, IsReadKeyframeByKeyframe)
   EXPECT_FALSE(reader.next());
 }
 
+TEST_F(SimpleMapFile, AFileWithoutItsLastBytesIsAnError)
+{
+  const std::string whole = readFile(path_);
+  for (const std::size_t cut : {1u, 8u, 50u})
+  {
+    folder_.write("map.simplemap", whole.substr(0, whole.size() - cut));
+    SceneContent content;
+    const std::string error = errorOf([&] { addKeyframes(path_, {}, content); });
+    EXPECT_NE(error.find(path_), std::string::npos) << cut;
+    EXPECT_NE(error.find("truncated"), std::string::npos) << error;
+  }
+}
+
 TEST_F(SimpleMapFile, GivesCamerasAndACloud)
 {
   SceneContent content;

@@ -142,6 +142,26 @@ void rejectUnknownKeys(
       throw std::invalid_argument("[" + section + "] unknown key \"" + key + "\"; known: " + list);
 }
 
+void rejectUnknownSections(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& prefix,
+    const std::set<std::string>& known)
+{
+  std::set<std::string> knownLower;
+  std::string list;
+  for (const auto& name : known)
+  {
+    knownLower.insert(lowerCase(prefix + name));
+    list += (list.empty() ? "" : ", ") + prefix + name;
+  }
+  std::vector<std::string> sections;
+  config.getAllSections(sections);
+  for (const auto& section : sections)
+    if (lowerCase(section).rfind(lowerCase(prefix), 0) == 0 &&
+        knownLower.count(lowerCase(section)) == 0)
+      throw std::invalid_argument("unknown section [" + section + "]; known: " + list);
+}
+
 void readNumber(
     const mrpt::config::CConfigFileBase& config,
     const std::string& section,

@@ -53,6 +53,13 @@ TrajectoryEvaluation evaluateTrajectory(
       isTrajectoryAlone(input) ? input.estimate : inFolder(input, "trajectory.tum");
   const Trajectory estimated = readTumTrajectory(path);
   const auto pairs = pairsWithTruth(path, estimated, input);
+  if (!input.inPlace && pairs.size() == 1)
+  {
+    const std::string text =
+        path + ": only one pose has a true one: aligned to it, its error is zero whatever it is";
+    if (!input.trueObjectsPath) throw std::runtime_error(text + "; try --in-place");
+    notes.push_back(text + ".");
+  }
   if (!input.inPlace)
   {
     const TrajectoryAlignment alignment = alignTrajectories(pairs);

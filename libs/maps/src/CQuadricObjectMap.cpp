@@ -42,6 +42,9 @@ CQuadricObjectMap::TMapDefinition::TMapDefinition() = default;
 void CQuadricObjectMap::TMapDefinition::loadFromConfigFile_map_specific(
     const mrpt::config::CConfigFileBase& source, const std::string& sectionNamePrefix)
 {
+  rejectUnknownSections(
+      source, sectionNamePrefix + "_",
+      {"creationOpts", "insertOpts", "likelihoodOpts", "perceptionOpts", "renderOpts"});
   const std::string creation = sectionNamePrefix + "_creationOpts";
   rejectUnknownKeys(
       source, creation,

@@ -8,8 +8,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "quadmap/base/OutputSet.h"
-
 namespace quadmap
 {
 namespace
@@ -26,15 +24,18 @@ bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
   return name == expected && archive.ReadAs<std::uint8_t>() == kVersion;
 }
 
+const std::string& existing(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": cannot be read");
+  return path;
+}
+
 }  // namespace
 
-SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path)
+SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path), file_(existing(path))
 {
   mrpt::poses::registerAllClasses_mrpt_poses();
   mrpt::obs::registerAllClasses_mrpt_obs();
-  requireOneRun(path);
-  if (!std::filesystem::is_regular_file(path) || !file_.open(path))
-    throw std::runtime_error(path + ": cannot be read");
   try
   {
     auto archive = mrpt::serialization::archiveFrom(file_);
@@ -52,10 +53,15 @@ SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path)
 
 std::optional<SimpleMapReader::Keyframe> SimpleMapReader::next()
 {
-  if (read_ == size_) return std::nullopt;
+  if (read_ == size_)
+  {
+    requireEnd();
+    return std::nullopt;
+  }
   ++read_;
   try
   {
+    file_.startRecord();
     auto archive = mrpt::serialization::archiveFrom(file_);
     Keyframe keyframe;
     archive >> keyframe.pose >> keyframe.observations;
@@ -67,6 +73,18 @@ std::optional<SimpleMapReader::Keyframe> SimpleMapReader::next()
   throw std::runtime_error(mrpt::format(
       "%s: keyframe %zu of %zu cannot be read: the file is truncated or damaged", path_.c_str(),
       read_, size_));
+}
+
+void SimpleMapReader::requireEnd()
+{
+  try
+  {
+    file_.skipToEnd();  // the checksum comes last
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(path_ + ": " + e.what());
+  }
 }
 
 }  // namespace quadmap

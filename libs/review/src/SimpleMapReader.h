@@ -1,11 +1,12 @@
 #pragma once
 
-#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDF.h>
 
 #include <optional>
 #include <string>
+
+#include "quadmap/base/GzipInput.h"
 
 namespace quadmap
 {
@@ -30,8 +31,10 @@ class SimpleMapReader
   std::optional<Keyframe> next();
 
  private:
+  void requireEnd();  //!< \exception std::runtime_error If the end is cut or damaged
+
   std::string path_;
-  mrpt::io::CFileGZInputStream file_;
+  GzInput file_;
   std::size_t size_ = 0, read_ = 0;
 };
 

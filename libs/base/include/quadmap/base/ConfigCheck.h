@@ -50,4 +50,11 @@ void readFlag(
     const std::string& key,
     bool& value);
 
+/** \exception std::invalid_argument If a section whose name starts with `prefix` goes on otherwise
+ *  than one of `known`: misspelt, it would be ignored. Case plays no part. */
+void rejectUnknownSections(
+    const mrpt::config::CConfigFileBase& config,
+    const std::string& prefix,
+    const std::set<std::string>& known);
+
 }  // namespace quadmap
