@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
@@ -57,7 +58,7 @@ try
 }
 catch (const std::exception& e)
 {
-  drop(report, options, e.what());
+  drop(report, options, rootMessage(e));
   return std::nullopt;
 }
 }  // namespace
@@ -96,6 +97,7 @@ TumImportReport importTum(
     }
     writer.write(*loaded->scan);
     ++report.frames;
+    if (!loaded->boxes && !dataset.boxesFile(i).empty()) ++report.withoutDetections;
     if (!loaded->boxes) continue;
     writer.write(*loaded->boxes);
     report.boxes += loaded->boxes->objects.size();

@@ -28,7 +28,8 @@ struct TumImportOptions
 struct TumImportReport
 {
   std::size_t frames = 0, poses = 0, boxes = 0;  //!< Numbers of what was written
-  std::vector<std::string> dropped;              //!< One text for each that keepGoing left out
+  std::size_t withoutDetections = 0;  //!< Number of frames that have no file in the folder of boxes
+  std::vector<std::string> dropped;   //!< One text for each that keepGoing left out
 };
 
 /** Called with the share that is done, in [0, 1]. */

@@ -41,8 +41,8 @@ struct Cli
   TCLAP::ValueArg<std::string> detections{
       "",    "detections", "Folder of the boxes (default SOURCE/detections).", false, "",
       "DIR", line.args()};
-  TCLAP::ValueArg<unsigned> every{"",  "every",    "Take every n-th frame only.", false, 1,
-                                  "N", line.args()};
+  TCLAP::ValueArg<int> every{"",  "every",    "Take every n-th frame only.", false, 1,
+                             "N", line.args()};
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Drop what cannot be used, say so, and go on.", line.args()};
 };
@@ -53,19 +53,34 @@ PosesAs posesAs(const std::string& name)
   return name == "none" ? PosesAs::None : PosesAs::GroundTruth;
 }
 
+/** Images without a file of boxes were not seen by the detector, or the files have other names.
+ *  \exception std::runtime_error If no image has one, unless the import is to go on. */
+void reportMissingDetections(
+    const TumDataset& dataset, const TumImportReport& report, bool keepGoing)
+{
+  if (report.withoutDetections == 0) return;
+  const std::string text = std::to_string(report.withoutDetections) + " of " +
+                           std::to_string(report.frames) + " images have no file of boxes, as " +
+                           dataset.boxesFile(0) + " is the one of the first";
+  if (report.withoutDetections == report.frames && !keepGoing) throw std::runtime_error(text);
+  std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
+}
+
 void import(const TumDataset& dataset, Cli& cli)
 {
   TumImportOptions options;
   options.posesAs = posesAs(cli.posesAs.getValue());
-  options.every = cli.every.getValue();
+  options.every = static_cast<std::size_t>(cli.every.getValue());
   options.keepGoing = cli.keepGoing.getValue();
   RawlogWriterOptions writing;
   writing.external = cli.external.getValue();
   RawlogWriter writer(cli.output.getValue(), writing);
   const auto report = importTum(dataset, options, writer, cli::ProgressBar());
-  for (const auto& what : report.dropped) std::cerr << "quadmap-import: dropped: " << what << "\n";
+  for (const auto& what : report.dropped)
+    std::cerr << "quadmap-import: dropped: " << oneLine(what) << "\n";
   if (report.frames == 0)
     throw std::runtime_error(dataset.folder() + ": no frame could be imported");
+  reportMissingDetections(dataset, report, options.keepGoing);
   writer.finish();
   std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
             << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";
@@ -89,7 +104,7 @@ int checkOnly(const TumDataset& dataset, Cli& cli)
   {
     std::cout << kind << " (" << texts.size() << ")\n";
     for (std::size_t i = 0; i < std::min(texts.size(), kExamples); ++i)
-      std::cout << "  " << texts[i] << "\n";
+      std::cout << "  " << oneLine(texts[i]) << "\n";
     if (texts.size() > kExamples) std::cout << "  ...\n";
   }
   return problems.empty() ? 0 : 1;
@@ -106,7 +121,8 @@ int run(Cli& cli)
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
   const TumDataset dataset(cli.source.getValue(), reading);
-  for (const auto& note : dataset.notes()) std::cerr << "quadmap-import: note: " << note << "\n";
+  for (const auto& note : dataset.notes())
+    std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";
   if (checking) return checkOnly(dataset, cli);
   import(dataset, cli);
   return 0;

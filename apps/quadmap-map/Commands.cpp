@@ -61,11 +61,15 @@ void relabelCommand(int argc, char** argv)
   EditCli cli("relabel", "Gives an object another label.");
   Id id("", "id", "The object.", true, 0, "N", cli.line.args());
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
+  TCLAP::SwitchArg anyLabel(
+      "", "any-label", "Take a label that neither the map's label table nor its objects have.",
+      cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
   if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
   CQuadricObjectMap map;
   map.loadFromFile(cli.file.getValue());
   requireObject(map, id.getValue(), cli.file.getValue());
+  if (!anyLabel.getValue()) requireLabel(map, label.getValue(), cli.file.getValue());
   map.relabel(id.getValue(), label.getValue());
   cli.write(map);
 }

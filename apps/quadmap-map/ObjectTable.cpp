@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 namespace quadmap
 {
@@ -92,6 +93,15 @@ std::string mapSummary(const CQuadricObjectMap& map, const std::string& path)
   std::vector<ObjectRow> rows;
   for (const MapObject* object : confirmed) rows.push_back({object, std::nullopt});
   return text + objectTable(map, rows, false);
+}
+
+void requireLabel(const CQuadricObjectMap& map, const std::string& label, const std::string& path)
+{
+  const LabelTable& table = map.labels();
+  if (table.properties(label).known || !map.withLabel(label).empty()) return;
+  throw std::runtime_error(
+      path + ": \"" + label + "\" is a label neither of its label table nor of its objects: " +
+      labelCounts(map.confirmedObjects()));
 }
 
 }  // namespace quadmap

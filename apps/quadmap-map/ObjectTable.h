@@ -22,4 +22,8 @@ std::string objectTable(
 /** Name, number of objects, labels and extent of a map, then the table of its objects. */
 std::string mapSummary(const CQuadricObjectMap& map, const std::string& path);
 
+/** A label is misspelt when neither the map's objects have it nor its label table.
+ *  \exception std::runtime_error For such a label; lists those of the objects. */
+void requireLabel(const CQuadricObjectMap& map, const std::string& label, const std::string& path);
+
 }  // namespace quadmap

@@ -121,6 +121,7 @@ void queryCommand(int argc, char** argv)
     throw cli::UsageError("--footprint and --json: the form of objects.json has no footprints");
   CQuadricObjectMap map;
   map.loadFromFile(cli.file.getValue());
+  if (cli.label.isSet()) requireLabel(map, cli.label.getValue(), cli.file.getValue());
   const std::vector<ObjectRow> rows = rowsOf(cli, map);
   std::cout
       << (cli.json.getValue() ? jsonOf(map, rows)

@@ -93,6 +93,21 @@ TEST_F(QuadmapImport, TakesEveryNthFrameAndOtherDetections)
   EXPECT_EQ(frames[2].objects->objects.size(), 2u);
 }
 
+TEST_F(QuadmapImport, TellsWhichImagesHaveNoFileOfBoxes)
+{
+  const TemporaryFolder detections;
+  const std::string arguments =
+      "tum IN -o OUT/x.rawlog --detections " + detections.folder().string();
+  detections.write("other.txt", "41 cup 0.5 1 1 9 9\n");
+  expectFailure(run(arguments), "6 of 6 images have no file of boxes");
+  EXPECT_EQ(out_.fileCount(), 0u);
+  EXPECT_EQ(run(arguments + " --keep-going").status, 0);
+  detections.write("f4.txt", "41 cup 0.5 1 1 9 9\n");
+  const auto result = run(arguments);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("warning: 5 of 6 images"), kNotFound) << result.err;
+}
+
 TEST_F(QuadmapImport, WritesExternalImages)
 {
   ASSERT_EQ(run("tum IN -o OUT/x.rawlog --external").status, 0);
@@ -223,9 +238,9 @@ TEST_F(QuadmapImport, WrongUsageIsStatus2)
 {
   for (const char* arguments :
        {"", "tum", "tum IN", "tom IN -o OUT/x.rawlog", "tum IN -o OUT/x.rawlog --every 0",
-        "tum IN -o OUT/x.rawlog --every two", "tum IN -o OUT/x.rawlog --poses-as truth",
-        "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o", "tum IN --check --max-gap -1",
-        "tum IN --check --max-speed 0"})
+        "tum IN -o OUT/x.rawlog --every -1", "tum IN -o OUT/x.rawlog --every two",
+        "tum IN -o OUT/x.rawlog --poses-as truth", "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o",
+        "tum IN --check --max-gap -1", "tum IN --check --max-speed 0"})
   {
     const auto result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;

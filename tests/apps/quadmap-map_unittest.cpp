@@ -95,6 +95,10 @@ TEST_F(QuadmapMap, QueryPrintsTablesWithDistancesAndFootprints)
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("away [m]"), kNotFound) << result.out;
   EXPECT_NE(result.out.find("footprint [m]: ("), kNotFound) << result.out;
+  const auto misspelt = run("query MAP --label chiar");
+  EXPECT_EQ(misspelt.status, 1);
+  EXPECT_NE(misspelt.err.find("\"chiar\""), kNotFound) << misspelt.err;
+  EXPECT_NE(misspelt.err.find("1 chair"), kNotFound) << "what there is: " << misspelt.err;
   const auto nothing = run("query MAP --label cup");
   EXPECT_EQ(nothing.status, 0);
   EXPECT_EQ(nothing.out, "no objects\n");
@@ -104,6 +108,12 @@ TEST_F(QuadmapMap, RelabelRemoveAndMergeWriteANewMap)
 {
   ASSERT_EQ(
       run("relabel MAP" + option("id", "chair") + " --label bench -o DIR/a.quadmap").status, 0);
+  EXPECT_EQ(
+      run("relabel MAP" + option("id", "chair") + " --label bnech -o DIR/x.quadmap").status, 1);
+  EXPECT_EQ(
+      run("relabel MAP" + option("id", "chair") + " --label anvil --any-label -o DIR/x.quadmap")
+          .status,
+      0);
   const auto relabelled = mapFrom(folder_.path("a.quadmap"));
   EXPECT_EQ(relabelled.withLabel("bench").size(), 1u);
   EXPECT_TRUE(relabelled.withLabel("chair").empty());
