@@ -228,8 +228,8 @@ int run(Cli& cli)
     if (level == mrpt::system::LVL_INFO && verbosity == mrpt::system::LVL_INFO)
       notes.push_back(text);  // they are printed when the run succeeds
     else
-      std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "") << text
-                << "\n";
+      std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "")
+                << oneLine(text) << "\n";
   };
   request.onProgress = cli::ProgressBar();
   request.shouldStop = [] { return cli::stopSignal != 0; };

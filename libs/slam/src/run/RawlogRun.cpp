@@ -195,7 +195,7 @@ class RawlogRun
 
   InputProblem problemOf(const BadFrame& e) const
   {
-    return {request_.rawlog, e.record, e.sensor, e.what()};
+    return {request_.rawlog, e.record, e.sensor, rootMessage(e)};
   }
 
   void requireContent(bool interrupted)
