@@ -67,18 +67,20 @@ void turnDepth(mrpt::obs::CObservation3DRangeScan& scan)
 
 }  // namespace
 
-void makeFyPositive(RgbdFrame& frame)
+bool makeFyPositive(RgbdFrame& frame)
 {
   auto& scan = *frame.scan;
+  const bool any = scan.cameraParams.fy() < 0 || scan.cameraParamsIntensity.fy() < 0;
   if (scan.cameraParams.fy() < 0) turnDepth(scan);
   if (scan.cameraParamsIntensity.fy() < 0)
   {
     if (scan.hasIntensityImage) turn(scan.intensityImage);
     turn(scan.cameraParamsIntensity);
   }
-  if (!frame.objects || !(frame.objects->cameraParams.fy() < 0)) return;
+  if (!frame.objects || !(frame.objects->cameraParams.fy() < 0)) return any;
   for (auto& object : frame.objects->objects) turn(object, frame.objects->cameraParams.nrows);
   turn(frame.objects->cameraParams);
+  return true;
 }
 
 }  // namespace quadmap
