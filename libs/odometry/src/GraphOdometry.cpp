@@ -7,11 +7,13 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/OutputSet.h"
+#include "quadmap/base/StderrCapture.h"
 
 namespace quadmap
 {
@@ -39,6 +41,20 @@ bool isSilent(const Eigen::Matrix<double, 6, 6>& matrix, std::initializer_list<i
   return true;
 }
 
+/** The first of MRPT's remarks on a graph, "[reader] (file):LINE: Warning: TEXT", as
+ * "; line LINE: TEXT". Of the others there may be thousands. */
+std::string firstRemark(const std::string& remarks)
+{
+  const std::string line = remarks.substr(0, remarks.find('\n')),
+                    before = "(none):", between = "Warning: ";
+  const auto number = line.find(before), text = line.find(between);
+  if (number == std::string::npos || text == std::string::npos || text < number)
+    return remarks.empty() ? "" : "; " + oneLine(line);
+  const auto first = number + before.size();
+  return "; line " + line.substr(first, line.find(':', first) - first) + ": " +
+         oneLine(line.substr(text + between.size()));
+}
+
 /** The text of a graph, with the times that MRPT's reader takes for comments. */
 class GraphFile
 {
@@ -51,16 +67,10 @@ class GraphFile
     std::stringstream text;
     text << file.rdbuf();
     readTimes(text.str());
-    try
-    {
-      graph.readAsText(text);
-    }
-    catch (const std::exception& e)
-    {
-      throw std::runtime_error(path + ": " + rootMessage(e));
-    }
+    const std::string unknown = read(text);
     if (graph.nodes.empty())
-      throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line");
+      throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line" + unknown);
+    if (!unknown.empty()) std::cerr << path + ": some lines are ignored" + unknown + "\n";
     for (const auto& t : times)
       if (graph.nodes.count(t.node) == 0)
         throw std::runtime_error(mrpt::format(
@@ -96,6 +106,21 @@ class GraphFile
   }
 
  private:
+  /** \return What MRPT says of lines that it does not know, see firstRemark(). */
+  std::string read(std::istream& text)
+  {
+    const StderrCapture capture;  // where MRPT tells of each
+    try
+    {
+      graph.readAsText(text);
+    }
+    catch (const std::exception& e)
+    {
+      throw std::runtime_error(path_ + ": " + rootMessage(e));
+    }
+    return firstRemark(capture.text());
+  }
+
   void readTimes(const std::string& text)
   {
     std::istringstream lines(text);

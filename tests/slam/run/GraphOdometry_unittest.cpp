@@ -159,6 +159,11 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
     EXPECT_EQ(error.find(folder_.path("x.graph")), 0u) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
+  testing::internal::CaptureStderr();
+  const std::string nonsense = errorIn("\x1b[2J is none\nnor this\n");
+  EXPECT_NE(nonsense.find("VERTEX3 line; line 1: unknown entry type: ?[2J"), std::string::npos)
+      << nonsense;
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "MRPT prints nothing itself";
   EXPECT_EQ(errorOf([] { GraphOdometry("/nowhere/x.graph"); }), "/nowhere/x.graph: cannot be read");
 }
 
