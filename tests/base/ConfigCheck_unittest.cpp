@@ -123,3 +123,14 @@ TEST(RequireReadableIni, RefusesMissingFilesAndFolders)
       {"none.ini", "cannot be read"});
   expectParts(errorOf([&] { requireReadableIni(folder.folder().string()); }), {"is a directory"});
 }
+
+TEST(RequireModestText, NamesFileAndSize)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("x.ini", std::string(3u << 20, '#'));
+  EXPECT_EQ(
+      errorOf([&] { requireModestText(path); }),
+      path + ": has 3 MB, more than the 1 MB that such a file may have");
+  EXPECT_EQ(errorOf([&] { requireModestText(path, 3u << 20); }), "");
+  EXPECT_NE(errorOf([&] { requireReadableIni(path); }), "");
+}

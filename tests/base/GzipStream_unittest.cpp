@@ -6,6 +6,7 @@
 
 #include "../obs/FileSizeLimit.h"
 #include "../obs/TemporaryFolder.h"
+#include "quadmap/base/GzipInput.h"
 #include "quadmap/obs/CObservationObjects.h"
 
 using namespace quadmap;
@@ -65,4 +66,23 @@ TEST(GzipStream, FullDiskKeepsTheOldFile)
     EXPECT_EQ(readFile(path), "old") << bytes;
     EXPECT_EQ(folder.fileCount(), 1u) << bytes;
   }
+}
+
+TEST(GzInput, ReadsNoMoreThanItMay)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> zeros(3u << 20, 0);
+  const auto member = gzipMember(zeros, 9);
+  const auto path = folder.write("x.gz", std::string(member.begin(), member.end()));
+  const auto readAll = [&](std::uint64_t most)
+  {
+    GzInput file(path);
+    file.setMostBytes(most);
+    file.startRecord();
+    char first = 1;
+    file.Read(&first, 1);
+    file.skipToEnd();
+  };
+  EXPECT_EQ(errorOf([&] { readAll(3u << 20); }), "");
+  EXPECT_EQ(errorOf([&] { readAll(2u << 20); }), "the file holds more than 2 MB");
 }

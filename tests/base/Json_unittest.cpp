@@ -23,6 +23,19 @@ TEST(ReadJson, NamesTheFileAndThePlaceOfWhatIsWrong)
       errorOf([&] { readJson("/nowhere/x.json"); }).find("cannot be read"), std::string::npos);
 }
 
+TEST(ReadJson, RefusesTreesThatTakeMoreMemoryThanTheirText)
+{
+  const TemporaryFolder folder;
+  const auto nested = [&](int depth)
+  { return folder.write("x.json", std::string(depth, '[') + std::string(depth, ']')); };
+  EXPECT_EQ(errorOf([&] { readJson(nested(60)); }), "");
+  EXPECT_NE(errorOf([&] { readJson(nested(70)); }).find("nested too deeply"), std::string::npos);
+  std::string zeros = "[0";
+  for (int i = 0; i < 8'000'000; ++i) zeros += ",0";
+  const auto many = folder.write("x.json", zeros + "]");
+  EXPECT_NE(errorOf([&] { readJson(many); }).find("too many values"), std::string::npos);
+}
+
 TEST(JsonText, ReplacesWhatIsNotUtf8)
 {
   EXPECT_EQ(

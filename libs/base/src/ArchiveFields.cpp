@@ -30,7 +30,9 @@ void readBytes(CArchive& in, void* to, std::size_t n)
 std::uint32_t readCount(CArchive& in, std::uint32_t most, const char* what)
 {
   const auto count = readScalar<std::uint32_t>(in);
-  requireStored(count <= most, std::string("too many ") + what);
+  requireStored(
+      count <= most, std::string("too many ") + what + " (" + std::to_string(count) + ", at most " +
+                         std::to_string(most) + ")");
   return count;
 }
 

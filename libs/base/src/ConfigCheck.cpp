@@ -104,6 +104,17 @@ std::optional<bool> parseFlag(const std::string& text)
   return std::nullopt;
 }
 
+void requireModestText(const std::string& path, std::uintmax_t mostBytes)
+{
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(path, ignored);
+  if (!ignored && size > mostBytes)
+    throw std::runtime_error(mrpt::format(
+        "%s: has %llu MB, more than the %llu MB that such a file may have", path.c_str(),
+        static_cast<unsigned long long>(size >> 20),
+        static_cast<unsigned long long>(mostBytes >> 20)));
+}
+
 void requireReadableIni(const std::string& path)
 {
   std::error_code ignored;
@@ -112,6 +123,7 @@ void requireReadableIni(const std::string& path)
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
 
+  requireModestText(path);
   IniLineCheck lines;
   std::string line;
   for (unsigned number = 1; std::getline(file, line); ++number)

@@ -89,6 +89,7 @@ std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
 std::size_t GzInput::Read(void* buffer, std::size_t count)
 {
   if (!failure_.empty()) throw std::runtime_error(failure_);
+  requireRoomFor(count);
   auto* bytes = static_cast<char*>(buffer);
   const std::size_t done = readAvailable(bytes, count);
   if (done < count && (done > 0 || recordBytes_ > 0))
@@ -99,11 +100,21 @@ std::size_t GzInput::Read(void* buffer, std::size_t count)
   return done;
 }
 
+void GzInput::requireRoomFor(std::uint64_t count)
+{
+  if (position_ > mostBytes_ || count > mostBytes_ - position_)
+    fail("the file holds more than " + std::to_string(mostBytes_ >> 20) + " MB");
+}
+
 void GzInput::skipToEnd()
 {
   std::vector<char> bytes(kBufferBytes);
-  while (readAvailable(bytes.data(), bytes.size()) == bytes.size())
+  std::size_t done = bytes.size();
+  while (done == bytes.size())
   {
+    done = readAvailable(bytes.data(), bytes.size());
+    requireRoomFor(done);
+    position_ += done;
   }
 }
 

@@ -9,16 +9,45 @@
 
 namespace quadmap
 {
+namespace
+{
+/** Counts what a file holds while it is read. Each value takes more memory than its text: 100 MB of
+ * brackets would take 10 GB. */
+class TreeLimit
+{
+ public:
+  void count(int depth, Json::parse_event_t event)
+  {
+    constexpr int kDeepest = 64;
+    constexpr std::size_t kMostValues = 8'000'000;  // 20,000 keyframes with 40 boxes each
+    if (depth > kDeepest) throw std::runtime_error("is nested too deeply");
+    const bool isBegin = event == Json::parse_event_t::value ||
+                         event == Json::parse_event_t::object_start ||
+                         event == Json::parse_event_t::array_start;
+    if (isBegin && ++values_ > kMostValues) throw std::runtime_error("holds too many values");
+  }
+
+ private:
+  std::size_t values_ = 0;
+};
+}  // namespace
+
 Json readJson(const std::string& path)
 {
   requireOneRun(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
+  TreeLimit limit;
+  const auto count = [&limit](int depth, Json::parse_event_t event, const Json&)
+  {
+    limit.count(depth, event);
+    return true;
+  };
   try
   {
-    return Json::parse(file);
+    return Json::parse(file, count);
   }
-  catch (const Json::exception& e)
+  catch (const std::exception& e)
   {
     throw std::runtime_error(path + ": " + e.what());
   }

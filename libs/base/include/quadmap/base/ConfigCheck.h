@@ -2,6 +2,7 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,10 @@ std::optional<long double> parseLongNumber(const std::string& text);
 
 /** True for true, yes and 1, false for false, no and 0, nothing for other texts. */
 std::optional<bool> parseFlag(const std::string& text);
+
+/** Texts that people write are small. Larger ones are read into memory several times over.
+ * \exception std::runtime_error If the file has more bytes; names it. */
+void requireModestText(const std::string& path, std::uintmax_t mostBytes = std::uintmax_t{1} << 20);
 
 /** Opens an INI file strictly: MRPT reads a missing file as an empty one, drops lines it does not
  * understand, and lets the last of two equal keys win.

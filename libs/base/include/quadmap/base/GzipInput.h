@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace quadmap
@@ -19,6 +20,9 @@ class GzInput : public mrpt::io::CStream
   GzInput(const GzInput&) = delete;
   GzInput& operator=(const GzInput&) = delete;
 
+  /** A small compressed file may hold gigabytes. From now on no more than this is read of it. */
+  void setMostBytes(std::uint64_t most) { mostBytes_ = most; }
+
   /** What is read from here on is one record: only before its first byte may the file end. */
   void startRecord();
   /** The first bytes of the record, as far as they have been read. */
@@ -28,7 +32,8 @@ class GzInput : public mrpt::io::CStream
   const std::string& failure() const { return failure_; }
   double progress() const;  //!< Share of the file read, in [0, 1]
 
-  /** \exception std::runtime_error If the file ends within a record or is damaged. */
+  /** \exception std::runtime_error If the file ends within a record, is damaged, or holds more than
+   *  setMostBytes() allows. */
   std::size_t Read(void* buffer, std::size_t count) override;
   /** Reads to the end, whatever is there. \exception std::runtime_error If the file is damaged. */
   void skipToEnd();
@@ -39,10 +44,12 @@ class GzInput : public mrpt::io::CStream
 
  private:
   [[noreturn]] void fail(const std::string& why);
+  void requireRoomFor(std::uint64_t count);
   std::size_t readAvailable(char* bytes, std::size_t count);
 
   gzFile file_ = nullptr;
   std::uint64_t fileBytes_ = 0, position_ = 0, recordBytes_ = 0;
+  std::uint64_t mostBytes_ = std::numeric_limits<std::uint64_t>::max();
   std::string head_, failure_;
 };
 
