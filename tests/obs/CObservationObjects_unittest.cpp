@@ -366,3 +366,30 @@ TEST(ObjectMask, ContainsOnlyItsOwnPixels)
   EXPECT_FALSE(mask.contains(51, 37));
   EXPECT_FALSE(mask.contains(31, 52));
 }
+
+TEST(CObservationObjects, LimitsTheObjectsAndMasksOfAnImage)
+{
+  const auto copyOf = [](const CObservationObjects& original)
+  {
+    mrpt::io::CMemoryStream stream;
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    archive << original;
+    stream.Seek(0);
+    CObservationObjects copy;
+    archive >> copy;
+  };
+  CObservationObjects boxes;
+  boxes.objects.resize(CObservationObjects::kMostObjects);
+  EXPECT_EQ(errorOf([&] { copyOf(boxes); }), "");
+  boxes.objects.emplace_back();
+  EXPECT_NE(errorOf([&] { copyOf(boxes); }).find("too many objects"), std::string::npos);
+
+  ObjectMask mask;
+  mask.width = mask.height = 4096;
+  mask.pixels.assign(std::size_t{4096} * 4096, 0);
+  boxes.objects.assign(4, {});
+  for (auto& object : boxes.objects) object.mask = mask;
+  EXPECT_EQ(errorOf([&] { copyOf(boxes); }), "") << "64 MB together";
+  boxes.objects.push_back(boxes.objects[0]);
+  EXPECT_NE(errorOf([&] { copyOf(boxes); }).find("masks"), std::string::npos);
+}

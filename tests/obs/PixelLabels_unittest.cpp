@@ -198,3 +198,21 @@ TEST_F(PixelLabels, UpTo64LabelsAreRead)
     for (const int column : {0, 1}) scan.pixelLabels->setLabel(row, column, 63);
   EXPECT_EQ(boxesOf(scan)->objects.size(), 1u);
 }
+
+TEST_F(PixelLabels, SoManySeparatePartsAreNoObjects)
+{
+  std::vector<std::string> rows;  // squares of two pixels
+  for (int row = 0; row < 120; ++row)
+  {
+    rows.emplace_back(120, '.');
+    for (std::size_t column = 0; column < 120; ++column)
+      if (row % 3 != 2 && column % 3 != 2) rows.back()[column] = 'a';
+  }
+  const auto scan = labelledScan(
+      rows, {
+                {0, "chair"}
+  });
+  EXPECT_NE(
+      errorOf([&] { boxesOf(scan); }).find("more than 1000 separate parts"), std::string::npos);
+  EXPECT_TRUE(boxesOf(scan, 5)->objects.empty());
+}

@@ -16,8 +16,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::uint32_t kMaxObjects = 100000;  //!< Most objects in one image
-
 /** The text as one word, for a column. */
 std::string word(std::string text)
 {
@@ -86,7 +84,7 @@ uint8_t CObservationObjects::serializeGetVersion() const { return 0; }
 
 void CObservationObjects::serializeTo(mrpt::serialization::CArchive& out) const
 {
-  requireStored(objects.size() <= kMaxObjects, "too many objects");
+  requireStored(objects.size() <= kMostObjects, "too many objects");
   out << timestamp;
   writeText(out, sensorLabel);
   writePose(out, sensorPose);
@@ -104,9 +102,10 @@ void CObservationObjects::serializeFrom(mrpt::serialization::CArchive& in, uint8
   sensorPose = readPose(in);
   cameraParams = readCamera(in);
   coarseDepth = readCoarseDepth(in);
-  const auto count = readCount(in, kMaxObjects, "objects");
+  const auto count = readCount(in, kMostObjects, "objects");
   objects.clear();
-  for (std::uint32_t i = 0; i < count; ++i) objects.push_back(readDetectedObject(in));
+  std::uint64_t maskPixels = kMostMaskPixels;
+  for (std::uint32_t i = 0; i < count; ++i) objects.push_back(readDetectedObject(in, maskPixels));
 }
 
 void CObservationObjects::getDescriptionAsText(std::ostream& o) const

@@ -11,8 +11,7 @@ namespace
 {
 using mrpt::serialization::CArchive;
 
-constexpr std::uint32_t kMaxImageSide = 65536;      // [px]
-constexpr std::uint64_t kMaxMaskPixels = 1u << 26;  // 64 MB of memory
+constexpr std::uint32_t kMaxImageSide = 65536;  // [px]
 constexpr std::uint64_t kMaxDepthCells = 1u << 20;
 
 /** Bits that say which optional parts follow. */
@@ -54,7 +53,8 @@ void checkMaskSize(const ObjectMask& m)
 {
   requireStored(
       m.width <= kMaxImageSide && m.height <= kMaxImageSide && m.x0 <= kMaxImageSide &&
-          m.y0 <= kMaxImageSide && std::uint64_t{m.width} * m.height <= kMaxMaskPixels,
+          m.y0 <= kMaxImageSide &&
+          std::uint64_t{m.width} * m.height <= CObservationObjects::kMostMaskPixels,
       "a mask is too large");
 }
 
@@ -66,12 +66,15 @@ void writeMask(CArchive& out, const ObjectMask& m)
   for (const auto run : runLengths(m.pixels)) writeVarint(out, run);
 }
 
-ObjectMask readMask(CArchive& in)
+/** \param pixelsLeft How many the masks of the image may still have. */
+ObjectMask readMask(CArchive& in, std::uint64_t& pixelsLeft)
 {
   ObjectMask m;
   for (unsigned* v : {&m.x0, &m.y0, &m.width, &m.height}) *v = readScalar<std::uint32_t>(in);
   checkMaskSize(m);
   const std::size_t size = std::size_t{m.width} * m.height;
+  requireStored(size <= pixelsLeft, "the masks of an image are too large");
+  pixelsLeft -= size;
   std::uint8_t pixel = 0;
   std::size_t run = readVarint(in);
   for (;; run = readVarint(in), pixel ^= 1)
@@ -207,7 +210,7 @@ void writeDetectedObject(CArchive& out, const DetectedObject& object)
   writeMeasurement(out, object.measurement);
 }
 
-DetectedObject readDetectedObject(CArchive& in)
+DetectedObject readDetectedObject(CArchive& in, std::uint64_t& maskPixelsLeft)
 {
   DetectedObject object;
   const auto parts = readScalar<std::uint8_t>(in);
@@ -216,7 +219,7 @@ DetectedObject readDetectedObject(CArchive& in)
   object.score = readScalar<double>(in);
   for (double* v : {&object.box.x1, &object.box.y1, &object.box.x2, &object.box.y2})
     *v = readScalar<double>(in);
-  if (parts & kMask) object.mask = readMask(in);
+  if (parts & kMask) object.mask = readMask(in, maskPixelsLeft);
   if (parts & kInstance) object.instanceId = readScalar<std::uint32_t>(in);
   object.measurement = readMeasurement(in, parts);
   checkMeasurement(object.measurement);

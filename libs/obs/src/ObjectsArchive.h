@@ -18,7 +18,9 @@ void writeCoarseDepth(mrpt::serialization::CArchive& out, const CoarseDepth& dep
 CoarseDepth readCoarseDepth(mrpt::serialization::CArchive& in);
 
 void writeDetectedObject(mrpt::serialization::CArchive& out, const DetectedObject& object);
-DetectedObject readDetectedObject(mrpt::serialization::CArchive& in);
+/** \param maskPixelsLeft How many pixels the masks of the image may still have; reduced by those of
+ * this object. */
+DetectedObject readDetectedObject(mrpt::serialization::CArchive& in, std::uint64_t& maskPixelsLeft);
 
 /** Checks a measurement by the rules of ObjectMeasurement.h.
  * \exception std::runtime_error If a part is missing that its kind requires, or a number is not

@@ -50,7 +50,8 @@ LabelImage labelImageOf(const TPixelLabelInfoBase& labels)
 /** Checks the proportions, up to half a pixel by which a size may have been rounded. */
 void requireSameProportions(const LabelImage& labels, cv::Size depth)
 {
-  const int excess = std::abs(labels.width * depth.height - labels.height * depth.width);
+  const auto excess = std::abs(
+      std::int64_t{labels.width} * depth.height - std::int64_t{labels.height} * depth.width);
   if (labels.width == 0 || labels.height == 0 || 2 * excess > std::max(depth.width, depth.height))
     throw std::runtime_error(mrpt::format(
         "its %dx%d pixel labels do not fit its %dx%d depth image", labels.width, labels.height,
@@ -106,12 +107,12 @@ std::optional<DetectedObject> objectOf(
   mask.y0 = static_cast<unsigned>(area.y);
   mask.width = static_cast<unsigned>(area.width);
   mask.height = static_cast<unsigned>(area.height);
+  std::vector<bool> isPart(static_cast<std::size_t>(stats.rows), false);
+  for (const int c : components) isPart[static_cast<std::size_t>(c)] = true;
   mask.pixels.reserve(static_cast<std::size_t>(area.area()));
   for (int y = area.y; y < area.y + area.height; ++y)
     for (int x = area.x; x < area.x + area.width; ++x)
-      mask.pixels.push_back(
-          std::find(components.begin(), components.end(), componentOf.at<int>(y, x)) !=
-          components.end());
+      mask.pixels.push_back(isPart[static_cast<std::size_t>(componentOf.at<int>(y, x))]);
   return object;
 }
 
@@ -119,6 +120,7 @@ void addObjects(
     const std::string& name,
     const cv::Mat& pixels,
     int minPixels,
+    std::uint64_t& maskPixelsLeft,
     std::vector<DetectedObject>& objects)
 {
   constexpr int kConnectivity = 8;
@@ -140,6 +142,15 @@ void addObjects(
   {
     auto object = objectOf(componentOf, stats, group);
     if (!object) continue;
+    if (objects.size() == CObservationObjects::kMostObjects)
+      throw std::runtime_error(mrpt::format(
+          "its pixel labels have more than %u separate parts (minLabelPixels leaves out small "
+          "ones)",
+          CObservationObjects::kMostObjects));
+    maskPixelsLeft -= std::min<std::uint64_t>(maskPixelsLeft, object->mask->pixels.size());
+    if (maskPixelsLeft == 0)
+      throw std::runtime_error(
+          "its pixel labels have parts that reach around each other too often");
     object->label = name;
     if (isInstance) object->instanceId = hashOf(name);
     objects.push_back(std::move(*object));
@@ -165,7 +176,7 @@ CObservationObjects::Ptr boxesFromPixelLabels(
   const cv::Size depth(
       static_cast<int>(scan.cameraParams.ncols), static_cast<int>(scan.cameraParams.nrows));
   requireSameProportions(image, depth);
-  std::uint64_t used = 0;
+  std::uint64_t used = 0, maskPixelsLeft = CObservationObjects::kMostMaskPixels;
   for (const std::uint64_t bits : image.bits) used |= bits;
   for (const auto& [index, name] : scan.pixelLabels->pixelLabelNames)
   {
@@ -173,7 +184,7 @@ CObservationObjects::Ptr boxesFromPixelLabels(
     const std::uint64_t bit = index < kBits ? std::uint64_t{1} << index : 0;
     if ((used & bit) == 0) continue;
     if (labels.properties(name).known)
-      addObjects(name, pixelsWith(bit, image, depth), minPixels, boxes->objects);
+      addObjects(name, pixelsWith(bit, image, depth), minPixels, maskPixelsLeft, boxes->objects);
     else
       unknown.insert(withoutNumber(name));
     used &= ~bit;

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputSet.h"
 
@@ -19,6 +20,8 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kColumns = 8;
+/** A pose at 100 Hz for an hour. In memory a line takes many times its length. */
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 25;
 
 mrpt::poses::CPose3D poseFrom(const Eigen::Quaterniond& q, const Eigen::Vector3d& t)
 {
@@ -69,6 +72,7 @@ Trajectory readTumTrajectory(const std::string& path)
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read the trajectory");
 
+  requireModestText(path, kMostBytes);
   Trajectory trajectory;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number)

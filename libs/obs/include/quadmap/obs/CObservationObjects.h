@@ -29,6 +29,11 @@ class CObservationObjects : public mrpt::obs::CObservation
   DEFINE_SERIALIZABLE(CObservationObjects, quadmap)
 
  public:
+  /** Most objects of an image. Detectors end at 100 or 300; association takes cubic time. */
+  static constexpr std::uint32_t kMostObjects = 1000;
+  /** Most pixels of all masks of an image, 64 MB. */
+  static constexpr std::uint64_t kMostMaskPixels = std::uint64_t{1} << 26;
+
   mrpt::img::TCamera cameraParams;  //!< Calibration of the image that the boxes are in
   mrpt::poses::CPose3D sensorPose;  //!< T_robot_sensor; sensor frame x forward, y left, z up
   std::vector<DetectedObject> objects;
