@@ -63,7 +63,9 @@ void addKeyframes(
       if (imagesOfSensor[scan->sensorLabel]++ % step != 0) continue;
       try
       {
-        scan->load();  // reads images that are in external files
+        // A file beside the map could be any file of the user's.
+        if (scan->rangeImage_isExternallyStored() || scan->intensityImage.isExternallyStored())
+          throw std::runtime_error("its images are not in the simple map");
         if (scan->hasRangeImage)
           collector.add(*scan, T_map_robot, selectionOf(*scan, options, reader.size()));
       }

@@ -8,20 +8,28 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "quadmap/base/ArchiveFields.h"
+
 namespace quadmap
 {
 namespace
 {
+const std::string& existing(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": cannot be read");
+  return path;
+}
+
 /** Reads the head of a serialised object: length of the name with bit 7 set, name, version. */
 bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
 {
   const std::string expected = "mrpt::maps::CSimpleMap";
-  const auto length = archive.ReadAs<std::uint8_t>();
+  const auto length = readScalar<std::uint8_t>(archive);
   if ((length & 0x80) == 0 || (length & 0x7F) > 64) return false;
   std::string name(length & 0x7F, ' ');
-  archive.ReadBuffer(name.data(), name.size());
+  readBytes(archive, name.data(), name.size());
   constexpr std::uint8_t kVersion = 1;  // since MRPT 0.9: a count, then pairs of pose and frame
-  return name == expected && archive.ReadAs<std::uint8_t>() == kVersion;
+  return name == expected && readScalar<std::uint8_t>(archive) == kVersion;
 }
 
 const std::string& existing(const std::string& path)
@@ -32,7 +40,8 @@ const std::string& existing(const std::string& path)
 
 }  // namespace
 
-SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path), file_(existing(path))
+SimpleMapReader::SimpleMapReader(const std::string& path) :
+    path_(path), file_(existing(path)), records_(file_)
 {
   mrpt::poses::registerAllClasses_mrpt_poses();
   mrpt::obs::registerAllClasses_mrpt_obs();
@@ -41,7 +50,7 @@ SimpleMapReader::SimpleMapReader(const std::string& path) : path_(path), file_(e
     auto archive = mrpt::serialization::archiveFrom(file_);
     if (readSimpleMapHead(archive))
     {
-      size_ = archive.ReadAs<std::uint32_t>();
+      size_ = readScalar<std::uint32_t>(archive);
       return;
     }
   }
@@ -62,9 +71,9 @@ std::optional<SimpleMapReader::Keyframe> SimpleMapReader::next()
   try
   {
     file_.startRecord();
-    auto archive = mrpt::serialization::archiveFrom(file_);
     Keyframe keyframe;
-    archive >> keyframe.pose >> keyframe.observations;
+    keyframe.pose = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDF>(records_.next());
+    keyframe.observations = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(records_.next());
     if (keyframe.pose && keyframe.observations) return keyframe;
   }
   catch (const std::exception&)  // its text is about the inside of the archive

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "quadmap/base/GzipInput.h"
+#include "quadmap/sensors/CheckedReader.h"
 
 namespace quadmap
 {
@@ -35,6 +36,7 @@ class SimpleMapReader
 
   std::string path_;
   GzInput file_;
+  CheckedReader records_;
   std::size_t size_ = 0, read_ = 0;
 };
 

@@ -432,3 +432,34 @@ TEST(RawlogErrors, BadSidecar)
   writeObjects(sidecar, {sampleBoxes(kStart), timeless, sampleBoxes(kStart + 1)});
   expectProblem(file, {"x.objects.rawlog: record 1 (camera): ", "have no time stamp"}, 2);
 }
+
+TEST(RawlogErrors, ExternalImagesOutsideTheFolder)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("x_Images"));
+  fs::create_directory(folder.path("other"));
+  const auto picture = sampleScan(kStart)->intensityImage;
+  ASSERT_TRUE(picture.saveToFile(folder.path("other/secret.jpg")));
+  ASSERT_TRUE(picture.saveToFile(folder.path("x_Images/own.jpg")));
+  fs::create_symlink("../other/secret.jpg", folder.path("x_Images/link.jpg"));
+  fs::create_directory_symlink(folder.path("other"), folder.path("x_Images/linked"));
+  const auto named = [&](const std::string& name)
+  {
+    auto scan = sampleScan(kStart);
+    scan->intensityImage.setExternalStorage(name);
+    return writeObjects(folder.path("x.rawlog"), {scan});
+  };
+  EXPECT_EQ(readAll(named("own.jpg")).size(), 1u);
+  RawlogSourceOptions anywhere;
+  anywhere.imagesAnywhere = true;
+  for (const std::string& name :
+       {std::string("../other/secret.jpg"), folder.path("other/secret.jpg"),
+        std::string("link.jpg"), std::string("linked/secret.jpg")})
+  {
+    SCOPED_TRACE(name);
+    const auto file = named(name);
+    expectProblem(file, {"x.rawlog: record 0 (camera): ", name, "lies outside"}, 0);
+    EXPECT_EQ(readAll(file, anywhere).size(), 1u);
+  }
+}

@@ -11,6 +11,16 @@ namespace
 {
 constexpr std::size_t kMaxWaiting = 1000;  // most records of one sensor, of a few kB each
 
+constexpr std::size_t kMaxWaitingBytes = 1u << 28;  // most memory of those of all sensors
+
+std::size_t bytesOf(const CObservationObjects& boxes)
+{
+  std::size_t bytes = sizeof boxes + boxes.coarseDepth.depth.size() * sizeof(float);
+  for (const auto& object : boxes.objects)
+    bytes += sizeof object + (object.mask ? object.mask->pixels.size() : 0);
+  return bytes;
+}
+
 double secondsOf(const BoxBuffer::Entry& e) { return mrpt::Clock::toDouble(e.boxes->timestamp); }
 
 /** What has to be known about a sidecar before it is read along with its rawlog. */
@@ -20,11 +30,11 @@ struct SidecarSurvey
   double stepBack = 0;  // most time by which a record is earlier than one before it [s]
 };
 
-SidecarSurvey surveyOf(const std::string& file)
+SidecarSurvey surveyOf(const std::string& file, const RecordLimits& limits)
 {
   SidecarSurvey survey;
   std::optional<double> latest;
-  RecordReader reader(file);
+  RecordReader reader(file, limits);
   try
   {
     while (const auto object = reader.next())
@@ -45,11 +55,11 @@ SidecarSurvey surveyOf(const std::string& file)
 }
 }  // namespace
 
-void BoxBuffer::openSidecar(const std::string& file)
+void BoxBuffer::openSidecar(const std::string& file, const RecordLimits& limits)
 {
-  const SidecarSurvey survey = surveyOf(file);
+  const SidecarSurvey survey = surveyOf(file, limits);
   if (!survey.hasBoxes && !survey.damaged) return;
-  sidecar_ = std::make_unique<RecordReader>(file);
+  sidecar_ = std::make_unique<RecordReader>(file, limits);
   stepBack_ = survey.stepBack;
 }
 
@@ -84,10 +94,26 @@ void BoxBuffer::add(Entry entry)
   const double time = secondsOf(entry);
   latest_[label] = time;  // not the greatest: one wrong clock would end all waiting
   auto& queue = waiting_[label];
+  waitingBytes_ += bytesOf(*entry.boxes);
   const auto isLater = [](double t, const Entry& e) { return t < secondsOf(e); };
   queue.insert(std::upper_bound(queue.begin(), queue.end(), time, isLater), std::move(entry));
-  if (sidecar_ || queue.size() <= kMaxWaiting) return;  // a sidecar is only read as far as needed
-  queue.pop_front();
+  // A sidecar is only read as far as needed, but its times may be wrong.
+  while (!queue.empty() &&
+         (waitingBytes_ > kMaxWaitingBytes || (!sidecar_ && queue.size() > kMaxWaiting)))
+    dropFirst(label);
+}
+
+BoxBuffer::Entry BoxBuffer::takeOut(const std::string& label, std::deque<Entry>::iterator at)
+{
+  Entry entry = std::move(*at);
+  waiting_[label].erase(at);
+  waitingBytes_ -= bytesOf(*entry.boxes);
+  return entry;
+}
+
+void BoxBuffer::dropFirst(const std::string& label)
+{
+  takeOut(label, waiting_[label].begin());
   ++dropped_[label];
 }
 
@@ -100,20 +126,14 @@ bool BoxBuffer::mayStillCome(const std::string& label, double time) const
 std::optional<BoxBuffer::Entry> BoxBuffer::take(const std::string& label, double time)
 {
   auto& queue = waiting_[label];
-  while (!queue.empty() && secondsOf(queue.front()) < time - maxDelay_)
-  {
-    queue.pop_front();
-    ++dropped_[label];
-  }
+  while (!queue.empty() && secondsOf(queue.front()) < time - maxDelay_) dropFirst(label);
   const auto delay = [&](const Entry& e) { return std::abs(secondsOf(e) - time); };
   auto best = queue.begin();
   for (auto i = queue.begin(); i != queue.end(); ++i)
     if (delay(*i) < delay(*best)) best = i;
   if (best == queue.end() || delay(*best) > maxDelay_) return std::nullopt;
-  Entry found = std::move(*best);
-  queue.erase(best);
   ++paired_;
-  return found;
+  return takeOut(label, best);
 }
 
 std::size_t BoxBuffer::unpaired(const std::string& label) const

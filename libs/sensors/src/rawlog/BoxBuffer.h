@@ -28,7 +28,7 @@ class BoxBuffer
 
   /** Opens a sidecar, whose records may be in any order. A file without boxes is ignored.
    *  \exception std::runtime_error If the file cannot be opened. */
-  void openSidecar(const std::string& file);
+  void openSidecar(const std::string& file, const RecordLimits& limits);
   bool hasSidecar() const { return sidecar_ != nullptr; }
 
   /** Reads the sidecar as far as it may contain boxes up to a time [s].
@@ -51,6 +51,9 @@ class BoxBuffer
   bool seenAny() const { return seenAny_; }
 
  private:
+  Entry takeOut(const std::string& label, std::deque<Entry>::iterator at);
+  void dropFirst(const std::string& label);
+
   double maxDelay_;
   std::unique_ptr<RecordReader> sidecar_;
   std::optional<double> sidecarTime_;                 // latest time that was read [s]
@@ -58,6 +61,7 @@ class BoxBuffer
   std::map<std::string, std::deque<Entry>> waiting_;  // by sensor, in the order of time
   std::map<std::string, double> latest_;              // time of the last boxes, by sensor [s]
   std::map<std::string, std::size_t> dropped_;  // number of boxes that found no scan, by sensor
+  std::size_t waitingBytes_ = 0;                // memory of all that wait
   std::size_t paired_ = 0;
   bool seenAny_ = false;
 };

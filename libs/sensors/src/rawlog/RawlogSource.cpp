@@ -20,6 +20,8 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kMaxPending = 32;  // most waiting frames of a sensor, 50 MB
+/** Most pixels of all waiting frames; 32 of 640x480 and 8 sensors. They take up to 5 bytes each. */
+constexpr std::size_t kMaxPendingPixels = 80u << 20;
 
 std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
 {
@@ -47,7 +49,7 @@ std::string InputProblem::text() const
 }
 
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
-    reader(file),
+    reader(file, o.limits),
     imagesFolder(findImagesFolder(file)),
     options(std::move(o)),
     boxes(options.maxBoxDelay),
@@ -57,7 +59,7 @@ RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOpti
   check(options);
   registerObsClasses();
   const std::string sidecar = sidecarFor(file, options);
-  if (!sidecar.empty()) boxes.openSidecar(sidecar);
+  if (!sidecar.empty()) boxes.openSidecar(sidecar, options.limits);
 }
 
 void RawlogSource::Impl::report(const InputProblem& problem)
@@ -66,6 +68,7 @@ void RawlogSource::Impl::report(const InputProblem& problem)
   {
     ended_ = finished_ = true;
     pending_.clear();
+    pendingPixels_ = 0;
     throw std::runtime_error(problem.text());
   }
   problems.push_back(problem);
@@ -84,6 +87,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
     {
       PendingFrame first = std::move(pending_.front());
       pending_.pop_front();
+      pendingPixels_ -= first.pixels;
       if (auto frame = complete(std::move(first))) return frame;
     }
     else if (ended_)
@@ -100,7 +104,8 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
  * own scans tell how far time has come. The clocks of all other records may be wrong. */
 bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
 {
-  if (pending_.size() > kMaxPending * lastScanTime_.size()) return true;
+  if (pending_.size() > kMaxPending * lastScanTime_.size() || pendingPixels_ > kMaxPendingPixels)
+    return true;
   if (!posesAreKnown(pending)) return false;
   const double time = pending.frame.time();
   const std::string& sensor = pending.frame.scan->sensorLabel;
@@ -127,7 +132,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
   auto& frame = pending.frame;
   try
   {
-    prepareScan(*frame.scan, imagesFolder);
+    prepareScan(*frame.scan, {imagesFolder, options.imagesAnywhere, options.limits.imagePixels});
   }
   catch (const std::exception& e)
   {

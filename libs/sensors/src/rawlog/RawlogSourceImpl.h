@@ -22,6 +22,7 @@ struct PendingFrame
 {
   RgbdFrame frame;
   mrpt::poses::CPose3DPDFGaussian sumOfActions;
+  std::size_t pixels = 0;  //!< That are in memory
 };
 
 struct RawlogSource::Impl
@@ -62,6 +63,7 @@ struct RawlogSource::Impl
 
   RawlogSource& log_;
   std::deque<PendingFrame> pending_;
+  std::size_t pendingPixels_ = 0;               // of all waiting frames
   std::map<std::string, double> lastScanTime_;  // time by sensor [s]
   std::map<std::string, std::size_t> content_;  // number of records by class
   std::set<std::string> warned_;

@@ -20,6 +20,15 @@ std::string bareClassName(const mrpt::rtti::CObject& object)
   const auto colon = name.rfind(':');
   return colon == std::string::npos ? name : name.substr(colon + 1);
 }
+
+/** Pixels of the larger of its images, as far as they are in memory. */
+std::size_t pixelsOf(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  std::size_t pixels = static_cast<std::size_t>(scan.rangeImage.size());
+  if (scan.hasIntensityImage && !scan.intensityImage.isExternallyStored())
+    pixels = std::max(pixels, scan.intensityImage.getWidth() * scan.intensityImage.getHeight());
+  return pixels;
+}
 }  // namespace
 
 /** Reads one record of the file. \return False at the end of the file, be it clean or not. */
@@ -97,7 +106,7 @@ void RawlogSource::Impl::addScan(
 {
   if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return;
   if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
-  PendingFrame pending{{}, odometry.sumOfActions()};
+  PendingFrame pending{{}, odometry.sumOfActions(), pixelsOf(*scan)};
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();
@@ -107,6 +116,7 @@ void RawlogSource::Impl::addScan(
         mrpt::format("time goes backwards: %.6f s before the scan before", last->second - time));
   lastScanTime_[scan->sensorLabel] = time;
   if (scan->hasRangeImage && scan->hasPoints3D) scan->resizePoints3DVectors(0);
+  pendingPixels_ += pending.pixels;
   pending_.push_back(std::move(pending));
 }
 

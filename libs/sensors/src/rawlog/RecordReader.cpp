@@ -29,8 +29,8 @@ std::string classNameIn(const std::string& head)
 }
 }  // namespace
 
-RecordReader::RecordReader(const std::string& file) :
-    file_(file), stream_(file), archive_(mrpt::serialization::archiveUniquePtrFrom(stream_))
+RecordReader::RecordReader(const std::string& file, const RecordLimits& limits) :
+    file_(file), stream_(file), reader_(stream_, limits)
 {
 }
 
@@ -55,16 +55,16 @@ mrpt::serialization::CSerializable::Ptr RecordReader::next()
   stream_.startRecord();
   try
   {
-    auto object = archive_->ReadObject();
-    ++recordsRead_;
+    auto object = reader_.next();
+    if (object)
+      ++recordsRead_;
+    else
+      ended_ = true;
     return object;
   }
   catch (const std::exception& e)
   {
     ended_ = true;
-    const bool isEnd = stream_.recordBytes() == 0 && stream_.failure().empty() &&
-                       dynamic_cast<const mrpt::serialization::CExceptionEOF*>(&e);
-    if (isEnd) return nullptr;
     throw InputError({file_, recordsRead_, "", explain(e)});
   }
 }

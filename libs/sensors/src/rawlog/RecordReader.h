@@ -1,6 +1,5 @@
 #pragma once
 
-#include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstddef>
@@ -8,6 +7,7 @@
 #include <string>
 
 #include "quadmap/base/GzipInput.h"
+#include "quadmap/sensors/CheckedReader.h"
 
 namespace quadmap
 {
@@ -17,7 +17,7 @@ class RecordReader
 {
  public:
   /** \exception std::runtime_error If the file cannot be opened. */
-  explicit RecordReader(const std::string& file);
+  explicit RecordReader(const std::string& file, const RecordLimits& limits = {});
 
   /** The next object, or null at the clean end of the file.
    *  \exception InputError If reading cannot go on, because of an unknown class or because the file
@@ -33,7 +33,7 @@ class RecordReader
 
   std::string file_;
   GzInput stream_;
-  mrpt::serialization::CArchive::UniquePtr archive_;
+  CheckedReader reader_;
   std::size_t recordsRead_ = 0;
   bool ended_ = false;
 };

@@ -1,7 +1,6 @@
 #include "rawlog/ScanCheck.h"
 
 #include <mrpt/core/format.h>
-#include <mrpt/io/lazy_load_path.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,50 +8,68 @@
 #include <stdexcept>
 
 #include "DepthUnit.h"
-#include "ImageFile.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/sensors/BoxCheck.h"
-#include "rawlog/RecordReader.h"
+#include "records/EncodedImage.h"
 
 namespace quadmap
 {
 namespace
 {
+namespace fs = std::filesystem;
 using mrpt::obs::CObservation3DRangeScan;
 
-void requireFile(const std::string& path)
+/** The path of an external image. A rawlog may come from somebody else, and what it names ends up
+ * in the results, which are passed on. \exception std::runtime_error If it leads out of the folder,
+ * be it by name or by a link. */
+std::string pathOf(const std::string& name, const ImageRules& rules)
 {
-  if (!std::filesystem::is_regular_file(path))
-    throw std::runtime_error("its external image " + path + " is missing");
+  const fs::path folder(rules.folder), path = folder / name;  // an absolute name stays as it is
+  if (!rules.imagesAnywhere)
+  {
+    const fs::path inside = fs::weakly_canonical(path).lexically_relative(fs::canonical(folder));
+    if (inside.empty() || *inside.begin() == "..")
+      throw std::runtime_error(
+          "its external image " + name + " lies outside " + rules.folder +
+          " (imagesAnywhere = true in section [input] would allow that)");
+  }
+  if (!fs::is_regular_file(path))
+    throw std::runtime_error("its external image " + path.string() + " is missing");
+  return path.string();
 }
 
 /** Loads an external depth image of MRPT, a gzip file of rows and columns (4 bytes each) and 16
  * bits per pixel. MRPT's own loader crashes on damaged files. */
-void loadDepthFile(const std::string& path, CObservation3DRangeScan& scan)
+void loadDepthFile(const std::string& path, std::uint64_t mostPixels, CObservation3DRangeScan& scan)
 {
-  constexpr std::uint32_t kMaxPixels = 20000;  // per side
   GzInput file(path);
   std::uint32_t size[2] = {0, 0};
   if (file.Read(size, sizeof size) == 0) throw std::runtime_error("it is empty");
   const auto [rows, columns] = size;
-  if (rows < 1 || rows > kMaxPixels || columns < 1 || columns > kMaxPixels)
+  if (rows < 1 || columns < 1 || std::uint64_t{rows} * columns > mostPixels)
     throw std::runtime_error(mrpt::format("a size of %ux%u is not plausible", columns, rows));
   scan.rangeImage_setSize(static_cast<int>(rows), static_cast<int>(columns));
   const std::size_t bytes = std::size_t{rows} * columns * sizeof(std::uint16_t);
   file.Read(scan.rangeImage.data(), bytes);
 }
 
-void loadExternalDepth(CObservation3DRangeScan& scan)
+/** MRPT makes a matrix of 32-bit numbers of a text, which has at least two characters for each. */
+void loadDepthText(const std::string& path, std::uint64_t mostPixels, CObservation3DRangeScan& scan)
 {
-  const std::string path = scan.rangeImage_getExternalStorageFileAbsolutePath("");
-  requireFile(path);
+  if (fs::file_size(path) > 8 * mostPixels) throw std::runtime_error("it is too large");
+  scan.rangeImage.loadFromTextFile(path);
+}
+
+void loadExternalDepth(CObservation3DRangeScan& scan, const ImageRules& rules)
+{
+  const std::string path = pathOf(scan.rangeImage_getExternalStorageFile(""), rules);
   try
   {
-    if (std::filesystem::path(path).extension() == ".txt")
-      scan.load();
+    if (fs::path(path).extension() == ".txt")
+      loadDepthText(path, rules.mostPixels, scan);
     else
-      loadDepthFile(path, scan);
+      loadDepthFile(path, rules.mostPixels, scan);
   }
   catch (const std::exception& e)
   {
@@ -61,27 +78,26 @@ void loadExternalDepth(CObservation3DRangeScan& scan)
   scan.rangeImage_forceResetExternalStorage();
 }
 
-void loadExternalColor(CObservation3DRangeScan& scan)
+void loadExternalColor(CObservation3DRangeScan& scan, const ImageRules& rules)
 {
-  const std::string path = scan.intensityImage.getExternalStorageFileAbsolutePath();
-  requireFile(path);
+  const std::string path = pathOf(scan.intensityImage.getExternalStorageFile(), rules);
   try
   {
-    const cv::Mat image = readImageFile(path, cv::IMREAD_COLOR);
+    const cv::Mat image = decodeImageFile(path, cv::IMREAD_COLOR, rules.mostPixels);
     scan.intensityImage = mrpt::img::CImage(image, mrpt::img::SHALLOW_COPY);
   }
   catch (const std::exception& e)
   {
-    throw std::runtime_error("its external image " + path + " " + e.what());
+    throw std::runtime_error("its external image " + path + " " + rootMessage(e));
   }
 }
 
 /** Loads the external images into the scan. */
-void loadExternalImages(CObservation3DRangeScan& scan, const std::string& folder)
+void loadExternalImages(CObservation3DRangeScan& scan, const ImageRules& rules)
 {
-  mrpt::io::setLazyLoadPathBase(folder);
-  if (scan.rangeImage_isExternallyStored()) loadExternalDepth(scan);
-  if (scan.hasIntensityImage && scan.intensityImage.isExternallyStored()) loadExternalColor(scan);
+  if (scan.rangeImage_isExternallyStored()) loadExternalDepth(scan, rules);
+  if (scan.hasIntensityImage && scan.intensityImage.isExternallyStored())
+    loadExternalColor(scan, rules);
 }
 
 void requireCalibration(const CObservation3DRangeScan& scan)
@@ -113,12 +129,12 @@ void rangesToDepths(CObservation3DRangeScan& scan)
 }
 }  // namespace
 
-void prepareScan(CObservation3DRangeScan& scan, const std::string& imagesFolder)
+void prepareScan(CObservation3DRangeScan& scan, const ImageRules& rules)
 {
   if (!scan.hasRangeImage)
     throw std::runtime_error(
         scan.hasPoints3D ? "has 3D points but no range image" : "has no range image");
-  loadExternalImages(scan, imagesFolder);
+  loadExternalImages(scan, rules);
   if (scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
     throw std::runtime_error("its range image is empty");
   if (!isPlausibleDepthUnit(scan.rangeUnits))

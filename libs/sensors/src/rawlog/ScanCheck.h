@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,18 @@
 
 namespace quadmap
 {
+/** Where external images may lie, and how large they may be. */
+struct ImageRules
+{
+  std::string folder;            //!< Of the external images
+  bool imagesAnywhere = false;   //!< They may lie outside it
+  std::uint64_t mostPixels = 0;  //!< Of an image
+};
+
 /** Loads the external images of a scan, checks the scan, and brings it into the form that the rest
- * of the program reads: a range image of depths, with a calibration of its size. \param
- * imagesFolder Folder of the external images. \exception std::runtime_error If the scan is wrong.
- * The message names neither file nor record. */
-void prepareScan(mrpt::obs::CObservation3DRangeScan& scan, const std::string& imagesFolder);
+ * of the program reads: a range image of depths, with a calibration of its size.
+ * \exception std::runtime_error If the scan is wrong. The message names neither file nor record. */
+void prepareScan(mrpt::obs::CObservation3DRangeScan& scan, const ImageRules& rules);
 
 /** Removes the boxes that cannot be used (see whyUnusable()). \return One text for each of them. */
 std::vector<std::string> removeUnusableBoxes(CObservationObjects& boxes);

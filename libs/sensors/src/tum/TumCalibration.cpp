@@ -146,6 +146,7 @@ std::optional<Eigen::Vector3d> upAt(const FlatYaml& file)
 TumCalibration readTumCalibration(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
+  requireModestText(path);
   const FlatYaml file(path);
   TumCalibration calibration;
   auto& camera = calibration.camera;

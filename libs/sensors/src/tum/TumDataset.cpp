@@ -7,8 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "ImageFile.h"
 #include "quadmap/geometry/PinholeCamera.h"
+#include "quadmap/sensors/CheckedReader.h"
+#include "records/EncodedImage.h"
 #include "tum/TumFiles.h"
 
 namespace quadmap
@@ -31,7 +32,8 @@ cv::Mat loadImage(const std::string& path, int flags, const mrpt::img::TCamera& 
   cv::Mat image;
   try
   {
-    image = readImageFile(path, flags);
+    if (!fs::is_regular_file(path)) throw std::runtime_error("no such file");
+    image = decodeImageFile(path, flags, RecordLimits().imagePixels);
   }
   catch (const std::exception& e)
   {

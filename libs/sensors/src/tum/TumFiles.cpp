@@ -10,6 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/obs/CObservationObjects.h"
+
 namespace quadmap
 {
 namespace
@@ -23,11 +26,15 @@ struct Line
   std::vector<std::string> words;
 };
 
+/** Three hours of images at 30 Hz. In memory a line takes many times its length. */
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 24;
+
 /** All lines that are neither empty nor comments. */
 std::vector<Line> readLines(const std::string& path, std::size_t columns)
 {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot open");
+  requireModestText(path, kMostBytes);
   std::vector<Line> lines;
   std::size_t number = 0;
   for (std::string text; std::getline(file, text);)
@@ -159,6 +166,10 @@ std::vector<DetectedObject> readDetections(const std::string& path)
     object.box = {numberIn(line, 3), numberIn(line, 4), numberIn(line, 5), numberIn(line, 6)};
     objects.push_back(std::move(object));
   }
+  if (objects.size() > CObservationObjects::kMostObjects)
+    throw std::runtime_error(mrpt::format(
+        "%s: %zu boxes in one image, at most %u can be used", path.c_str(), objects.size(),
+        CObservationObjects::kMostObjects));
   return objects;
 }
 

@@ -103,6 +103,14 @@ void InputOptions::describe(OptionList& list)
   list.number(
       "maxOdometryGap", maxOdometryGap, {1e-3, 3600}, "s",
       "Poses are interpolated over no longer time than this.");
+  list.flag(
+      "imagesAnywhere", imagesAnywhere,
+      "Whether a rawlog may name images that lie outside its own image folder. Results hold copies "
+      "of the images, and a rawlog from somebody else could name any file of yours.");
+  list.integer(
+      "maxImageMegapixels", maxImageMegapixels, {1, 256}, "1048576 pixels",
+      "Larger images are refused before memory is taken for them. A run holds several at a time: "
+      "with 16 it stays below 1 GB whatever a damaged file states.");
 }
 
 }  // namespace quadmap

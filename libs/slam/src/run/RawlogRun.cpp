@@ -139,6 +139,9 @@ class RawlogRun
     options.minLabelPixels = request.configuration.perception.minLabelPixels;
     options.maxBoxDelay = request.configuration.input.maxBoxDelay;
     options.maxOdometryGap = request.configuration.input.maxOdometryGap;
+    options.imagesAnywhere = request.configuration.input.imagesAnywhere;
+    options.limits.imagePixels =
+        static_cast<std::uint64_t>(request.configuration.input.maxImageMegapixels) << 20;
     return options;
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "quadmap/obs/LabelTable.h"
+#include "quadmap/sensors/CheckedReader.h"
 #include "quadmap/sensors/RgbdFrame.h"
 
 namespace quadmap
@@ -29,6 +30,8 @@ struct RawlogSourceOptions
   /** The odometry to use when there are several, named as in RawlogSource::odometryKind(). When it
    *  is empty, the first one that appears is used. */
   std::string odometryKind;
+  RecordLimits limits;          //!< What a record may ask for
+  bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
 };
 
 /** Something in the input that could not be used. */

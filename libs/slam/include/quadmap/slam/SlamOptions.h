@@ -63,6 +63,8 @@ struct InputOptions : public OptionGroup
 {
   double maxBoxDelay = 0.005;   //!< Most time between an image and its boxes [s], >= 0
   double maxOdometryGap = 1.0;  //!< Longest time to interpolate poses over [s], > 0
+  bool imagesAnywhere = false;  //!< Read external images outside the rawlog's image folder
+  int maxImageMegapixels = 16;  //!< Most pixels of an image, in units of 2^20, >= 1
 
  private:
   void describe(OptionList& list) override;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <mrpt/io/CStream.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace quadmap
+{
+/** What a stored object may ask for. Files are made by strangers, and the readers of MRPT allocate
+ * whatever a file states: one edited count takes gigabytes. */
+struct RecordLimits
+{
+  /** Most pixels of an image, 4096 x 4096. With this size the images that a run holds at a time
+   * stay below 1 GB. */
+  std::uint64_t imagePixels = std::uint64_t{1} << 24;
+  /** Most bytes of one object. */
+  std::uint64_t recordBytes = std::uint64_t{1} << 28;
+};
+
+/** Reads the objects of a stream of MRPT one by one. Before MRPT's own readers see an object, its
+ * layout is followed and everything it states about sizes is checked. Memory is taken only for
+ * bytes that were in the file.
+ *
+ * Embedded JPEG images are decoded here, because for some damages MRPT's decoder ends the
+ * program. The objects of classes that this reader does not know are read by MRPT while memory is
+ * limited. */
+class CheckedReader
+{
+ public:
+  /** \param from Has to outlive the reader. At the end of a file it has to return 0, and in the
+   *  middle of an object it has to throw (see GzInput). */
+  explicit CheckedReader(mrpt::io::CStream& from, const RecordLimits& limits = {});
+
+  /** The next object, or null at the end of the stream.
+   *  \exception std::exception If it cannot be read. Reading cannot go on afterwards. */
+  mrpt::serialization::CSerializable::Ptr next();
+
+ private:
+  mrpt::io::CStream& from_;
+  RecordLimits limits_;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,34 @@
+#include "quadmap/sensors/CheckedReader.h"
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "records/MemoryGuard.h"
+#include "records/RecordBytes.h"
+#include "records/RecordCheck.h"
+
+namespace quadmap
+{
+CheckedReader::CheckedReader(mrpt::io::CStream& from, const RecordLimits& limits) :
+    from_(from), limits_(limits)
+{
+}
+
+mrpt::serialization::CSerializable::Ptr CheckedReader::next()
+{
+  RecordBytes bytes(from_, limits_.recordBytes);
+  if (!bytes.begin()) return nullptr;
+  RecordCheck check(bytes, limits_);
+  const auto head = check.headAfterFirstByte();
+  if (!RecordCheck::knows(head.name))
+  {
+    const MemoryGuard guard;
+    bytes.rereadFrom(head.begin);
+    return mrpt::serialization::archiveFrom(bytes).ReadObject();
+  }
+  check.content(head);
+  bytes.rereadFrom(head.begin);
+  return mrpt::serialization::archiveFrom(bytes).ReadObject();
+}
+
+}  // namespace quadmap

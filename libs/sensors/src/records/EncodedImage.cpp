@@ -1,0 +1,139 @@
+#include "records/EncodedImage.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "quadmap/base/ErrorText.h"
+#include "quadmap/base/StderrCapture.h"
+
+namespace quadmap
+{
+namespace
+{
+/** Most bytes of an image file; no image of the sizes that are read has more. */
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28;
+/** Most passes of a progressive JPEG. Encoders use about ten; thousands take minutes to decode. */
+constexpr int kMostScans = 100;
+
+struct ImageSize
+{
+  std::uint64_t width = 0, height = 0;
+};
+
+unsigned bigEndian16(const std::uint8_t* p) { return (unsigned{p[0]} << 8) | p[1]; }
+
+std::uint64_t bigEndian32(const std::uint8_t* p)
+{
+  return (std::uint64_t{bigEndian16(p)} << 16) | bigEndian16(p + 2);
+}
+
+bool isStartOfFrame(unsigned marker)
+{
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+/** Walks the segments of a JPEG: the mark 0xFF, the kind, two bytes of length, the content. Behind
+ * the head of a scan its data follow, which are passed by to the next mark.
+ * \return The largest size that any segment states. */
+ImageSize sizeOfJpeg(const std::uint8_t* bytes, std::size_t size)
+{
+  constexpr unsigned kScan = 0xDA, kFirstPlain = 0xD0, kLastPlain = 0xD9, kFrameHead = 9;
+  ImageSize largest;
+  int scans = 0;
+  for (std::size_t at = 2; at + 4 <= size;)
+  {
+    const auto* mark = static_cast<const std::uint8_t*>(std::memchr(bytes + at, 0xFF, size - at));
+    if (!mark) break;
+    at = static_cast<std::size_t>(mark - bytes) + 1;
+    if (at + 3 > size) break;
+    const unsigned kind = bytes[at];
+    if (kind == 0xFF || kind <= 1 || (kind >= kFirstPlain && kind <= kLastPlain)) continue;
+    if (isStartOfFrame(kind) && at + kFrameHead <= size)
+    {
+      largest.height = std::max<std::uint64_t>(largest.height, bigEndian16(bytes + at + 4));
+      largest.width = std::max<std::uint64_t>(largest.width, bigEndian16(bytes + at + 6));
+    }
+    if (kind == kScan && ++scans > kMostScans)
+      throw std::runtime_error(mrpt::format("is a JPEG of more than %d passes", kMostScans));
+    at += 1 + bigEndian16(bytes + at + 1);
+  }
+  return largest;
+}
+
+/** Zero when the format does not tell. */
+ImageSize statedSize(const std::uint8_t* bytes, std::size_t size)
+{
+  constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8}, kPng[] = {0x89, 'P', 'N', 'G'};
+  constexpr std::size_t kPngWidth = 16, kPngHeight = 20, kPngHead = 24;
+  if (size >= sizeof kJpeg && std::memcmp(bytes, kJpeg, sizeof kJpeg) == 0)
+    return sizeOfJpeg(bytes, size);
+  if (size >= kPngHead && std::memcmp(bytes, kPng, sizeof kPng) == 0)
+    return {bigEndian32(bytes + kPngWidth), bigEndian32(bytes + kPngHeight)};
+  return {};
+}
+
+/** libjpeg fills the rest of a damaged image with grey and only says so. Its other remarks, and the
+ * warnings of libpng, are about things that do not change the image. */
+bool tellsDamage(const std::string& remarks)
+{
+  return remarks.find("Corrupt JPEG") != std::string::npos ||
+         remarks.find("Premature end of JPEG") != std::string::npos;
+}
+
+/** The decoded image, empty when that fails, and what the decoders print about it. */
+std::pair<cv::Mat, std::string> decodedWithRemarks(
+    const std::uint8_t* bytes, std::size_t size, int flags)
+{
+  const StderrCapture capture;
+  try
+  {
+    const cv::Mat encoded(1, static_cast<int>(size), CV_8U, const_cast<std::uint8_t*>(bytes));
+    cv::Mat image = cv::imdecode(encoded, flags | cv::IMREAD_IGNORE_ORIENTATION);
+    return {image, capture.text()};
+  }
+  catch (const cv::Exception& e)
+  {
+    return {cv::Mat(), rootMessage(e)};
+  }
+}
+}  // namespace
+
+cv::Mat decodeImage(
+    const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels)
+{
+  const ImageSize stated = statedSize(bytes, size);
+  if (stated.width > 0 && stated.height > mostPixels / stated.width)
+    throw std::runtime_error(mrpt::format(
+        "has %llux%llu pixels, more than %llu million",
+        static_cast<unsigned long long>(stated.width),
+        static_cast<unsigned long long>(stated.height),
+        static_cast<unsigned long long>(mostPixels >> 20)));
+  const auto [image, remarks] = decodedWithRemarks(bytes, size, flags);
+  if (image.empty() || tellsDamage(remarks))
+    throw std::runtime_error(
+        "cannot be read as an image" + (remarks.empty() ? "" : ": " + oneLine(remarks)));
+  return image;
+}
+
+cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPixels)
+{
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw std::runtime_error(error.message());
+  if (size == 0) throw std::runtime_error("is empty");
+  if (size > kMostBytes) throw std::runtime_error("has more than 256 MB");
+  std::vector<std::uint8_t> bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+    throw std::runtime_error("cannot be read");
+  return decodeImage(bytes.data(), bytes.size(), flags, mostPixels);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace quadmap
+{
+/** Decodes an image file that is in memory. JPEG and PNG state their size at the beginning, and it
+ * is looked at before memory is taken for the pixels.
+ * \param flags Of cv::imdecode(). The orientation in EXIF data is ignored in any case.
+ * \exception std::runtime_error If it is damaged or has more pixels than that. */
+cv::Mat decodeImage(
+    const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels);
+
+/** The same for a file. \exception std::runtime_error The message does not name the file. */
+cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPixels);
+
+}  // namespace quadmap

@@ -1,0 +1,69 @@
+#include "records/RecordBytes.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::uint64_t kPiece = 1u
+                                 << 20;  // memory grows with what was there, in such steps [bytes]
+}
+
+RecordBytes::RecordBytes(mrpt::io::CStream& from, std::uint64_t mostBytes) :
+    from_(from), mostBytes_(mostBytes)
+{
+}
+
+bool RecordBytes::begin()
+{
+  std::uint8_t first = 0;
+  if (from_.Read(&first, 1) != 1) return false;
+  bytes_.assign(1, first);
+  return true;
+}
+
+void RecordBytes::copy(std::uint64_t n)
+{
+  if (n > mostBytes_ - std::min<std::uint64_t>(mostBytes_, bytes_.size()))
+    throw std::runtime_error(mrpt::format(
+        "states a size of more than %llu MB", static_cast<unsigned long long>(mostBytes_ >> 20)));
+  while (n > 0)
+  {
+    const auto piece = static_cast<std::size_t>(std::min(n, kPiece));
+    const std::size_t before = bytes_.size();
+    bytes_.resize(before + piece);
+    if (from_.Read(bytes_.data() + before, piece) != piece)
+      throw std::runtime_error("ends before the size that it states");
+    n -= piece;
+  }
+}
+
+void RecordBytes::replaceFrom(std::size_t index, const std::vector<std::uint8_t>& bytes)
+{
+  bytes_.resize(index);
+  bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+}
+
+std::size_t RecordBytes::Read(void* buffer, std::size_t count)
+{
+  if (next_ + count > bytes_.size()) copy(next_ + count - bytes_.size());
+  std::memcpy(buffer, bytes_.data() + next_, count);
+  next_ += count;
+  return count;
+}
+
+std::size_t RecordBytes::Write(const void*, std::size_t)
+{
+  throw std::logic_error("RecordBytes: is read only");
+}
+
+std::uint64_t RecordBytes::Seek(std::int64_t, TSeekOrigin)
+{
+  throw std::logic_error("RecordBytes: cannot seek");
+}
+
+}  // namespace quadmap

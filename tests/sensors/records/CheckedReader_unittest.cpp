@@ -1,0 +1,204 @@
+#include "quadmap/sensors/CheckedReader.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/obs/TPixelLabelInfo.h>
+
+#include "../SampleRawlog.h"
+#include "quadmap/base/GzipInput.h"
+#include "quadmap/base/GzipStream.h"
+
+using namespace quadmap;
+using mrpt::serialization::CSerializable;
+
+namespace
+{
+std::string bytesOf(const CSerializable& object)
+{
+  const auto bytes = archiveBytes(object);
+  return {bytes.begin(), bytes.end()};
+}
+
+/** Reads the first object of a file with these bytes. */
+CSerializable::Ptr read(const std::string& bytes, const RecordLimits& limits = {})
+{
+  const TemporaryFolder folder;
+  GzInput file(folder.write("x", bytes));
+  CheckedReader reader(file, limits);
+  return reader.next();
+}
+
+std::string with(const std::string& whole, const std::string& part, const std::string& other)
+{
+  const auto at = whole.find(part);
+  EXPECT_NE(at, std::string::npos);
+  return whole.substr(0, at) + other + whole.substr(at + part.size());
+}
+
+std::string number(std::uint32_t value)
+{
+  std::string bytes(4, '\0');
+  for (int i = 0; i < 4; ++i)
+    bytes[static_cast<std::size_t>(i)] = static_cast<char>(value >> (8 * i));
+  return bytes;
+}
+
+/** Objects of all classes whose layout is known, with all their optional parts. */
+std::vector<CSerializable::Ptr> samplesOfAllClasses()
+{
+  using namespace mrpt::obs;
+  auto scan = sampleScan(kStart);
+  auto labels = std::make_shared<TPixelLabelInfo<2>>();
+  labels->setSize(5, 7);
+  labels->setLabel(2, 3, 1);
+  labels->setLabelName(1, "chair");
+  scan->pixelLabels = labels;
+  scan->rangeImageOtherLayers["second"].resize(5, 5);  // MRPT swaps rows and columns
+  scan->hasConfidenceImage = true;
+  scan->confidenceImage = mrpt::img::CImage(3, 2, mrpt::img::CH_GRAY);
+  auto points = sampleScan(kStart);
+  points->hasRangeImage = points->hasIntensityImage = false;
+  points->hasPoints3D = true;
+  points->resizePoints3DVectors(5);
+  auto external = sampleScan(kStart);
+  external->intensityImage.setExternalStorage("a.jpg");
+
+  auto laser = CObservation2DRangeScan::Create();
+  laser->resizeScan(4);
+  laser->setScanHasIntensity(true);
+  auto wheels = CObservationOdometry::Create();
+  wheels->hasEncodersInfo = wheels->hasVelocities = true;
+  auto image = CObservationImage::Create();
+  image->image = mrpt::img::CImage(3, 2, mrpt::img::CH_RGB);
+
+  auto actions = CActionCollection::Create();
+  CActionRobotMovement2D flat, matched;
+  flat.computeFromOdometry({0.1, 0, 0}, {});
+  flat.hasVelocities = flat.hasEncodersInfo = true;
+  matched.estimationMethod = CActionRobotMovement2D::emScan2DMatching;
+  actions->insert(flat);
+  actions->insert(matched);
+  actions->insert(CActionRobotMovement3D());
+  auto frame = CSensoryFrame::Create();
+  for (const CObservation::Ptr& o :
+       {CObservation::Ptr(scan), CObservation::Ptr(laser), CObservation::Ptr(sampleBoxes(kStart)),
+        CObservation::Ptr(CObservationComment::Create()), CObservation::Ptr(wheels)})
+    frame->insert(o);
+  return {
+      scan,
+      points,
+      external,
+      laser,
+      wheels,
+      image,
+      samplePose(kStart, {}),
+      frame,
+      actions,
+      CObservationIMU::Create(),
+      sampleBoxes(kStart),
+      CObservationComment::Create()};
+}
+
+class WithJpeg : public ::testing::Test
+{
+ protected:
+  WithJpeg() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false); }
+  ~WithJpeg() override { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true); }
+};
+}  // namespace
+
+TEST(CheckedReader, GivesEveryObjectAsMrptDoes)
+{
+  registerObsClasses();
+  const TemporaryFolder folder;
+  const auto objects = samplesOfAllClasses();
+  GzInput file(writeObjects(folder.path("x"), objects));
+  CheckedReader reader(file);
+  for (const auto& object : objects)
+  {
+    SCOPED_TRACE(object->GetRuntimeClass()->className);
+    file.startRecord();
+    const auto copy = reader.next();
+    ASSERT_TRUE(copy);
+    EXPECT_TRUE(bytesOf(*copy) == bytesOf(*object));
+  }
+  file.startRecord();
+  EXPECT_FALSE(reader.next());
+}
+
+TEST_F(WithJpeg, DecodesTheSamePixelsAsMrpt)
+{
+  const auto bytes = bytesOf(*sampleScan(kStart));
+  mrpt::io::CMemoryStream memory(bytes.data(), bytes.size());
+  const auto expected =
+      mrpt::serialization::archiveFrom(memory).ReadObject<mrpt::obs::CObservation3DRangeScan>();
+  const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(read(bytes));
+  ASSERT_TRUE(scan);
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);  // so that the bytes are the pixels
+  EXPECT_TRUE(bytesOf(*scan) == bytesOf(*expected));
+}
+
+TEST_F(WithJpeg, DamagedHuffmanTablesAreAnError)  // libjpeg alone ends the program
+{
+  auto bytes = bytesOf(*sampleScan(kStart));
+  const auto table = bytes.find("\xff\xc4");
+  ASSERT_NE(table, std::string::npos);
+  for (std::size_t i = 5; i < 21; ++i) bytes[table + i] = '\xff';
+  EXPECT_NE(errorOf([&] { read(bytes); }).find("cannot be read as an image"), std::string::npos);
+}
+
+TEST_F(WithJpeg, LargeImagesAreRefusedByTheirHead)
+{
+  const auto bytes = bytesOf(*sampleScan(kStart));
+  const std::string frame("\xff\xc0\x00\x11\x08", 5), size("\x00\x30\x00\x40", 4);
+  const auto huge = with(bytes, frame + size, frame + "\xff\xdc\xff\xdc");
+  EXPECT_NE(errorOf([&] { read(huge); }).find("65500x65500 pixels"), std::string::npos);
+  RecordLimits limits;
+  limits.imagePixels = kColumns * kRows;
+  EXPECT_TRUE(read(bytes, limits));
+  --limits.imagePixels;
+  EXPECT_NE(errorOf([&] { read(bytes, limits); }), "");
+}
+
+TEST(CheckedReader, RefusesSizesThatCannotBe)
+{
+  const auto scan = bytesOf(*sampleScan(kStart));
+  const auto size = number(kRows) + number(kColumns);
+  for (const std::uint32_t n : {0u, 65536u, 0x7fffffffu, 0xffffffffu})
+    EXPECT_NE(errorOf([&] { read(with(scan, size, number(n) + number(kColumns))); }), "") << n;
+  const auto label = number(6) + "camera";
+  EXPECT_NE(
+      errorOf([&] { read(with(scan, label, number(70000) + "camera")); }).find("70000 characters"),
+      std::string::npos);
+  const std::string version = "CObservation3DRangeScan\x0a";
+  EXPECT_NE(
+      errorOf([&] { read(with(scan, version, std::string("CObservation3DRangeScan\0", 24))); })
+          .find("is of version 0"),
+      std::string::npos);
+}
+
+TEST(CheckedReader, RefusesNestedFrames)
+{
+  const std::string head = "\x98mrpt::obs::CSensoryFrame\x02" + number(1);
+  std::string bytes;
+  for (int i = 0; i < 100000; ++i) bytes += head;
+  EXPECT_NE(errorOf([&] { read(bytes); }).find("nested"), std::string::npos);
+}
+
+TEST(CheckedReader, LimitsTheMemoryOfOtherClasses)
+{
+  const mrpt::obs::CObservationComment comment;
+  const auto bytes = bytesOf(comment);
+  const std::string head =
+      std::string("CObservationComment\0", 20);  // with its version; a text follows
+  EXPECT_TRUE(read(bytes));
+  EXPECT_NE(errorOf([&] { read(with(bytes, head + number(0), head + number(0xfffffff0))); }), "");
+}
