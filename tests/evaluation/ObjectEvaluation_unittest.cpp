@@ -287,3 +287,10 @@ TEST(EvaluateObjects, HasNoFiguresForWhatDoesNotExist)
   EXPECT_FALSE(noTruth.recall());
   EXPECT_EQ(noTruth.spurious.size(), 1u);
 }
+
+TEST(EvaluateObjects, RefusesMoreThanItCanCompareInTime)
+{
+  const std::vector<ObjectRecord> many(1001, objectAt("A", "cup", 0));
+  EXPECT_THROW(evaluateObjects(many, {}, CPose3D()), std::runtime_error);
+  EXPECT_THROW(evaluateObjects({objectAt("A", "cup", 0)}, many, CPose3D()), std::runtime_error);
+}

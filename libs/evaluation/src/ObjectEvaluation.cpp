@@ -38,6 +38,17 @@ double shapeIoUKeepingVertical(const Ellipsoid& truth, const Ellipsoid& estimate
       alignedIoU(upright, estimated.semiAxes()), alignedIoU(turned, estimated.semiAxes()));
 }
 
+/** The assignment takes cubic time: seconds for so many, hours for 20,000. */
+constexpr std::size_t kMostObjects = 1000;
+
+void requireFew(std::size_t objects, const char* which)
+{
+  if (objects > kMostObjects)
+    throw std::runtime_error(
+        std::to_string(objects) + " " + which + " objects, at most " +
+        std::to_string(kMostObjects) + " can be compared");
+}
+
 /** Index of the estimated object of each true one, or estimated.size() for none. */
 std::vector<std::size_t> assign(
     const std::vector<ObjectRecord>& truth,
@@ -45,6 +56,8 @@ std::vector<std::size_t> assign(
     const ObjectEvaluationOptions& options)
 {
   if (truth.empty()) return {};
+  requireFew(truth.size(), "true");
+  requireFew(estimated.size(), "estimated");
   // After the estimated objects there are columns for "missed". They cost more than all possible
   // pairs together, so that the assignment has as many pairs as possible.
   const double missedCost =

@@ -38,6 +38,8 @@ std::string whyNoMap(const GzInput& input)
 /** \exception std::exception For bytes that are no map; `input` then knows why. */
 void readMap(GzInput& input, CQuadricObjectMap& map)
 {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 26;  // 50,000 objects
+  input.setMostBytes(kMostBytes);
   input.startRecord();
   mrpt::serialization::archiveFrom(input) >> map;
   input.skipToEnd();  // the checksum comes last

@@ -14,8 +14,8 @@ namespace
 using mrpt::serialization::CArchive;
 
 /** More than this in a file is garbage, not a map. */
-constexpr std::uint32_t kMaxObjects = 1000000;
-constexpr std::uint32_t kMaxLabels = 10000;  // of one object
+constexpr std::uint32_t kMaxObjects = 100000;
+constexpr std::uint32_t kMaxLabels = 1000;  // of one object
 
 template <typename Options>
 void writeOptions(CArchive& out, const Options& options)

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/base/StderrCapture.h"
@@ -24,6 +25,8 @@ using Graph = mrpt::graphs::CNetworkOfPoses3DInf;
 
 namespace
 {
+/** 100,000 poses with edges. In memory a line takes many times its length. */
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 25;
 constexpr double kSameTime = 1e-3;  // between rounded time stamps of one image [s]
 constexpr double kSilent = 1e-15;   // information below this is rounding: a planar edge states none
 
@@ -64,6 +67,7 @@ class GraphFile
     requireOneRun(path);
     std::ifstream file(path);
     if (!file) throw std::runtime_error(path + ": cannot be read");
+    requireModestText(path, kMostBytes);
     std::stringstream text;
     text << file.rdbuf();
     readTimes(text.str());
