@@ -8,6 +8,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -125,6 +126,22 @@ class GraphFile
     return firstRemark(capture.text());
   }
 
+  /** MRPT's reader takes any number.
+   *  \exception std::runtime_error For one that cannot be right. Unknown lines are a matter of read(). */
+  void check(const std::string& line, const std::string& place) const
+  {
+    static const std::set<std::string> known = {
+        "VERTEX",   "VERTEX2", "VERTEX_SE2",    "VERTEX3", "VERTEX_SE3:QUAT", "EDGE", "EDGE2",
+        "EDGE_SE2", "EDGE3",   "EDGE_SE3:QUAT", "EQUIV"};
+    constexpr double kLargest = 1e15;  // of a coordinate or an information
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || known.count(word) == 0) return;
+    while (words >> word)
+      if (const auto number = parseNumber(word); !number || !(std::abs(*number) <= kLargest))
+        throw std::runtime_error(place + ": '" + word + "' is not a number of a pose graph");
+  }
+
   void readTimes(const std::string& text)
   {
     std::istringstream lines(text);
@@ -132,6 +149,7 @@ class GraphFile
     for (std::string line; std::getline(lines, line);)
     {
       ++number;
+      check(line, mrpt::format("%s:%u", path_.c_str(), number));
       std::istringstream words(line);
       std::string hash, name;
       if (!(words >> hash >> name) || hash != "#" || name != "TIME") continue;

@@ -28,13 +28,16 @@ std::string pathOf(const std::string& name, const ImageRules& rules)
   const fs::path folder(rules.folder), path = folder / name;  // an absolute name stays as it is
   if (!rules.imagesAnywhere)
   {
-    const fs::path inside = fs::weakly_canonical(path).lexically_relative(fs::canonical(folder));
-    if (inside.empty() || *inside.begin() == "..")
+    std::error_code error;  // of names that are too long
+    const fs::path inside =
+        fs::weakly_canonical(path, error).lexically_relative(fs::canonical(folder));
+    if (error || inside.empty() || *inside.begin() == "..")
       throw std::runtime_error(
           "its external image " + name + " lies outside " + rules.folder +
           " (imagesAnywhere = true in section [input] would allow that)");
   }
-  if (!fs::is_regular_file(path))
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored))
     throw std::runtime_error("its external image " + path.string() + " is missing");
   return path.string();
 }

@@ -29,10 +29,11 @@ mrpt::poses::CPose3D uprightRotation(const Eigen::Vector3d& up)
 
 cv::Mat loadImage(const std::string& path, int flags, const mrpt::img::TCamera& camera)
 {
+  std::error_code ignored;  // of names that are too long
+  if (!fs::is_regular_file(path, ignored)) throw std::runtime_error(path + ": no such file");
   cv::Mat image;
   try
   {
-    if (!fs::is_regular_file(path)) throw std::runtime_error("no such file");
     image = decodeImageFile(path, flags, RecordLimits().imagePixels);
   }
   catch (const std::exception& e)
