@@ -17,9 +17,9 @@ namespace
 CObservationObjects largeObject()
 {
   CObservationObjects object;
-  object.objects.resize(30000);
+  object.objects.resize(CObservationObjects::kMostObjects);
   for (std::size_t i = 0; i < object.objects.size(); ++i)
-    object.objects[i].label = "label " + std::to_string(i);
+    object.objects[i].label = std::string(2000, 'a') + std::to_string(i);
   return object;
 }
 }  // namespace

@@ -291,6 +291,6 @@ TEST(EvaluateObjects, HasNoFiguresForWhatDoesNotExist)
 TEST(EvaluateObjects, RefusesMoreThanItCanCompareInTime)
 {
   const std::vector<ObjectRecord> many(1001, objectAt("A", "cup", 0));
-  EXPECT_THROW(evaluateObjects(many, {}, CPose3D()), std::runtime_error);
+  EXPECT_THROW(evaluateObjects(many, {}, CPose3D()), TooManyObjects);
   EXPECT_THROW(evaluateObjects({objectAt("A", "cup", 0)}, many, CPose3D()), std::runtime_error);
 }

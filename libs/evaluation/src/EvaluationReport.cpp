@@ -131,10 +131,17 @@ EvaluationReport evaluateRun(const EvaluationInput& input)
     report.trajectory = evaluateTrajectory(input, report.T_truth_estimated, report.notes);
     report.trajectory->ateRmseOdometry = odometryAte(input);
   }
-  if (input.trueObjectsPath)
-    report.objects = evaluateObjects(
-        trueObjects(input, report.notes), readObjectsJson(inFolder(input, "objects.json")),
-        report.T_truth_estimated, input.objects);
+  if (input.trueObjectsPath) try
+    {
+      report.objects = evaluateObjects(
+          trueObjects(input, report.notes), readObjectsJson(inFolder(input, "objects.json")),
+          report.T_truth_estimated, input.objects);
+    }
+    catch (const TooManyObjects& e)
+    {
+      throw std::runtime_error(
+          *input.trueObjectsPath + " and " + inFolder(input, "objects.json") + ": " + e.what());
+    }
   return report;
 }
 

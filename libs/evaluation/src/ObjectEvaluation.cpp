@@ -44,7 +44,7 @@ constexpr std::size_t kMostObjects = 1000;
 void requireFew(std::size_t objects, const char* which)
 {
   if (objects > kMostObjects)
-    throw std::runtime_error(
+    throw TooManyObjects(
         std::to_string(objects) + " " + which + " objects, at most " +
         std::to_string(kMostObjects) + " can be compared");
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -70,9 +71,16 @@ struct ObjectEvaluation
   std::optional<double> meanCenterNees() const, meanHeightNees() const, meanYawNees() const;
 };
 
+/** Objects that cannot be compared in any reasonable time. */
+struct TooManyObjects : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
 /** Assigns true and estimated objects of equal labels one to one. The assignment has as many pairs
  * within maxCenterDistance as possible and, with that many, the smallest sum of distances.
- * \param T_truth_estimated Carries the estimated objects into the truth's world. */
+ * \param T_truth_estimated Carries the estimated objects into the truth's world.
+ * \exception TooManyObjects For more than 1,000 of either kind. */
 ObjectEvaluation evaluateObjects(
     const std::vector<ObjectRecord>& truth,
     const std::vector<ObjectRecord>& estimated,
