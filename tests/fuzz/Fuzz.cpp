@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 
 #include "AllocationWatch.h"
@@ -17,6 +18,13 @@ constexpr double kLong = 5.0;
 double seconds()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/** How many inputs to try: QUADMAP_FUZZ_RUNS when it is set, for long runs by .ci/fuzz. */
+int inputsOf(const FuzzRun& run)
+{
+  const char* wanted = std::getenv("QUADMAP_FUZZ_RUNS");
+  return wanted ? std::atoi(wanted) : run.count;
 }
 
 std::string readable(const std::string& bytes)
@@ -35,7 +43,8 @@ void fuzz(
   Mutator mutator(run.seed);
   mutator.dictionary.insert(mutator.dictionary.end(), run.words.begin(), run.words.end());
   int refused = 0;
-  for (int i = 0; i < run.count; ++i)
+  const int count = inputsOf(run);
+  for (int i = 0; i < count; ++i)
   {
     const std::string input = mutator.mutate(valid);
     AllocationWatch::reset();
@@ -57,7 +66,7 @@ void fuzz(
     ASSERT_LE(AllocationWatch::largest(), run.largestAllocation)
         << "mutation " << i << ": " << readable(input);
   }
-  const int fewest = run.mostlyHarmless ? 0 : run.count / 20;
+  const int fewest = run.mostlyHarmless ? 0 : count / 20;
   EXPECT_GE(refused, fewest) << "the damage hardly ever hits: this tests nothing";
 }
 

@@ -1,15 +1,21 @@
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "../maps/SyntheticScene.h"
 #include "../obs/TemporaryFolder.h"
+#include "../sensors/SampleRawlog.h"
 #include "Fuzz.h"
+#include "quadmap/benchmark/BenchmarkResults.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/odometry/GraphOdometry.h"
+#include "quadmap/review/KeyframeContent.h"
 #include "quadmap/slam/SlamConfiguration.h"
 
 using namespace quadmap;
@@ -78,6 +84,78 @@ TEST(Fuzz, MapArchive)
         CQuadricObjectMap copy;
         archive >> copy;
         use(copy);
+      });
+}
+
+TEST(Fuzz, CompressedMap)
+{
+  const TemporaryFolder folder;
+  filledMap().saveToFile(folder.path("x.quadmap"));
+  fuzz(
+      readFile(folder.path("x.quadmap")), FuzzRun(),
+      [&](const std::string& bytes)
+      {
+        CQuadricObjectMap copy;
+        copy.loadFromFile(folder.write("x.quadmap", bytes));
+        use(copy);
+      });
+}
+
+TEST(Fuzz, SimpleMap)
+{
+  mrpt::maps::CSimpleMap map;
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(samplePose(1000, {}));
+  frame->insert(sampleScan(1000));
+  map.insert(std::make_shared<mrpt::poses::CPose3DPDFGaussian>(), frame);
+  const TemporaryFolder folder;
+  const auto path = writeObjects(
+      folder.path("x.simplemap"), {std::make_shared<mrpt::maps::CSimpleMap>(map)}, false);
+  FuzzRun run;
+  run.mostlyHarmless = true;  // most bytes are pixels
+  fuzz(
+      readFile(path), run,
+      [&](const std::string& bytes)
+      {
+        SceneContent content;
+        addKeyframes(folder.write("x.simplemap", bytes), {}, content);
+      });
+}
+
+TEST(Fuzz, PoseGraph)
+{
+  const TemporaryFolder folder;
+  FuzzRun run;
+  run.words = {"VERTEX3", "EDGE3", "# TIME 1", "VERTEX2 1 2 3 4", "EQUIV 1 0", "-1", "\n\n"};
+  fuzz(
+      "VERTEX3 0 0 0 0 0 0 0\nVERTEX3 1 1 0 0 0 0 0.1\n"
+      "EDGE3 0 1 1 0 0 0 0 0.1 9 0 0 0 0 0 9 0 0 0 0 9 0 0 0 9 0 0 9 0 9\n"
+      "# TIME 0 1000.25\n# TIME 1 1001.25\n",
+      run,
+      [&](const std::string& text)
+      {
+        GraphOdometry graph(folder.write("x.graph", text));
+        graph.poseAt(1000.25);
+      });
+}
+
+TEST(Fuzz, BenchmarkResults)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("runs/a"));
+  folder.write("runs/a/job.txt", "simulated home 1 rgbd rawlog\n");
+  folder.write("runs/a/machine.json", "{\"commit\": \"1234567\"}\n");
+  folder.write("runs/a/report.json", "{\"objects\": 0}\n");
+  FuzzRun run;
+  run.words = {"null", "[]", "{}", "\"label\":", "1e999", ","};
+  fuzz(
+      "{\"trajectory\": {\"ate_rmse_m\": 0.125}, \"objects\": {\"f1\": 1},\n"
+      " \"matches\": [{\"id\": \"1\", \"label\": \"chair\", \"trans_m\": 0.1}]}\n",
+      run,
+      [&](const std::string& text)
+      {
+        folder.write("runs/a/evaluation.json", text);
+        readBenchmarkResults(folder.folder().string());
       });
 }
 

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/TPixelLabelInfo.h>
 
 #include <filesystem>
-#include <limits>
 #include <map>
 
 #include "../obs/TemporaryFolder.h"
@@ -128,8 +130,6 @@ TEST(Fuzz, RawlogWithDamagedBoxes)
   }
 }
 
-/** The readers of stock classes are MRPT's: they believe the sizes they read, and the one of range
- * images writes to memory it did not get (MRPT 2.5.8), so there is none here. */
 TEST(Fuzz, RawlogWithDamagedStockRecords)
 {
   const TemporaryFolder folder;
@@ -142,7 +142,6 @@ TEST(Fuzz, RawlogWithDamagedStockRecords)
   {
     FuzzRun run;
     run.mostlyHarmless = keepGoing;
-    run.largestAllocation = std::numeric_limits<std::size_t>::max();
     fuzz(
         valid, run,
         [&](const std::string& bytes)
@@ -151,6 +150,94 @@ TEST(Fuzz, RawlogWithDamagedStockRecords)
           readToEnd(path, keepGoing);
         });
   }
+}
+
+namespace
+{
+/** Damages uncompressed rawlogs of these records. */
+void fuzzRecords(
+    const std::vector<mrpt::serialization::CSerializable::Ptr>& records,
+    const std::vector<std::string>& words = {})
+{
+  const TemporaryFolder folder;
+  const auto path = writeObjects(folder.path("a.rawlog"), records, false);
+  FuzzRun run;
+  run.words = words;
+  run.mostlyHarmless = true;  // most bytes are pixels
+  fuzz(
+      readFile(path), run,
+      [&](const std::string& bytes)
+      {
+        folder.write("a.rawlog", bytes);
+        readToEnd(path, false);
+      });
+}
+
+/** A scan of few pixels, so that most damages hit something else. */
+mrpt::obs::CObservation3DRangeScan::Ptr tinyScan()
+{
+  auto scan = sampleScan(1000);
+  scan->rangeImage_setSize(3, 4);
+  scan->cameraParams.ncols = 4;
+  scan->cameraParams.nrows = 3;
+  scan->intensityImage = mrpt::img::CImage(4, 3, mrpt::img::CH_RGB);
+  return scan;
+}
+}  // namespace
+
+TEST(Fuzz, RangeScan) { fuzzRecords({tinyScan()}); }
+
+TEST(Fuzz, RangeScanWithPixelLabels)
+{
+  auto scan = tinyScan();
+  scan->pixelLabels = std::make_shared<mrpt::obs::TPixelLabelInfo<2>>();
+  scan->pixelLabels->setSize(3, 4);
+  scan->pixelLabels->setLabelName(1, "chair_2");
+  scan->pixelLabels->setLabel(1, 1, 1);
+  fuzzRecords({scan});
+}
+
+TEST(Fuzz, EmbeddedJpeg)
+{
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
+  fuzzRecords({tinyScan()}, {"\xff\xc0", "\xff\xc4", "\xff\xda", "\xff\xd9", "\xff\xc2"});
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
+}
+
+TEST(Fuzz, ExternalImages)
+{
+  auto scan = tinyScan();
+  scan->intensityImage.setExternalStorage("a/picture.jpg");
+  const TemporaryFolder folder;
+  const auto path = writeObjects(folder.path("a.rawlog"), {scan}, false);
+  std::filesystem::create_directory(folder.path("a"));
+  ASSERT_TRUE(sampleScan(1000)->intensityImage.saveToFile(folder.path("a/picture.jpg")));
+  FuzzRun run;
+  run.words = {"../", "/", "/etc/passwd", "..", "//"};
+  fuzz(
+      readFile(path), run,
+      [&](const std::string& bytes)
+      {
+        folder.write("a.rawlog", bytes);
+        readToEnd(path, false);
+      });
+}
+
+TEST(Fuzz, FramesAndActions)
+{
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(samplePose(1000, {}));
+  frame->insert(sampleBoxes(1000));
+  frame->insert(sampleScan(1000));
+  mrpt::obs::CActionRobotMovement2D flat;
+  flat.computeFromOdometry({0.1, 0, 0}, {});
+  auto actions = mrpt::obs::CActionCollection::Create();
+  actions->insert(flat);
+  actions->insert(mrpt::obs::CActionRobotMovement3D());
+  fuzzRecords(
+      {actions, frame}, {"CSensoryFrame",
+                         "\x8d"
+                         "CSensoryFrame\x02"});
 }
 
 TEST(Fuzz, TruncatedRangeScan)
@@ -173,10 +260,8 @@ TEST(Fuzz, CompressedRawlog)
   const auto path = folder.path("a.rawlog");
   writeObjects(path, {samplePose(1000, {}), sampleBoxes(1000.5), samplePose(1001, {})});
   const auto valid = readFile(path);
-  FuzzRun run;
-  run.largestAllocation = std::numeric_limits<std::size_t>::max();
   fuzz(
-      valid, run,
+      valid, FuzzRun(),
       [&](const std::string& bytes)
       {
         folder.write("a.rawlog", bytes);
