@@ -48,7 +48,7 @@ TEST(TextTorture, Scene)
 {
   const TemporaryFolder folder;
   auto cases = damagesOf(share("scenes/corridor.ini"));
-  judge(folder, {"quadmap-simulate IN -o OUT --frames 2 --resolution 64x48", "x.ini", ""}, cases);
+  judge(folder, {"quadmap-simulate IN -o OUT --frames 2 --resolution 64x64", "x.ini", ""}, cases);
 }
 
 TEST(TextTorture, Labels)
