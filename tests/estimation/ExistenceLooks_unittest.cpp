@@ -68,8 +68,9 @@ TEST(ExistenceLooks, FromFarApartCountInFull)
   const ExistenceLooks apart = looks({true, false, true}, 0.5);
   EXPECT_NEAR(apart.independent(kOptions).seen, 2, 1e-12);
   EXPECT_NEAR(apart.independent(kOptions).missed, 1, 1e-12);
-  // Chords of 0.05 rad are half of the angle: two looks with k = 0.5.
-  const double share = 1 / (1 + 0.75 * 0.5);
+  // Chords of 0.05 rad are half of the angle, and 0.1 s are a small part of the time between
+  // visits.
+  const double share = 1 / (1 + 0.75 * 0.5 * (1 - 0.1 / kOptions.independentViewTime));
   EXPECT_NEAR(looks({true, true}, 0.05).independent(kOptions).seen, 2 * share, 1e-3);
 }
 

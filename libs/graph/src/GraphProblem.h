@@ -28,7 +28,8 @@ class GraphProblem
 
  private:
   using SparseMatrix = Eigen::SparseMatrix<double>;
-  /** What is known of an object's position and angles without measurements, as in the object map. */
+  /** What is known of an object's position and angles without measurements, as in the object map.
+   */
   static constexpr double kFreePositionSigma = 2.0;    // [m]
   static constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
 

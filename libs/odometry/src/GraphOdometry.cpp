@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
-#include <iostream>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -45,20 +44,6 @@ bool isSilent(const Eigen::Matrix<double, 6, 6>& matrix, std::initializer_list<i
   return true;
 }
 
-/** The first of MRPT's remarks on a graph, "[reader] (file):LINE: Warning: TEXT", as
- * "; line LINE: TEXT". Of the others there may be thousands. */
-std::string firstRemark(const std::string& remarks)
-{
-  const std::string line = remarks.substr(0, remarks.find('\n')),
-                    before = "(none):", between = "Warning: ";
-  const auto number = line.find(before), text = line.find(between);
-  if (number == std::string::npos || text == std::string::npos || text < number)
-    return remarks.empty() ? "" : "; " + oneLine(line);
-  const auto first = number + before.size();
-  return "; line " + line.substr(first, line.find(':', first) - first) + ": " +
-         oneLine(line.substr(text + between.size()));
-}
-
 /** The text of a graph, with the times that MRPT's reader takes for comments. */
 class GraphFile
 {
@@ -72,10 +57,9 @@ class GraphFile
     std::stringstream text;
     text << file.rdbuf();
     readTimes(text.str());
-    const std::string unknown = read(text);
+    read(text);
     if (graph.nodes.empty())
-      throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line" + unknown);
-    if (!unknown.empty()) std::cerr << path + ": some lines are ignored" + unknown + "\n";
+      throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line");
     for (const auto& t : times)
       if (graph.nodes.count(t.node) == 0)
         throw std::runtime_error(mrpt::format(
@@ -111,10 +95,9 @@ class GraphFile
   }
 
  private:
-  /** \return What MRPT says of lines that it does not know, see firstRemark(). */
-  std::string read(std::istream& text)
+  void read(std::istream& text)
   {
-    const StderrCapture capture;  // where MRPT tells of each
+    const StderrCapture capture;  // where MRPT tells of what it passes over
     try
     {
       graph.readAsText(text);
@@ -123,23 +106,25 @@ class GraphFile
     {
       throw std::runtime_error(path_ + ": " + rootMessage(e));
     }
-    return firstRemark(capture.text());
   }
 
-  /** MRPT's reader takes any number.
-   *  \exception std::runtime_error For one that cannot be right. Unknown lines are a matter of read(). */
+  /** MRPT's reader passes over lines it does not know, and takes any number.
+   *  \exception std::runtime_error For an unknown entry or a number that cannot be right. */
   void check(const std::string& line, const std::string& place) const
   {
     static const std::set<std::string> known = {
-        "VERTEX",   "VERTEX2", "VERTEX_SE2",    "VERTEX3", "VERTEX_SE3:QUAT", "EDGE", "EDGE2",
-        "EDGE_SE2", "EDGE3",   "EDGE_SE3:QUAT", "EQUIV"};
+        "VERTEX", "VERTEX2",  "VERTEX_SE2", "VERTEX3",       "VERTEX_SE3:QUAT", "EDGE",
+        "EDGE2",  "EDGE_SE2", "EDGE3",      "EDGE_SE3:QUAT", "EQUIV",           "FIX"};
     constexpr double kLargest = 1e15;  // of a coordinate or an information
     std::istringstream words(line);
     std::string word;
-    if (!(words >> word) || known.count(word) == 0) return;
+    if (!(words >> word) || word[0] == '#') return;
+    if (known.count(word) == 0)
+      throw std::runtime_error(place + ": '" + oneLine(word) + "' is no entry of a pose graph");
     while (words >> word)
       if (const auto number = parseNumber(word); !number || !(std::abs(*number) <= kLargest))
-        throw std::runtime_error(place + ": '" + word + "' is not a number of a pose graph");
+        throw std::runtime_error(
+            place + ": '" + oneLine(word) + "' is not a number of a pose graph");
   }
 
   void readTimes(const std::string& text)

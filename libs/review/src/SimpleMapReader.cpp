@@ -32,12 +32,6 @@ bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
   return name == expected && readScalar<std::uint8_t>(archive) == kVersion;
 }
 
-const std::string& existing(const std::string& path)
-{
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": cannot be read");
-  return path;
-}
-
 }  // namespace
 
 SimpleMapReader::SimpleMapReader(const std::string& path) :
