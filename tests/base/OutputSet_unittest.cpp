@@ -156,6 +156,18 @@ TEST(OutputSet, TheNextProgramCompletesAMixture)
   EXPECT_EQ(folder.fileCount(), 3u);
 }
 
+TEST(OutputSet, AListFromAStrangerReachesNothingOutside)
+{
+  const TemporaryFolder folder;
+  folder.write("mine.txt", "mine");
+  fs::create_directories(folder.path("given/.run.partial"));
+  folder.write(
+      "given/.run.partial/.exchange",
+      std::string("-../mine.txt") + '\0' + "-" + folder.path("mine.txt") + '\0');
+  OutputSet set(folder.path("given"), "run");
+  EXPECT_TRUE(fs::exists(folder.path("mine.txt")));
+}
+
 TEST(OutputSet, KilledAtAnyMomentNoReaderSeesAMixture)
 {
   const TemporaryFolder folder;

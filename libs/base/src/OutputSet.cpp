@@ -23,13 +23,19 @@ namespace fs = std::filesystem;
 constexpr const char* kStagingEnd = ".partial";  //!< Ends the names of hidden folders
 constexpr const char* kListName = ".exchange";   //!< The list of files in such a folder
 
+/** A name that does not lead out of the folder: the list may have come with a stranger's files. */
+bool isInside(const fs::path& name)
+{
+  return name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
+}
+
 /** Entries end with a zero, as names may hold any other byte. */
 std::vector<std::string> readList(const fs::path& staging)
 {
   std::vector<std::string> entries;
   std::ifstream file(staging / kListName, std::ios::binary);
   for (std::string entry; std::getline(file, entry, '\0');)
-    if (entry.size() > 1) entries.push_back(entry);
+    if (entry.size() > 1 && isInside(entry.substr(1))) entries.push_back(entry);
   return entries;
 }
 
