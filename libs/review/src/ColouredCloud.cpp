@@ -88,6 +88,7 @@ void CloudCollector::add(
 {
   constexpr float kLookWeight = 0.4F;  // of the direction to the camera, against noise
   constexpr int kNormalStep = 8;       // wide because depth is noisy [px]
+  constexpr float kFarthest = 1e6F;    // of a map; cells are numbered [m]
   const OrganizedPoints frame = unproject(scan);
   const Eigen::Matrix4f T =
       T_map_robot.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().cast<float>();
@@ -105,6 +106,7 @@ void CloudCollector::add(
       n_robot += kLookWeight * (eye - p_robot).normalized();
 
       const Eigen::Vector3f p_map = T.topLeftCorner<3, 3>() * p_robot + T.topRightCorner<3, 1>();
+      if (!(p_map.cwiseAbs().maxCoeff() <= kFarthest)) continue;  // also what is not a number
       Cell& cell = cells_[keyOf(p_map)];
       cell.positionSum += p_map;
       cell.normalSum += T.topLeftCorner<3, 3>() * n_robot;

@@ -110,6 +110,15 @@ void requireCalibration(const CObservation3DRangeScan& scan)
   if (!K.asEigen().allFinite() || K(0, 0) == 0 || K(1, 1) == 0)
     throw std::runtime_error(
         mrpt::format("has no camera calibration (fx=%g, fy=%g in cameraParams)", K(0, 0), K(1, 1)));
+  // Focal lengths from fisheye to telescope, and centres up to far outside, in image widths.
+  constexpr double kShortest = 0.01, kLongest = 1000, kFarthestCentre = 100;
+  const double width = camera.ncols;
+  for (int i = 0; i < 2; ++i)
+    if (std::abs(K(i, i)) < kShortest * width || std::abs(K(i, i)) > kLongest * width ||
+        std::abs(K(i, 2)) > kFarthestCentre * width)
+      throw std::runtime_error(mrpt::format(
+          "has an absurd calibration (focal length %g, centre %g in images %u px wide)", K(i, i),
+          K(i, 2), camera.ncols));
   const auto rows = scan.rangeImage.rows(), columns = scan.rangeImage.cols();
   if (static_cast<int>(camera.nrows) != rows || static_cast<int>(camera.ncols) != columns)
     throw std::runtime_error(mrpt::format(
@@ -147,6 +156,10 @@ void prepareScan(CObservation3DRangeScan& scan, const ImageRules& rules)
   requireCalibration(scan);
   if (!scan.sensorPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite())
     throw std::runtime_error("its sensorPose has numbers that are not finite");
+  constexpr double kFarthest = 1000;  // of a sensor on a robot [m]
+  if (const double far = scan.sensorPose.norm(); !(far <= kFarthest))
+    throw std::runtime_error(
+        mrpt::format("its sensorPose is %g m from the robot, which is absurd", far));
   if (!scan.range_is_depth) rangesToDepths(scan);
 }
 
