@@ -21,6 +21,24 @@ Ellipsoid ellipsoidOf(const UprightState& state)
       state.tail<3>().array().exp());
 }
 
+UprightCovariance covarianceIntersection(const UprightCovariance& a, const UprightCovariance& b)
+{
+  constexpr int kSteps = 20;  // of the share of a; the optimum is flat
+  const UprightCovariance A = a.inverse(), B = b.inverse();
+  UprightCovariance best = a;
+  double least = best.determinant();
+  for (int i = 0; i < kSteps; ++i)
+  {
+    const double share = static_cast<double>(i) / kSteps;
+    const UprightCovariance both = (share * A + (1 - share) * B).inverse();
+    const double determinant = both.determinant();
+    if (!(determinant < least)) continue;
+    least = determinant;
+    best = both;
+  }
+  return 0.5 * (best + best.transpose());
+}
+
 UprightCovariance withoutNegative(const UprightCovariance& symmetric)
 {
   const Eigen::SelfAdjointEigenSolver<UprightCovariance> eigen(symmetric);

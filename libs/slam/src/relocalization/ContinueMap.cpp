@@ -13,6 +13,7 @@
 #include "KnownObjects.h"
 #include "backend/BackEnd.h"
 #include "quadmap/estimation/Assignment.h"
+#include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
@@ -72,17 +73,28 @@ std::vector<FactorGraph::GraphEdge> renamed(
   return out;
 }
 
-/** The continued map's objects err with the poses as the run's own did, in place and heading. Their
- * axes may have other names, but poses hardly err in sizes. */
-void passSharedErrors(
-    const CQuadricObjectMap& own, const std::map<ObjectId, ObjectId>& heirs, CQuadricObjectMap& map)
+/** Has the objects of the continued map claim what the map and the run know together, (19.8): both
+ * saw them in the same way, so that their errors are not independent. */
+void claimTogether(
+    const CQuadricObjectMap& given,
+    const CQuadricObjectMap& own,
+    const std::map<ObjectId, ObjectId>& heirs,
+    CQuadricObjectMap& map)
 {
   for (const auto& [object, heir] : heirs)
   {
-    if (!own.find(object) || !map.find(heir)) continue;
-    UprightCovariance error = UprightCovariance::Zero();
-    error.topLeftCorner<4, 4>() = own.sharedError(object).topLeftCorner<4, 4>();
-    map.setSharedError(heir, error);
+    const MapObject *seen = own.find(object), *known = given.find(heir), *now = map.find(heir);
+    if (!seen || !now) continue;
+    const UprightState at = uprightStateOf(now->object);
+    const auto renamed = [&](const MapObject& o)
+    {
+      const UprightCovariance P = axisRenaming(uprightStateOf(o.object), at).P;
+      return UprightCovariance(P * o.covariance * P.transpose());
+    };
+    const UprightCovariance together =
+        known ? covarianceIntersection(renamed(*known), renamed(*seen)) : renamed(*seen);
+    const UprightCovariance measured = now->covariance - map.sharedError(heir);
+    map.setSharedError(heir, withoutNegative(together - measured));
   }
 }
 
@@ -226,7 +238,7 @@ void continueMap(
   result.map.consolidate();
   const auto heirs = heirsOf(before, result.decisions);
   result.edges = renamed(result.edges, heirs);
-  passSharedErrors(own, heirs, result.map);
+  claimTogether(given, own, heirs, result.map);
   result.continuation = changesBetween(given, result.map, options);
   match.T_map_local = place;
   result.continuation->match = match;

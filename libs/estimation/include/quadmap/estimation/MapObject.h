@@ -20,6 +20,11 @@ using UprightCovariance = Eigen::Matrix<double, 7, 7>;
 UprightState uprightStateOf(const Ellipsoid& object);
 Ellipsoid ellipsoidOf(const UprightState& state);
 
+/** The covariance of two estimates of one object together when nobody knows how their errors are
+ * correlated: covariance intersection [Julier, Uhlmann, 1997] with the least determinant. Two equal
+ * ones know no more than one. Both are positive definite. */
+UprightCovariance covarianceIntersection(const UprightCovariance& a, const UprightCovariance& b);
+
 /** The nearest matrix without negative eigenvalues. */
 UprightCovariance withoutNegative(const UprightCovariance& symmetric);
 
