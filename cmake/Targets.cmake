@@ -25,7 +25,7 @@ function(quadmap_target_options target)
   if(QUADMAP_SANITIZE)
     # Debian's libraries free what our code allocates in Eigen's headers, and the other way round: with
     # the address sanitizer Eigen would choose an allocator of its own, unlike theirs.
-    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1 QUADMAP_SANITIZED)
     # MRPT's 3-D objects (2.5.8) have misaligned virtual bases: creating an ellipsoid is enough.
     target_compile_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE}
       -fno-sanitize=alignment -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -45,7 +45,7 @@ bool isInstalled(const std::string& program)
 
 /** A sanitizer must be the first library of a process; a preloaded plug-in cannot be. */
 constexpr bool kSanitized =
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef QUADMAP_SANITIZED
     true;
 #else
     false;

@@ -19,7 +19,7 @@ int run(const std::string& command) { return WEXITSTATUS(std::system(command.c_s
 /** The reason why Debian's program cannot be run here, or an empty text when it can. */
 std::string whyNot()
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef QUADMAP_SANITIZED
   return "a program built without sanitizers cannot load a plug-in built with them";
 #else
   const bool installed = run("command -v rawlog-edit > /dev/null 2>&1") == 0;

@@ -139,6 +139,9 @@ TYPED_TEST(PointGraphs, MarginalsAreThoseOfTheWholeInformationMatrix)
 
 TYPED_TEST(PointGraphs, MemoryDoesNotGrowWithPosesTimesObjects)
 {
+#ifdef QUADMAP_SANITIZED
+  GTEST_SKIP() << "sanitizers keep what was freed";
+#endif
   constexpr int D = TypeParam::value;
   constexpr std::size_t kPoses = 4000, kObjects = 80;
   PointGraph<D> graph;

@@ -237,7 +237,7 @@ TEST(StagePipelineThreads, NoMoreAreBegunThanCanWork)
   EXPECT_LE(workers.size(), 3u);
 }
 
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#ifdef QUADMAP_SANITIZED
 constexpr bool kSanitized = true;  // these take terabytes of addresses
 #else
 constexpr bool kSanitized = false;
