@@ -110,8 +110,9 @@ void requireCalibration(const CObservation3DRangeScan& scan)
   if (!K.asEigen().allFinite() || K(0, 0) == 0 || K(1, 1) == 0)
     throw std::runtime_error(
         mrpt::format("has no camera calibration (fx=%g, fy=%g in cameraParams)", K(0, 0), K(1, 1)));
-  // Focal lengths from fisheye to telescope, and centres up to far outside, in image widths.
-  constexpr double kShortest = 0.01, kLongest = 1000, kFarthestCentre = 100;
+  // In image widths. Beyond these numbers overflow later; what is merely unusable, perception
+  // tells.
+  constexpr double kShortest = 1e-3, kLongest = 1000, kFarthestCentre = 100;
   const double width = camera.ncols;
   for (int i = 0; i < 2; ++i)
     if (std::abs(K(i, i)) < kShortest * width || std::abs(K(i, i)) > kLongest * width ||
