@@ -47,12 +47,16 @@ TEST(OdometryInput, EveryKeyframeStepHasAnInvertibleCovariance)
 
 TEST(OdometryInput, StandsUprightAtTheStart)
 {
-  const Eigen::Vector3d up_robot = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
-  OdometryInput input(PoseSource::Visual, {}, {}, up_robot);
-  const auto pose = input.poseOf(homeFrames(1)[0]);
-  ASSERT_TRUE(pose);
-  const Eigen::Matrix3d R = pose->getRotationMatrix().asEigen();
-  EXPECT_LT((R * up_robot - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  for (const double side : {1, -1})  // on its feet or on its head
+  {
+    const Eigen::Vector3d up_robot = Eigen::Vector3d(0.3, -0.2, 0.9 * side).normalized();
+    OdometryInput input(PoseSource::Visual, {}, {}, up_robot);
+    const auto pose = input.poseOf(homeFrames(1)[0]);
+    ASSERT_TRUE(pose);
+    const Eigen::Matrix3d R = pose->getRotationMatrix().asEigen();
+    EXPECT_LT((R * up_robot - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+    EXPECT_GT(R(0, 0), 0.9) << "looks ahead";
+  }
 }
 
 TEST(OdometryInput, VisualOdometryFollowsOneCameraAndSaysSo)

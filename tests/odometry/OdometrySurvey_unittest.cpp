@@ -20,6 +20,27 @@ std::string writeHome(const TemporaryFolder& folder, bool odometry)
   }
   return writeObjects(folder.path("x.rawlog"), records);
 }
+
+/** Writes the start of the home with negative fy. \param turned The stored images are upside down,
+ * too, so that nothing else changes. \param covered They show nothing. */
+std::string writeWithNegativeFy(const TemporaryFolder& folder, bool turned, bool covered = false)
+{
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (auto& frame : homeFrames(6))
+  {
+    if (covered) cover(frame);
+    auto& scan = *frame.scan;
+    if (turned)
+    {
+      scan.rangeImage = scan.rangeImage.asEigen().colwise().reverse().eval();
+      scan.intensityImage.flipVertical();
+    }
+    for (auto* camera : {&scan.cameraParams, &scan.cameraParamsIntensity})
+      camera->setIntrinsicParamsFromValues(camera->fx(), -camera->fy(), camera->cx(), camera->cy());
+    records.push_back(frame.scan);
+  }
+  return writeObjects(folder.path("x.rawlog"), records);
+}
 }  // namespace
 
 TEST(OdometrySurvey, TakesTheRawlogsOdometryWhenThereIsSome)
@@ -27,7 +48,7 @@ TEST(OdometrySurvey, TakesTheRawlogsOdometryWhenThereIsSome)
   const TemporaryFolder folder;
   const auto survey = surveyOdometry(writeHome(folder, true), {}, PoseSource::Auto);
   EXPECT_EQ(survey.source, PoseSource::Auto);
-  EXPECT_FALSE(survey.up_robot) << "not asked for";
+  EXPECT_FALSE(survey.upFromFloor) << "not asked for";
 }
 
 TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
@@ -67,10 +88,32 @@ TEST(OdometrySurvey, FindsUpFromTheFloorWhenThereIsNone)
   const TemporaryFolder folder;
   const auto survey = surveyOdometry(writeHome(folder, false), {}, PoseSource::Auto);
   EXPECT_EQ(survey.source, PoseSource::Visual);
-  ASSERT_TRUE(survey.up_robot);
+  EXPECT_TRUE(survey.upFromFloor);
   const Eigen::Vector3d truth =
       homeFrames(1)[0].T_world_robot->getRotationMatrix().asEigen().row(2).transpose();
-  EXPECT_LT(std::acos(survey.up_robot->dot(truth)), 0.02) << "[rad]";
+  EXPECT_LT(std::acos(survey.up_robot.dot(truth)), 0.02) << "[rad]";
+}
+
+TEST(OdometrySurvey, WithNegativeFyTheFloorIsWhereImagesShowIt)
+{
+  const TemporaryFolder folder;
+  const auto original = surveyOdometry(writeHome(folder, false), {}, PoseSource::Visual).up_robot;
+  const auto upright = surveyOdometry(writeWithNegativeFy(folder, false), {}, PoseSource::Visual);
+  EXPECT_TRUE(upright.upFromFloor);
+  const Eigen::Vector3d mirrored(original.x(), original.y(), -original.z());
+  EXPECT_LT(std::acos(upright.up_robot.dot(mirrored)), 0.01) << "[rad]";
+  const auto turned = surveyOdometry(writeWithNegativeFy(folder, true), {}, PoseSource::Visual);
+  EXPECT_TRUE(turned.upFromFloor);
+  EXPECT_LT(std::acos(turned.up_robot.dot(original)), 0.01) << "[rad]";
+}
+
+TEST(OdometrySurvey, WithoutAFloorStoredImagesAreUpright)
+{
+  const TemporaryFolder folder;
+  const auto survey =
+      surveyOdometry(writeWithNegativeFy(folder, false, true), {}, PoseSource::Visual);
+  EXPECT_FALSE(survey.upFromFloor);
+  EXPECT_EQ(survey.up_robot, -Eigen::Vector3d::UnitZ());
 }
 
 TEST(OdometrySurvey, VisualOdometryWhenAskedFor)
@@ -78,7 +121,7 @@ TEST(OdometrySurvey, VisualOdometryWhenAskedFor)
   const TemporaryFolder folder;
   const auto survey = surveyOdometry(writeHome(folder, true), {}, PoseSource::Visual);
   EXPECT_EQ(survey.source, PoseSource::Visual);
-  EXPECT_TRUE(survey.up_robot);
+  EXPECT_TRUE(survey.upFromFloor);
 }
 
 TEST(OdometrySurvey, ASingleMomentNeedsNoOdometry)

@@ -9,12 +9,15 @@ using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
-/** Pose of the robot at the origin of the map, with the smallest rotation that turns `up` to z. */
-CPose3D uprightStart(const std::optional<Eigen::Vector3d>& up_robot)
+/** Pose of the robot at the origin of the map, with the smallest rotation that turns `up` to z. A
+ * robot on its head rolls onto its feet before, so that it looks ahead as any other. */
+CPose3D uprightStart(const Eigen::Vector3d& up_robot)
 {
-  if (!up_robot) return {};
+  Eigen::Quaterniond roll = Eigen::Quaterniond::Identity();
+  if (up_robot.z() < 0) roll = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d up = roll * up_robot;
   const Eigen::Matrix3d R =
-      Eigen::Quaterniond::FromTwoVectors(*up_robot, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      (Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()) * roll).toRotationMatrix();
   return CPose3D::FromRotationAndTranslation(R, Eigen::Vector3d(Eigen::Vector3d::Zero()));
 }
 
@@ -24,7 +27,7 @@ OdometryInput::OdometryInput(
     PoseSource source,
     const PoseUncertaintyOptions& uncertainty,
     const VisualOdometryOptions& visual,
-    const std::optional<Eigen::Vector3d>& up_robot,
+    const Eigen::Vector3d& up_robot,
     const std::optional<GraphOdometry>& graph) :
     source_(source), uncertainty_(uncertainty), graph_(graph)
 {

@@ -14,26 +14,32 @@ namespace
 {
 constexpr std::size_t kFrames = 15;  // images in which the floor is looked for
 
-/** Up in the robot's frame: the normal of the plane on which everything in the image stands. A wall
- * that fills the image may be mistaken for this plane. A direction that is far from the camera's
- * own up axis is therefore not believed. */
+/** In the robot's frame, the normal of the plane on which everything in the image stands. */
 std::optional<Eigen::Vector3d> upIn(
     const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
 {
-  constexpr double kMaxTilt = M_PI / 3;
   CObservationObjects noBoxes;
   const auto surfaces = perception.measure(scan, noBoxes, std::nullopt);
   const auto floor = std::find_if(
       surfaces.seen.begin(), surfaces.seen.end(),
       [](const SurfacePatch& patch) { return patch.kind == SurfaceKind::Floor; });
   if (floor == surfaces.seen.end()) return std::nullopt;
-  const Eigen::Vector3d up_robot = isometryOf(scan.sensorPose).linear() * floor->plane.n;
-  if (up_robot.z() < std::cos(kMaxTilt)) return std::nullopt;
-  return up_robot;
+  return isometryOf(scan.sensorPose).linear() * floor->plane.n;
+}
+
+/** Whether the robot's frame stands on its head when the stored image is upright. An image with
+ * negative fy is turned, so what is up in the stored one is -z of its sensor. */
+bool isUpsideDown(const RgbdFrame& frame)
+{
+  return frame.isTurned && isometryOf(frame.scan->sensorPose).linear()(2, 2) > 0;
 }
 
 /** The direction that is up in each image of one camera, carried to the first image by visual
- * odometry: doc/mathematics.md, section 15. */
+ * odometry: doc/mathematics.md, section 15.
+ *
+ * A wall that fills the image may be mistaken for the floor, so directions far from the robot's z
+ * are not believed. A ceiling looks like the floor of a turned image, so directions near z and
+ * near -z are kept apart. */
 class UpVotes
 {
  public:
@@ -44,21 +50,39 @@ class UpVotes
 
   void add(const RgbdFrame& frame)
   {
-    if (odometry_.counts().frames == 0) sensor_ = frame.scan->sensorLabel;
+    if (odometry_.counts().frames == 0)
+    {
+      sensor_ = frame.scan->sensorLabel;
+      isTurned_ = frame.isTurned;
+      isUpsideDown_ = isUpsideDown(frame);
+    }
     if (frame.scan->sensorLabel != sensor_) return;
     const auto T_first_robot = odometry_.add(*frame.scan);
     if (!T_first_robot || odometry_.counts().gaps > 0) return;
-    if (const auto up_robot = upIn(perception_, *frame.scan))
-      ups_.push_back(isometryOf(*T_first_robot).linear() * *up_robot);
+    constexpr double kMaxTilt = M_PI / 3;
+    const auto up_robot = upIn(perception_, *frame.scan);
+    if (!up_robot || std::abs(up_robot->z()) < std::cos(kMaxTilt)) return;
+    auto& side = up_robot->z() > 0 ? above_ : below_;
+    side.push_back(isometryOf(*T_first_robot).linear() * *up_robot);
   }
 
-  std::optional<Eigen::Vector3d> result() const { return agreedDirection(ups_); }
+  /** Sets what the survey says about up. */
+  void tell(OdometrySurvey& survey) const
+  {
+    survey.up_robot.z() = isUpsideDown_ ? -1 : 1;
+    auto up_robot = agreedDirection(isUpsideDown_ ? below_ : above_);
+    // Only the floor shows that the stored images of a negative fy are upside down.
+    if (!up_robot && isTurned_) up_robot = agreedDirection(isUpsideDown_ ? above_ : below_);
+    survey.upFromFloor = up_robot.has_value();
+    if (up_robot) survey.up_robot = *up_robot;
+  }
 
  private:
   FramePerception perception_;
   VisualOdometry odometry_;
   std::string sensor_;
-  std::vector<Eigen::Vector3d> ups_;
+  bool isTurned_ = false, isUpsideDown_ = false;  // the first image, and what it says
+  std::vector<Eigen::Vector3d> above_, below_;    // near the robot's z, and near -z
 };
 
 /** How much a kind of odometry says about a pose: the higher, the more. */
@@ -171,7 +195,7 @@ OdometrySurvey surveyOdometry(
   {
     return survey;  // the run meets the same error and reports it
   }
-  survey.up_robot = votes.result();
+  votes.tell(survey);
   return survey;
 }
 

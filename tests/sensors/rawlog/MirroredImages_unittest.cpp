@@ -51,13 +51,9 @@ TEST(MirroredImages, ANegativeFyBecomesPositiveWithTheSamePointsInSpace)
   const auto path =
       writeObjects(folder.path("x.rawlog"), {mirroredScan(kStart), mirroredBoxes(kStart)});
   RawlogSource source(path, {});
-  source.logging_enable_console_output = false;
-  std::string warning;
-  source.logRegisterCallback([&](std::string_view text, auto, auto, auto)
-                             { warning = std::string(text); });
   const auto frame = source.next();
-  EXPECT_NE(warning.find("x.rawlog (camera): fy is negative"), std::string::npos) << warning;
   ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->isTurned);
   const auto original = sampleScan(kStart);
   for (const auto* camera :
        {&frame->scan->cameraParams, &frame->scan->cameraParamsIntensity,

@@ -67,20 +67,19 @@ void turnDepth(mrpt::obs::CObservation3DRangeScan& scan)
 
 }  // namespace
 
-bool makeFyPositive(RgbdFrame& frame)
+void makeFyPositive(RgbdFrame& frame)
 {
   auto& scan = *frame.scan;
-  const bool any = scan.cameraParams.fy() < 0 || scan.cameraParamsIntensity.fy() < 0;
+  frame.isTurned = scan.cameraParams.fy() < 0 || scan.cameraParamsIntensity.fy() < 0;
   if (scan.cameraParams.fy() < 0) turnDepth(scan);
   if (scan.cameraParamsIntensity.fy() < 0)
   {
     if (scan.hasIntensityImage) turn(scan.intensityImage);
     turn(scan.cameraParamsIntensity);
   }
-  if (!frame.objects || !(frame.objects->cameraParams.fy() < 0)) return any;
+  if (!frame.objects || !(frame.objects->cameraParams.fy() < 0)) return;
   for (auto& object : frame.objects->objects) turn(object, frame.objects->cameraParams.nrows);
   turn(frame.objects->cameraParams);
-  return true;
 }
 
 }  // namespace quadmap

@@ -10,8 +10,8 @@ namespace quadmap
  *
  *   v' = rows - 1 - v,  cy' = rows - 1 - cy,  fy' = -fy,  hence (v' - cy') / fy' = (v - cy) / fy
  *
- * Changes images, boxes, masks and calibrations of the frame where fy is negative.
- * \return Whether there was anything to change. */
-bool makeFyPositive(RgbdFrame& frame);
+ * Changes images, boxes, masks and calibrations of the frame where fy is negative, and sets
+ * isTurned. */
+void makeFyPositive(RgbdFrame& frame);
 
 }  // namespace quadmap

@@ -146,11 +146,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
   addPoses(pending);
   addBoxes(frame);
   if (!frame.objects && options.pixelLabelClasses) addPixelLabels(frame);
-  if (makeFyPositive(frame))
-    warnOnce(
-        reader.file() + " (" + frame.scan->sensorLabel +
-        "): fy is negative, so images are turned upside down; with visual odometry the world may "
-        "then stand on its head, unless the floor is seen");
+  makeFyPositive(frame);
   ++framesRead;
   return std::move(frame);
 }

@@ -44,7 +44,7 @@ ObjectSlam::ObjectSlam(
     const SlamConfiguration& configuration,
     const LabelTable& labels,
     KeyframeSpool& spool,
-    const std::optional<Eigen::Vector3d>& up_robot,
+    const OdometrySurvey& survey,
     bool keepGoing) :
     COutputLogger("ObjectSlam"),
     configuration_(configuration),
@@ -56,7 +56,7 @@ ObjectSlam::ObjectSlam(
         configuration.slam.odometry,
         configuration.poses,
         configuration.visual,
-        up_robot,
+        survey.up_robot,
         graphOf(configuration.slam)),
     perception_(configuration, labels),
     backEnd_(configuration, labels_),
@@ -71,7 +71,7 @@ ObjectSlam::ObjectSlam(
         configuration.slam.workingThreads(),
         kCapacity)
 {
-  result_.odometry.upFromFloor = up_robot.has_value();
+  result_.odometry.upFromFloor = survey.upFromFloor;
   result_.map.insertionOptions = configuration.mapInsertion;
   result_.map.likelihoodOptions = configuration.mapLikelihood;
   result_.map.renderOptions = configuration.mapRender;

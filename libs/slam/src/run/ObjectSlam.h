@@ -15,6 +15,7 @@
 #include "pipeline/StagePipeline.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometryInput.h"
+#include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/odometry/SingleMoment.h"
 #include "quadmap/sensors/RgbdFrame.h"
 #include "quadmap/slam/KeyframeSelector.h"
@@ -46,13 +47,13 @@ class ObjectSlam : public mrpt::system::COutputLogger
 {
  public:
   /** \param spool Receives the images. It must outlive this object.
-   *  \param up_robot See OdometryInput.
+   *  \param survey What the start of the recording tells about up.
    *  \param keepGoing Leave out bad frames, which are then in badFrames(). */
   ObjectSlam(
       const SlamConfiguration& configuration,
       const LabelTable& labels,
       KeyframeSpool& spool,
-      const std::optional<Eigen::Vector3d>& up_robot = {},
+      const OdometrySurvey& survey = {},
       bool keepGoing = false);
 
   /** Takes the next frame.

@@ -86,7 +86,7 @@ class RawlogRun
           configurationOf(request, survey_),
           LabelTable::installed(),
           spool_,
-          survey_.up_robot,
+          survey_,
           request.keepGoing)
   {
     using mrpt::system::VerbosityLevel;

@@ -25,13 +25,13 @@ class OdometryInput
  public:
   /** \param source Auto is treated as Rawlog. surveyOdometry() replaces Auto by something better.
    *  \param up_robot Direction that is up at the first frame, in the robot's frame, for visual
-   *  odometry. When it is empty, the robot is assumed to stand upright then.
+   *  odometry.
    *  \param graph The poses of PoseSource::Graph. */
   OdometryInput(
       PoseSource source,
       const PoseUncertaintyOptions& uncertainty,
       const VisualOdometryOptions& visual,
-      const std::optional<Eigen::Vector3d>& up_robot = {},
+      const Eigen::Vector3d& up_robot = Eigen::Vector3d::UnitZ(),
       const std::optional<GraphOdometry>& graph = {});
 
   /** T_map_robot of the frame, or nothing when the input has none at its time.

@@ -15,8 +15,9 @@ namespace quadmap
 /** What the start of a rawlog tells about its poses. */
 struct OdometrySurvey
 {
-  PoseSource source = PoseSource::Auto;     //!< Visual instead of Auto if there is no odometry
-  std::optional<Eigen::Vector3d> up_robot;  //!< Up at the first image, from the floor
+  PoseSource source = PoseSource::Auto;  //!< Visual instead of Auto if there is no odometry
+  Eigen::Vector3d up_robot = Eigen::Vector3d::UnitZ();  //!< Up at the first image
+  bool upFromFloor = false;  //!< The floor tells it. Otherwise it is as the images are held.
   /** The best of several kinds of odometry (see RawlogSourceOptions::odometryKind). It is empty
    * when there is at most one kind. */
   std::string odometryKind;

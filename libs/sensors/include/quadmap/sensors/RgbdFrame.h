@@ -18,7 +18,8 @@ struct RgbdFrame
   std::size_t record = 0;  //!< Index of the scan in its rawlog (0 = first object), for messages
   mrpt::obs::CObservation3DRangeScan::Ptr scan;  //!< Loaded; time stamp and sensorLabel inside
   CObservationObjects::Ptr objects;  //!< Boxes of the same label and time; null without a detector
-  bool objectsFromPixelLabels = false;               //!< The boxes were made from pixelLabels
+  bool objectsFromPixelLabels = false;  //!< The boxes were made from pixelLabels
+  bool isTurned = false;  //!< The images were turned upside down, as their fy was negative
   std::optional<mrpt::poses::CPose3D> T_odom_robot;  //!< From the rawlog's odometry, any kind
   std::string odometryKind;  //!< Source of T_odom_robot, "CObservationOdometry wheels"
   /** Covariance of T_odom_robot, (x, y, z, yaw, pitch, roll), with zeros where the odometry states

@@ -79,7 +79,7 @@ struct OdometrySummary
 {
   PoseSource source = PoseSource::Auto;        //!< Auto means a single moment
   std::string visualSensor;                    //!< The camera of visual odometry
-  bool upFromFloor = false;                    //!< Otherwise the robot starts upright
+  bool upFromFloor = false;                    //!< Otherwise the first image is upright
   std::optional<VisualOdometryCounts> visual;  //!< Set when it was used
 };
 
