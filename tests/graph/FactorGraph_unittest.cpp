@@ -206,6 +206,30 @@ TEST(FactorGraph, TheWindowCostsTheSameHoweverLongTheRun)
   EXPECT_LE(largest, largestEarly * 11 / 10) << "three rounds of the same circle";
 }
 
+TEST(FactorGraph, WhatIsFoldedCanBeForgotten)
+{
+  constexpr std::size_t kWindow = 10;
+  const auto drive = [](bool keepsFolded)
+  {
+    GraphWorld world(4);
+    auto options = plain();
+    options.keepsFolded = keepsFolded;
+    FactorGraph graph(options);
+    for (std::size_t k = 0; k < world.truth.size(); ++k)
+    {
+      world.add(graph, k, world.odometry[k]);
+      graph.optimiseWindow(k < kWindow ? 1 : k + 1 - kWindow);
+      if (k == world.truth.size() / 2) graph.removeObject(1, 2);
+    }
+    return graph;
+  };
+  const FactorGraph kept = drive(true), forgotten = drive(false);
+  for (std::size_t k = 0; k < kept.poses(); ++k)
+    EXPECT_EQ(forgotten.pose(k).distanceTo(kept.pose(k)), 0) << k;
+  EXPECT_LT(forgotten.viewCount(), kept.viewCount() / 2);
+  EXPECT_GT(forgotten.viewCount(), 0u);
+}
+
 TEST(FactorGraph, TheWindowFollowsTheRobotAndRevisitsReconnectIt)
 {
   for (const unsigned seed : {1u, 2u, 3u})

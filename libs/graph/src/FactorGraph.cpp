@@ -96,20 +96,23 @@ void FactorGraph::removeObject(ObjectId id, std::optional<ObjectId> heir)
           standsOn_.begin(), standsOn_.end(),
           [&](const auto& pair) { return pair.first == id || pair.second == id; }),
       standsOn_.end());
-  for (auto& views : viewsByPose_)
+  for (std::size_t k = firstKept(); k < viewsByPose_.size(); ++k)
+  {
+    auto& views = viewsByPose_[k];
     if (heir)
       for (View& v : views) v.object = v.object == id ? *heir : v.object;
     else
       views.erase(
           std::remove_if(views.begin(), views.end(), [&](const View& v) { return v.object == id; }),
           views.end());
+  }
 }
 
 void FactorGraph::addView(std::size_t pose, ObjectId id, const BoxMeasurement& view)
 {
   if (!hasObject(id)) throw std::invalid_argument("FactorGraph: a view of an unknown object");
-  viewsByPose_.at(pose).push_back({id, view});
-  if (pose < foldedUpTo_) fold(viewsByPose_[pose].back(), poses_[pose]);
+  if (pose < foldedUpTo_) fold({id, view}, poses_[pose]);
+  if (pose >= firstKept()) viewsByPose_.at(pose).push_back({id, view});
 }
 
 void FactorGraph::removeViews(std::size_t pose)
@@ -130,8 +133,13 @@ std::size_t FactorGraph::viewCount() const
 void FactorGraph::foldBefore(std::size_t firstFree)
 {
   for (; foldedUpTo_ < firstFree; ++foldedUpTo_)
+  {
     for (const View& view : viewsByPose_[foldedUpTo_])
       if (hasObject(view.object)) fold(view, poses_[foldedUpTo_]);
+    if (options_.keepsFolded) continue;
+    viewsByPose_[foldedUpTo_] = std::vector<View>();
+    stepsByPose_[foldedUpTo_] = std::vector<Step>();
+  }
 }
 
 void FactorGraph::fold(const View& view, const PoseBlock& pose)

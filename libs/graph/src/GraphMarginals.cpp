@@ -1,5 +1,7 @@
 #include <ceres/crs_matrix.h>
 
+#include <algorithm>
+
 #include "GraphProblem.h"
 #include "SparseInverse.h"
 
@@ -21,6 +23,33 @@ SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
   return Eigen::Map<const RowMajor>(
       crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
       crs.cols.data(), crs.values.data());
+}
+
+/** The lower triangle of J^t J at the present estimate. The rows of J are made in parts: all of
+ * them would take several times the memory of the result.
+ * \param options With the parameter blocks. */
+SparseMatrix squaredJacobian(ceres::Problem& problem, ceres::Problem::EvaluateOptions options)
+{
+  constexpr std::size_t kPart = 10000;  // residual blocks
+  std::vector<ceres::ResidualBlockId> all;
+  problem.GetResidualBlocks(&all);
+  SparseMatrix H;
+  for (std::size_t begin = 0; begin < all.size() || begin == 0; begin += kPart)
+  {
+    const auto end = std::min(all.size(), begin + kPart);
+    options.residual_blocks.assign(
+        all.begin() + static_cast<std::ptrdiff_t>(begin),
+        all.begin() + static_cast<std::ptrdiff_t>(end));
+    ceres::CRSMatrix crs;
+    problem.Evaluate(options, nullptr, nullptr, nullptr, &crs);
+    const SparseMatrix J = jacobianOf(crs);
+    const SparseMatrix part = SparseMatrix(J.transpose() * J).triangularView<Eigen::Lower>();
+    if (begin == 0)
+      H = part;
+    else
+      H += part;
+  }
+  return H;
 }
 
 /** Rows and columns [first, first + size) of H^-1. */
@@ -58,11 +87,8 @@ GraphProblem::NormalMatrix GraphProblem::normalMatrix(double positionSigma, doub
     options.parameter_blocks.push_back(&graph_.floorHeight_);
   if (options.parameter_blocks.empty()) return normal;
 
-  ceres::CRSMatrix crs;
-  problem_.Evaluate(options, nullptr, nullptr, nullptr, &crs);
-  const SparseMatrix J = jacobianOf(crs);
   SparseMatrix& H = normal.H;
-  H = J.transpose() * J;
+  H = squaredJacobian(problem_, options);
   for (Eigen::Index i = 0; i < H.cols(); ++i) H.coeffRef(i, i) += kLeast;
   for (const auto& [id, at] : normal.objectAt)
   {

@@ -33,7 +33,7 @@ class GraphProblem
   static constexpr double kFreePositionSigma = 2.0;    // [m]
   static constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
 
-  /** H of steps of the free blocks, and where theirs begin. */
+  /** Lower triangle of H of steps of the free blocks, and where theirs begin. */
   struct NormalMatrix
   {
     SparseMatrix H;

@@ -51,7 +51,7 @@ class ViewFactor : public ceres::CostFunction
   }
 
  private:
-  BoxMeasurement measurement_;
+  const BoxMeasurement& measurement_;
   double shapeExponent_, huber_;
   ObjectFreedom freedom_;
 };

@@ -25,6 +25,14 @@ FactorGraphOptions graphOptions(const JointOptions& options, const EstimatorOpti
   return graph;
 }
 
+/** Of the graph while running: it looks at its window alone. */
+FactorGraphOptions windowOptions(const JointOptions& options, const EstimatorOptions& estimator)
+{
+  FactorGraphOptions graph = graphOptions(options, estimator);
+  graph.keepsFolded = false;
+  return graph;
+}
+
 /** Standard deviations of a pose from the covariance of its steps (turn, move). */
 PoseNoise noiseOf(const Eigen::Matrix<double, 6, 6>& covariance)
 {
@@ -65,7 +73,7 @@ JointBackEnd::JointBackEnd(
     estimator_(mapOptions.estimator),
     existence_(mapOptions.existence),
     labels_(labels),
-    graph_(graphOptions(options, mapOptions.estimator))
+    graph_(windowOptions(options, mapOptions.estimator))
 {
 }
 

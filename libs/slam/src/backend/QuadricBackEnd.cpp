@@ -23,6 +23,14 @@ FactorGraphOptions graphOptions(const JointOptions& options, const EstimatorOpti
   return graph;
 }
 
+/** Of the graph while running: it looks at its window alone. */
+FactorGraphOptions windowOptions(const JointOptions& options, const EstimatorOptions& estimator)
+{
+  FactorGraphOptions graph = graphOptions(options, estimator);
+  graph.keepsFolded = false;
+  return graph;
+}
+
 bool isSame(const std::vector<BoxDecision>& a, const std::vector<BoxDecision>& b)
 {
   return std::equal(
@@ -54,7 +62,7 @@ QuadricBackEnd::QuadricBackEnd(
     mapOptions_(mapOptions),
     correctPoses_(correctPoses),
     labels_(labels),
-    graph_(graphOptions(options, mapOptions.estimator)),
+    graph_(windowOptions(options, mapOptions.estimator)),
     objects_(mapOptions, labels)
 {
 }

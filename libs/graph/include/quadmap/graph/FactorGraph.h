@@ -23,6 +23,9 @@ struct FactorGraphOptions
   int maxIterations = 30;       //!< Of one optimisation, >= 1
   double floorSigma = 0.03;     //!< Bottom of things that stand on the floor [m]; 0: no such factor
   double standsOnSigma = 0.02;  //!< Bottom of a thing on the top of another one [m], > 0
+  /** False: only windows are optimised. Views and steps before them are then forgotten, so that
+   * memory grows by no more than a pose for each keyframe. */
+  bool keepsFolded = true;
 };
 
 /** Poses and objects that are estimated together (doc/mathematics.md, "The graph"). The first pose
@@ -140,6 +143,7 @@ class FactorGraph
     BoxMeasurement view;
   };
 
+  std::size_t firstKept() const { return options_.keepsFolded ? 0 : foldedUpTo_; }
   static void bequeath(const ObjectPrior& from, Object& heir);
   void foldBefore(std::size_t firstFree);
   void fold(const View& view, const PoseBlock& pose);

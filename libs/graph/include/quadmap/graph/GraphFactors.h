@@ -29,8 +29,9 @@ Factor createOdometryFactor(const mrpt::poses::CPose3DPDFGaussian& step);
 /** A pose known from elsewhere. Block: the pose. */
 Factor createPosePrior(const mrpt::poses::CPose3DPDFGaussian& T_map_robot);
 
-/** One measurement of an object: the rows of ViewAtPose. Blocks: pose, object. \param shapeExponent
- * Of the label, for the box edges. \param huber In sigmas. */
+/** One measurement of an object: the rows of ViewAtPose. Blocks: pose, object. \param view It must
+ * outlive the factor, as a graph has many. \param shapeExponent Of the label, for the box edges.
+ * \param huber In sigmas. */
 Factor createViewFactor(
     const BoxMeasurement& view, double shapeExponent, double huber, ObjectFreedom freedom);
 
