@@ -1,14 +1,16 @@
 #include "Judge.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <sstream>
+
+#include "ForkProtocol.h"
 
 namespace quadmap::torture
 {
@@ -16,9 +18,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr unsigned kSeconds = 10;
-constexpr long kMostKilobytes = 1l << 20;     // of memory
-constexpr rlim_t kMachine = rlim_t{8} << 30;  // so that a failing case harms no other program
+constexpr long kMostKilobytes = 1l << 20;  // of memory
 
 struct Ending
 {
@@ -31,16 +31,6 @@ void replaceAll(std::string& text, const std::string& word, const std::string& v
 {
   for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + value.size()))
     text.replace(at, word.size(), value);
-}
-
-/** In the child: never returns. */
-[[noreturn]] void become(const std::string& command)
-{
-  const rlimit limit{kMachine, kMachine};
-  ::setrlimit(RLIMIT_AS, &limit);
-  ::alarm(kSeconds);  // stays set in the program
-  ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-  ::_exit(127);
 }
 
 /** What the program said. The decoders of images print notes of their own, which cannot be turned
@@ -58,19 +48,69 @@ std::string withoutNotesOfDecoders(const std::string& text)
   return rest;
 }
 
-Ending runToEnd(const std::string& command)
+/** A program that is started once and run many times, each time in a process of its own. */
+class Program
 {
-  const TemporaryFolder output;
-  const std::string redirected =
-      "exec " + command + " >'" + output.path("out") + "' 2>'" + output.path("err") + "'";
-  const pid_t child = ::fork();
-  if (child == 0) become(redirected);
-  int status = 0;
-  rusage usage{};
-  EXPECT_EQ(::wait4(child, &status, 0, &usage), child);
-  return {
-      WIFEXITED(status) ? WEXITSTATUS(status) : -1, usage.ru_maxrss, readFile(output.path("out")),
-      withoutNotesOfDecoders(readFile(output.path("err")))};
+ public:
+  explicit Program(const std::string& name) : name_(name)
+  {
+    int requests[2], endings[2];
+    EXPECT_EQ(::pipe2(requests, O_CLOEXEC) + ::pipe2(endings, O_CLOEXEC), 0);
+    server_ = ::fork();
+    if (server_ == 0) become(requests[0], endings[1]);
+    ::close(requests[0]);
+    ::close(endings[1]);
+    requests_ = requests[1];
+    endings_ = endings[0];
+  }
+  ~Program()
+  {
+    ::close(requests_);  // ends the server
+    ::close(endings_);
+    int status = 0;
+    ::waitpid(server_, &status, 0);
+    EXPECT_EQ(status, 0) << name_ << " cannot be started";
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  Ending run(const std::vector<std::string>& arguments) const
+  {
+    const TemporaryFolder output;
+    std::vector<std::string> words{output.path("out"), output.path("err"), name_};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const std::string request = requestOf(words);
+    Ended ended;
+    if (::write(requests_, request.data(), request.size()) !=
+            static_cast<ssize_t>(request.size()) ||
+        ::read(endings_, &ended, sizeof ended) != sizeof ended)
+      return {};
+    return {
+        WIFEXITED(ended.status) ? WEXITSTATUS(ended.status) : -1, ended.kilobytes,
+        readFile(output.path("out")), withoutNotesOfDecoders(readFile(output.path("err")))};
+  }
+
+ private:
+  /** In the child: never returns. */
+  [[noreturn]] void become(int requests, int endings) const
+  {
+    ::dup2(requests, kRequests);
+    ::dup2(endings, kEndings);
+    ::setenv("LD_PRELOAD", QUADMAP_FORK_SERVER, 1);
+    const std::string path = QUADMAP_BIN_DIR "/" + name_;
+    ::execl(path.c_str(), path.c_str(), nullptr);
+    ::_exit(127);
+  }
+
+  std::string name_;
+  pid_t server_ = 0;
+  int requests_ = -1, endings_ = -1;
+};
+
+std::vector<std::string> wordsOf(const std::string& text)
+{
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
 }
 
 std::set<std::string> filesIn(const fs::path& folder)
@@ -110,16 +150,19 @@ void expectGoodEnding(const Ending& ending, const Reader& reader, const Case& c)
 void judge(const TemporaryFolder& folder, const Reader& reader, const std::vector<Case>& cases)
 {
   const fs::path out = folder.folder() / "OUT";
+  std::string line = reader.command;
+  replaceAll(line, " IN", " " + folder.path(reader.file));
+  replaceAll(line, "OUT", out.string());
+  replaceAll(line, "DIR", folder.folder().string());
+  auto arguments = wordsOf(line);
+  const Program program(arguments.front());
+  arguments.erase(arguments.begin());
   for (const Case& c : cases)
   {
     SCOPED_TRACE(reader.file + ": " + c.name);
     folder.write(reader.file, c.bytes);
     const auto before = filesIn(folder.folder());
-    std::string command = QUADMAP_BIN_DIR "/" + reader.command;
-    replaceAll(command, " IN", " " + folder.path(reader.file));
-    replaceAll(command, "OUT", out.string());
-    replaceAll(command, "DIR", folder.folder().string());
-    const Ending ending = runToEnd(command);
+    const Ending ending = program.run(arguments);
     expectGoodEnding(ending, reader, c);
     if (ending.status != 0)
     {
