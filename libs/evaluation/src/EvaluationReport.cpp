@@ -69,7 +69,7 @@ TrajectoryEvaluation evaluateTrajectory(
           "The positions do not determine the rotation between the two worlds (their second extent "
           "is %.3f m, less than %.3f m): for the objects the orientations of the poses were used "
           "as well.",
-          alignment.secondSpread, kMinSecondSpread));
+          alignment.secondSpread, alignment.leastSpread));
   }
   return {estimated.size(), pairs.size(), ateOf(pairs, input.inPlace), std::nullopt};
 }

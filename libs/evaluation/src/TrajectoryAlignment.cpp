@@ -148,14 +148,18 @@ TrajectoryAlignment alignTrajectories(const std::vector<PosePair>& pairs)
   requirePairs(pairs);
   const Centroids mean = centroidsOf(pairs);
   const Eigen::Matrix3d H = crossCovariance(pairs, mean);
+  const auto aligned = [&](const Eigen::Matrix3d& R)
+  { return poseFrom(R, mean.truth - R * mean.estimated); };
 
   TrajectoryAlignment result;
   result.secondSpread = std::sqrt(Eigen::JacobiSVD<Eigen::Matrix3d>(H).singularValues()[1]);
-  if (result.secondSpread < kMinSecondSpread) result.source = AlignmentSource::Orientations;
-  const Eigen::Matrix3d R = result.source == AlignmentSource::Positions
-                                ? nearestRotation(H)
-                                : rotationWithOrientations(pairs, H);
-  result.T_truth_estimated = poseFrom(R, mean.truth - R * mean.estimated);
+  result.T_truth_estimated = aligned(nearestRotation(H));
+  // Section 20 of doc/mathematics.md, "Alignment".
+  result.leastSpread =
+      std::max(kMinSecondSpread, kMinSpreadPerError * ateRmse(pairs, result.T_truth_estimated));
+  if (result.secondSpread >= result.leastSpread) return result;
+  result.source = AlignmentSource::Orientations;
+  result.T_truth_estimated = aligned(rotationWithOrientations(pairs, H));
   return result;
 }
 

@@ -40,11 +40,18 @@ struct TrajectoryAlignment
   /** Extent of the positions in the second of their principal directions: the square root of the
    *  second singular value of their cross-covariance [m]. */
   double secondSpread = 0;
+  /** Below this `secondSpread` the positions do not determine the rotation [m]. */
+  double leastSpread = 0;
 };
 
-/** Below this `secondSpread` the positions (a point, a straight line) do not determine the rotation
- * [m]. With positions good to 1 cm the rotation would be worse than 0.5 rad / sqrt(pairs). */
+/** The positions (a point, a straight line) do not determine the rotation when their `secondSpread`
+ * is below this [m]. With positions good to 1 cm the rotation would be worse than
+ * 0.5 rad / sqrt(pairs). */
 constexpr double kMinSecondSpread = 0.02;
+
+/** Neither do they when `secondSpread` is below so many times their ATE: errors of a drifting
+ * trajectory are not independent, and turn it about its long axis by as much as their ratio. */
+constexpr double kMinSpreadPerError = 10;
 
 /** The rigid motion that carries the estimated positions to the true ones with the least sum of
  * squares (Umeyama 1991 without scale): doc/mathematics.md, (20.1).
