@@ -2,7 +2,9 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 #include "../SceneFixture.h"
 #include "quadmap/simulator/Simulator.h"
@@ -44,7 +46,9 @@ INSTANTIATE_TEST_SUITE_P(
         "cluttered-desk",
         "corridor",
         "lifelong",
-        "approach"));
+        "approach",
+        "dais",
+        "two-storeys"));
 
 std::size_t labelledIn(const Scene& scene)
 {
@@ -116,6 +120,38 @@ TEST(InstalledScenes, ApproachComesFromFourMetresToOne)
   { return (transformed(pose, Eigen::Vector3d::Zero()) - scene.waypoints[0].target).norm(); };
   EXPECT_NEAR(4, distance(simulator.truePoses().front()), 0.1);
   EXPECT_NEAR(1, distance(simulator.truePoses().back()), 0.1);
+}
+
+/** Heights of the camera and of the lowest points of labelled things. */
+struct Heights
+{
+  double lowestEye = 1e9, highestEye = -1e9;
+  std::set<int> bottoms_cm;  // of things that stand on floors
+};
+
+Heights heightsIn(const std::string& name)
+{
+  const Scene scene = readScene(findScene(name));
+  Heights out;
+  for (const auto& waypoint : scene.waypoints)
+  {
+    out.lowestEye = std::min(out.lowestEye, waypoint.eye.z());
+    out.highestEye = std::max(out.highestEye, waypoint.eye.z());
+  }
+  for (const auto& object : scene.objects)
+    if (LabelTable::installed().properties(object.label).support == UsualSupport::Floor &&
+        !object.label.empty())
+      out.bottoms_cm.insert(static_cast<int>(std::lround(100 * object.T_world_obj.z())));
+  return out;
+}
+
+TEST(InstalledScenes, HaveFloorsOfSeveralHeights)
+{
+  const Heights dais = heightsIn("dais"), storeys = heightsIn("two-storeys");
+  EXPECT_EQ(dais.bottoms_cm, (std::set<int>{0, 25}));
+  EXPECT_NEAR(dais.highestEye - dais.lowestEye, 0.25, 0.05) << "the camera steps on it";
+  EXPECT_EQ(storeys.bottoms_cm, (std::set<int>{0, 260}));
+  EXPECT_NEAR(storeys.highestEye - storeys.lowestEye, 2.6, 0.1) << "the camera goes up";
 }
 
 TEST(InstalledScenes, AreWhatTheirNamesSay)
