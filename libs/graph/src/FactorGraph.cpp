@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "GraphProblem.h"
 #include "quadmap/estimation/AxisRenaming.h"
 
 namespace quadmap
@@ -39,7 +40,11 @@ void FactorGraph::setObject(
     ObjectId id, const Ellipsoid& object, const LabelProperties& label, ObjectFreedom freedom)
 {
   Object& vertex = objects_[id];
-  if (vertex.freedom != freedom) vertex.prior = vertex.folded = std::nullopt;
+  if (vertex.freedom != freedom)
+  {
+    vertex.prior = vertex.folded = std::nullopt;
+    vertex.foldedBottom = 0;
+  }
   vertex.block = objectBlockOf(object, freedom);
   vertex.freedom = freedom;
   vertex.label = label;
@@ -89,7 +94,10 @@ void FactorGraph::removeObject(ObjectId id, std::optional<ObjectId> heir)
   if (heir && removed != objects_.end() && removed->second.folded)
     if (Object& to = objects_.at(*heir);
         to.freedom == ObjectFreedom::Upright && removed->second.freedom == to.freedom)
+    {
       bequeath(*removed->second.folded, to);
+      to.foldedBottom += removed->second.foldedBottom;
+    }
   objects_.erase(id);
   standsOn_.erase(
       std::remove_if(
@@ -172,6 +180,7 @@ void FactorGraph::fold(const View& view, const PoseBlock& pose)
   // (16.11) of doc/mathematics.md
   folded.L += J.transpose() * J;
   folded.g += J.transpose() * (r - J * d);
+  object.foldedBottom += bottomInformation(view.view);
 }
 
 }  // namespace quadmap

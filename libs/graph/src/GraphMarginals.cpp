@@ -83,8 +83,7 @@ GraphProblem::NormalMatrix GraphProblem::normalMatrix(double positionSigma, doub
     normal.objectAt[id] = columns;
     columns += incrementSize(graph_.objects_.at(id).freedom);
   }
-  if (problem_.HasParameterBlock(&graph_.floorHeight_))
-    options.parameter_blocks.push_back(&graph_.floorHeight_);
+  options.parameter_blocks.insert(options.parameter_blocks.end(), floors_.begin(), floors_.end());
   if (options.parameter_blocks.empty()) return normal;
 
   SparseMatrix& H = normal.H;

@@ -21,12 +21,12 @@ GraphProblem::GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folde
     graph_(graph),
     firstFree_(std::max<std::size_t>(firstFree, 1)),
     folded_(folded),
+    firstView_(folded ? graph.foldedUpTo_ : 0),
     poseManifold_(poseManifold()),
     freeManifold_(objectManifold(ObjectFreedom::Free)),
     problem_(problemOptions())
 {
-  const std::size_t firstView = folded ? graph.foldedUpTo_ : 0;
-  for (std::size_t k = firstView; k < graph.poses_.size(); ++k)
+  for (std::size_t k = firstView_; k < graph.poses_.size(); ++k)
   {
     for (const auto& view : graph.viewsByPose_[k])
       if (graph.hasObject(view.object)) addView(k, view);
@@ -42,37 +42,7 @@ GraphProblem::GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folde
           createStandsOnFactor(graph.options_.standsOnSigma, graph.options_.estimator.huber)
               .release(),
           nullptr, objects_.at(upper), objects_.at(lower));
-  addFloor();
-}
-
-void GraphProblem::addFloor()
-{
-  if (graph_.options_.floorSigma <= 0) return;
-  std::vector<std::pair<const FactorGraph::Object*, double*>> standing;
-  for (const auto& [id, block] : objects_)
-  {
-    const auto& object = graph_.objects_.at(id);
-    if (object.label.support == UsualSupport::Floor) standing.emplace_back(&object, block);
-  }
-  if (standing.empty()) return;
-  const auto bottomOf = [](const FactorGraph::Object& object)
-  { return objectOf(object.block, object.freedom).cuboidCorners().row(2).minCoeff(); };
-  if (!graph_.floorKnown_)
-  {
-    std::vector<double> bottoms;
-    for (const auto& [object, block] : standing) bottoms.push_back(bottomOf(*object));
-    std::nth_element(
-        bottoms.begin(), bottoms.begin() + static_cast<std::ptrdiff_t>(bottoms.size() / 2),
-        bottoms.end());
-    graph_.floorHeight_ = bottoms[bottoms.size() / 2];
-    graph_.floorKnown_ = true;
-  }
-  for (const auto& [object, block] : standing)
-    problem_.AddResidualBlock(
-        createFloorFactor(
-            graph_.options_.floorSigma, graph_.options_.estimator.huber, object->freedom)
-            .release(),
-        nullptr, block, &graph_.floorHeight_);
+  addFloors();
 }
 
 void GraphProblem::addStep(const FactorGraph::Step& step)
@@ -85,6 +55,7 @@ void GraphProblem::addStep(const FactorGraph::Step& step)
 void GraphProblem::addView(std::size_t pose, const FactorGraph::View& view)
 {
   const auto& object = graph_.objects_.at(view.object);
+  views_[view.object].emplace_back(pose, &view.view);
   double* objectAt = objectBlock(view.object);
   problem_.AddResidualBlock(
       createViewFactor(

@@ -8,12 +8,17 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "FloorGroups.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap
 {
+/** How much a view knows of the bottom of its object [1/m^2]. */
+double bottomInformation(const BoxMeasurement& view);
+
 /** The free part of a graph as a problem for Ceres. It works on the graph's own blocks. */
 class GraphProblem
 {
@@ -43,7 +48,10 @@ class GraphProblem
   /** \param positionSigma, angleSigma Of each object from elsewhere [m], [rad]. */
   NormalMatrix normalMatrix(double positionSigma, double angleSigma);
 
-  void addFloor();
+  void addFloors();
+  double* floorBlock(double height);
+  StandingThing standingThing(ObjectId id) const;
+  HeightDrift heightDrift() const;
   void addStep(const FactorGraph::Step& step);
   void addView(std::size_t pose, const FactorGraph::View& view);
   double* poseBlock(std::size_t index);
@@ -52,10 +60,14 @@ class GraphProblem
   FactorGraph& graph_;
   std::size_t firstFree_;
   bool folded_;
+  std::size_t firstView_;  // pose; earlier views are folded
   std::unique_ptr<ceres::Manifold> poseManifold_, freeManifold_;
   ceres::Problem problem_;
   std::map<std::size_t, double*> poses_;  // in the problem
   std::map<ObjectId, double*> objects_;
+  std::map<ObjectId, std::vector<std::pair<std::size_t, const BoxMeasurement*>>>
+      views_;                    // and poses
+  std::vector<double*> floors_;  // in the problem: their heights
 };
 
 }  // namespace quadmap

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
@@ -21,7 +22,7 @@ struct FactorGraphOptions
 {
   EstimatorOptions estimator;   //!< Huber's threshold, sigmas of priors: those of the object map
   int maxIterations = 30;       //!< Of one optimisation, >= 1
-  double floorSigma = 0.03;     //!< Bottom of things that stand on the floor [m]; 0: no such factor
+  double floorSigma = 0.03;     //!< Bottom of things that stand on one floor [m]; 0: no such factor
   double standsOnSigma = 0.02;  //!< Bottom of a thing on the top of another one [m], > 0
   /** False: only windows are optimised. Views and steps before them are then forgotten, so that
    * memory grows by no more than a pose for each keyframe. */
@@ -131,6 +132,7 @@ class FactorGraph
     LabelProperties label;
     std::optional<ObjectPrior> prior;   //!< From elsewhere
     std::optional<ObjectPrior> folded;  //!< What the poses before foldedUpTo_ said
+    double foldedBottom = 0;            //!< Of that, the information on its bottom [1/m^2]
   };
   struct Step
   {
@@ -155,8 +157,7 @@ class FactorGraph
   std::map<std::size_t, mrpt::poses::CPose3DPDFGaussian> posePriors_;
   std::map<ObjectId, Object> objects_;
   std::vector<std::pair<ObjectId, ObjectId>> standsOn_;
-  double floorHeight_ = 0;  //!< [m]
-  bool floorKnown_ = false;
+  std::deque<double> floorHeights_;  //!< Estimated so far [m]; a problem points to those it has
   std::size_t foldedUpTo_ = 0;
 };
 
