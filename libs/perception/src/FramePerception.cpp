@@ -37,6 +37,7 @@ FrameSurfaces toSensor(const FrameSurfaces& surfaces_optical)
     out.seen.push_back(transformed(patch, T_sensor_optical()));
   for (const auto& p : surfaces_optical.seenThrough)
     out.seenThrough.push_back(transformed(p, T_sensor_optical()));
+  out.contradictsFloor = surfaces_optical.contradictsFloor;
   return out;
 }
 
@@ -159,9 +160,9 @@ auto FramePerception::Impl::measure(
     return out;
   }
   auto planes = classifyPlanes(cloud, std::move(pieces), *up, toOptical(known_sensor), options);
-  out.surfaces = toSensor(surfacesOf(cloud, planes));
   // 6 What the objects stand on (6.1) - (6.3)
   const auto scene = chooseSupports(cloud, std::move(planes), detections, labels, options);
+  out.surfaces = toSensor(surfacesOf(cloud, scene.planes));
   const auto tasks = tasksOf(detections, scene.supports, labels);
   // 7 The objects' clouds (7.1) - (7.4)
   const auto objects = segmentObjects(cloud, scene.planes, tasks, options);

@@ -11,7 +11,7 @@ Eigen::Vector3f transformed(const Eigen::Vector3f& p_b, const mrpt::poses::CPose
 
 SurfacePatch transformed(const SurfacePatch& patch_b, const mrpt::poses::CPose3D& T_a_b)
 {
-  SurfacePatch out = {patch_b.kind, patch_b.plane.transformed(T_a_b), {}};
+  SurfacePatch out = {patch_b.kind, patch_b.plane.transformed(T_a_b), {}, patch_b.isFurniture};
   out.samples.reserve(patch_b.samples.size());
   for (const auto& p : patch_b.samples) out.samples.push_back(transformed(p, T_a_b));
   return out;

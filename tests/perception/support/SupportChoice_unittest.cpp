@@ -145,6 +145,46 @@ TEST(SupportChoice, LeavesThingsSeenUnderATableOnTheFloor)
     }
 }
 
+TEST(SupportChoice, PutsAChairOnThePlatformItStandsOn)
+{
+  const SurfacePatch floor = {
+      SurfaceKind::Floor, {Eigen::Vector3d::UnitZ(), 0.0},
+       {     },
+       false
+  };
+  for (const auto& view : kViewpoints)
+    for (const bool isFurniture : {false, true})
+    {
+      constexpr double kHeight = 0.25;
+      SyntheticFrame frame = frameFrom(view.y, view.height, view.pitch);
+      frame.add(2.6, 0.0, 0.0, 0.0, {2.0, 2.4, kHeight});
+      frame.add(2.6, 0.1, kHeight, 0.3, {0.45, 0.45, 0.9});
+      SurfacePatch platform = {
+          SurfaceKind::Horizontal, {Eigen::Vector3d::UnitZ(), -kHeight},
+           {          },
+           isFurniture
+      };
+      for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 48; ++j)
+          platform.samples.emplace_back(1.6f + 0.05f * float(i), -1.2f + 0.05f * float(j), 0.25f);
+      const auto chosen = chosenFor(frame, 1, "chair", {floor, platform});
+      EXPECT_SUPPORT(chosen, isFurniture ? 0.0 : kHeight, view.text());
+    }
+}
+
+TEST(SupportChoice, PutsNothingThatIsBelowTheFloorOnIt)
+{
+  SyntheticFrame frame = frameFrom(0, 1.5, 0.5);
+  frame.hasFloor = false;
+  frame.add(2.4, 0.1, -1.6, 0.3, {0.45, 0.45, 0.9});  // down a flight of stairs
+  const SurfacePatch upstairs = {
+      SurfaceKind::Floor, {Eigen::Vector3d::UnitZ(), 0.0},
+       {     },
+       false
+  };
+  EXPECT_FALSE(chosenFor(frame, 0, "chair", {upstairs}).height);
+}
+
 TEST(SupportChoice, KeepsAChairPushedUnderATableOnTheFloor)
 {
   for (const auto& view : kViewpoints)

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 namespace quadmap
 {
@@ -111,6 +112,59 @@ TEST(RoomPlanes, ForgetsAFloorItSawLongAgo)
   for (int i = 0; i < 400; ++i) showFloor(room, 0.002 * i, CPose3D(0, 0, 1.4 + 0.002 * i, 0, 0, 0));
   EXPECT_NEAR(*room.floorHeight(), 0.798, 0.4);
   EXPECT_GT(*room.floorHeight(), 0.35);
+}
+
+TEST(RoomPlanes, GivesUpAFloorThatMoreFramesContradict)
+{
+  FrameSurfaces below;
+  below.contradictsFloor = true;
+  for (const int shown : {3, 10})
+  {
+    RoomPlanes room;
+    for (int i = 0; i < shown; ++i) showFloor(room, 0.75);  // the top of a table
+    for (int i = 1; i < shown; ++i) room.add(below, kSensor);
+    EXPECT_NEAR(room.floorHeight().value_or(NAN), 0.75, 1e-9) << "as many showed it";
+    EXPECT_EQ(room.droppedFloors(), 0U);
+    room.add(below, kSensor);
+    EXPECT_FALSE(room.floorHeight());
+    EXPECT_EQ(room.droppedFloors(), 1U);
+    room.add(below, kSensor);  // there is none left to contradict
+    EXPECT_EQ(room.droppedFloors(), 1U);
+    for (int i = 0; i < 3; ++i) showFloor(room, 0.0);
+    EXPECT_NEAR(room.floorHeight().value_or(NAN), 0.0, 1e-9);
+  }
+}
+
+TEST(RoomPlanes, KeepsAFloorThatAFewFramesContradict)
+{
+  RoomPlanes room;
+  FrameSurfaces below;  // down a flight of stairs
+  below.contradictsFloor = true;
+  for (int i = 0; i < 100; ++i) showFloor(room, 0.0);
+  for (int i = 0; i < 40; ++i) room.add(below, kSensor);
+  EXPECT_NEAR(room.floorHeight().value_or(NAN), 0.0, 1e-9);
+  EXPECT_EQ(room.droppedFloors(), 0U);
+}
+
+TEST(RoomPlanes, TakesForFurnitureWhatManyFramesSaidOf)
+{
+  for (const auto& [frames, saying, isFurniture] : {
+           std::tuple{ 5, 1, false},
+           { 5, 2,  true},
+           {20, 3, false},
+           {20, 5,  true}
+  })
+  {
+    RoomPlanes room;
+    for (int i = 0; i < frames; ++i)
+    {
+      SurfacePatch top = topAt(2, -0.5, 3, 0.5, 0.5);
+      top.isFurniture = i < saying;
+      show(room, {top}, kSensor);
+    }
+    ASSERT_EQ(room.around(kSensor).size(), 1U);
+    EXPECT_EQ(room.around(kSensor)[0].isFurniture, isFurniture) << saying << " of " << frames;
+  }
 }
 
 TEST(RoomPlanes, IgnoresFloorsThatAreNotLevel)

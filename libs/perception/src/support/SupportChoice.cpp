@@ -78,7 +78,8 @@ class SupportJudge
       best = score;
       out.plane = i;
     }
-    if (!out.plane && label_.support == UsualSupport::Floor) out.plane = planes_.floor;
+    if (!out.plane && label_.support == UsualSupport::Floor && !isBelowFloor())
+      out.plane = planes_.floor;
     for (const int i : planes_.vertical)
       if (const double score = hangingScore(i); score > best)
       {
@@ -97,7 +98,20 @@ class SupportJudge
     return top == tops_.end() ? nullptr : top->second;
   }
 
-  bool isFloor(int i) const { return planes_.floor && *planes_.floor == i; }
+  bool isMainFloor(int i) const { return planes_.floor && *planes_.floor == i; }
+
+  bool isFloor(int i) const
+  {
+    return isMainFloor(i) || (planes_.plane(i).isFloor && !planes_.plane(i).isFurniture);
+  }
+
+  /** Is the object under the floor of the frame, as what one sees down a flight of stairs? */
+  bool isBelowFloor() const
+  {
+    if (!planes_.floor || object_.empty()) return false;
+    const auto& middle = object_.points[object_.points.size() / 2];
+    return planes_.plane(*planes_.floor).plane.signedDistance(middle) < 0;
+  }
 
   bool isMostlyInBox(int i) const
   {
@@ -113,7 +127,7 @@ class SupportJudge
       case UsualSupport::Floor:
         return isFloor(i) ? kUsual : 0.0;
       case UsualSupport::Object:
-        return isFloor(i) ? kUnusual : 0.0;
+        return isMainFloor(i) ? kUnusual : 0.0;
       case UsualSupport::Wall:
         return kUnusual;
       default:
@@ -233,6 +247,18 @@ Tops addTops(
   return tops;
 }
 
+/** A surface that lies mostly in a detector's box belongs to a thing, as the top of a bed does. */
+void markFurniture(const std::vector<std::optional<RoughObject>>& objects, ScenePlanes& planes)
+{
+  constexpr double kMostly = 0.5;
+  for (const auto& object : objects)
+  {
+    if (!object) continue;
+    for (std::size_t i = 0; i < object->planeShares.size(); ++i)
+      if (object->planeShares[i] > kMostly) planes.all.planes[i].isFurniture = true;
+  }
+}
+
 }  // namespace
 
 SupportedScene chooseSupports(
@@ -253,6 +279,7 @@ SupportedScene chooseSupports(
     objects.emplace_back();
     if (inImage) objects.back() = roughObject(cloud, planes, detection, properties.back(), options);
   }
+  markFurniture(objects, planes);
   const auto tops = addTops(cloud, boxes, objects, planes, options);
   std::vector<BoxSupport> supports;
   for (std::size_t i = 0; i < boxes.size(); ++i)

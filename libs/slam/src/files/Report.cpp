@@ -253,11 +253,12 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
       {"visual_odometry",  visualOdometryJson(run.result.odometry)},
       {          "boxes",                    boxesJson(run.result)                                        },
       {        "objects", run.result.map.confirmedObjects().size()},
-      {     "correction",    correctionJson(run.result.correction)                                        },
-      {    "map_changes",  mapChangesJson(run.result.continuation)},
-      {       "warnings",                      run.result.warnings                                        },
-      {        "dropped",         problemsJson(run.input.problems)},
-      {         "timing",                          timingJson(run)                                        }
+      { "dropped_floors",                 run.result.droppedFloors                                        },
+      {     "correction",    correctionJson(run.result.correction)},
+      {    "map_changes",  mapChangesJson(run.result.continuation)                                        },
+      {       "warnings",                      run.result.warnings},
+      {        "dropped",         problemsJson(run.input.problems)                                        },
+      {         "timing",                          timingJson(run)}
   };
   std::string start = jsonText(head, 2);
   start.erase(start.rfind('\n'));  // the closing brace comes after the associations

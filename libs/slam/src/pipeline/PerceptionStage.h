@@ -22,6 +22,8 @@ class PerceptionStage
    *  \exception std::runtime_error If the frame cannot be used. */
   void measure(KeyframeTask& task, const mrpt::poses::CPose3D& T_map_odom);
 
+  const RoomPlanes& room() const { return perception_.room(); }  //!< Between keyframes
+
  private:
   SlamMethod method_;
   PerceptionOptions options_;

@@ -234,6 +234,7 @@ void ObjectSlam::finish()
   settle();
   requireInstanceIds();
   warnOfMissingDepth();
+  warnOfDroppedFloors();
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
   const auto scope = times_.measure("consolidation");
   backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
@@ -298,6 +299,16 @@ void ObjectSlam::warnOfMissingDepth()
       warn(mrpt::format(
           "%zu of %zu keyframes%s have no valid depth at all", counts.keyframesWithoutDepth,
           counts.keyframes, several ? (" of " + sensor).c_str() : ""));
+}
+
+void ObjectSlam::warnOfDroppedFloors()
+{
+  result_.droppedFloors = perception_.room().droppedFloors();
+  if (result_.droppedFloors > 0)
+    warn(mrpt::format(
+        "what was taken for the floor was given up %zu times, because more keyframes showed things "
+        "below it than had shown it",
+        result_.droppedFloors));
 }
 
 void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)

@@ -92,6 +92,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
   void placeFramesWithoutPose();
   void warnOfMissingDepth();
+  void warnOfDroppedFloors();
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;
   void warnOfUnknownLabels(const CObservationObjects& boxes);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/FrameFloors.h"
 #include "frame/HorizontalFit.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
@@ -10,17 +11,6 @@ namespace quadmap
 {
 namespace
 {
-/** Share of the cloud's points that lie more than `margin` behind (below) the plane. */
-double shareBelow(const DepthCloud& cloud, const Plane& plane, double margin)
-{
-  const auto& points = cloud.sparsePoints();
-  const auto below = std::count_if(
-      points.begin(), points.end(),
-      [&](const auto& p)
-      { return plane.signedDistance(p) < -margin * std::max(1.0, 0.5 * p.z()); });
-  return points.empty() ? 0.0 : static_cast<double>(below) / static_cast<double>(points.size());
-}
-
 void setMainHeight(ScenePlane& plane, const HorizontalFit& fit, const SurfaceOptions& options)
 {
   plane.plane = fit.plane;
@@ -91,8 +81,10 @@ struct KnownSurface
   Plane plane;
   std::vector<Eigen::Vector3d> samples;
   double tolerance;                        // planes of this frame so near are the same surface [m]
+  bool isFurniture = false;                // by what other frames saw
   bool isShown = false;                    // the frame shows the surface, and `plane` is from it
   std::optional<PlaneExtent> extent = {};  // of the samples, when it was computed already
+  double area = 0;                         // of a horizontal surface [m^2]
 };
 
 /** Finds the height of a known horizontal surface in this frame. A frame that shows the surface
@@ -101,15 +93,17 @@ struct KnownSurface
  * itself outvote them. */
 KnownSurface knownSurfaceIn(
     const DepthCloud& cloud,
-    const Plane& known,
+    const SurfacePatch& patch,
     std::vector<Eigen::Vector3d> samples,
     const Eigen::Vector3d& up,
     const SurfaceOptions& options)
 {
+  const Plane& known = patch.plane;
   constexpr double kPoseError = 0.05;   // of its height [m]
   constexpr double kSameHeight = 0.02;  // of two planes of one frame [m]; a keyboard is thicker
-  KnownSurface out = {known, std::move(samples), kSameHeight};
+  KnownSurface out = {known, std::move(samples), kSameHeight, patch.isFurniture};
   out.extent = PlaneExtent(known.n, out.samples);
+  out.area = out.extent->area();
   std::vector<Eigen::Vector3d> near;
   for (const auto& p : cloud.sparsePoints())
     if (std::abs(known.signedDistance(p)) < kPoseError && out.extent->isWithin(p, 0))
@@ -139,6 +133,8 @@ void addKnown(ScenePlanes& planes, std::vector<int>& candidates, KnownSurface su
 {
   constexpr double kNear = 0.10;  // [m]; the poses' noise
   const auto& samples = surface.samples;
+  const bool isFloor =
+      !surface.isFurniture && isFloorThatEnds(planes, samples.front(), surface.area);
   bool isSeen = false;
   for (const int i : candidates)
   {
@@ -152,6 +148,7 @@ void addKnown(ScenePlanes& planes, std::vector<int>& candidates, KnownSurface su
             [&](const auto& p) { return seen.extent.isWithin(p, kNear); }))
       continue;
     isSeen = true;
+    seen.isFloor |= isFloor && !seen.isFurniture;
     if (seen.extent.isEverywhere()) continue;
     if (surface.isShown) seen.plane = surface.plane;
     seen.rim.insert(seen.rim.end(), samples.begin(), samples.end());
@@ -159,27 +156,13 @@ void addKnown(ScenePlanes& planes, std::vector<int>& candidates, KnownSurface su
   }
   if (isSeen) return;
   ScenePlane known;
+  known.isFloor = isFloor;
   known.plane = surface.plane;
   for (const auto& p : samples) known.centroid += p / static_cast<double>(samples.size());
   known.extent = surface.extent ? *surface.extent : PlaneExtent(known.plane.n, samples);
   known.rim = std::move(surface.samples);
   candidates.push_back(static_cast<int>(planes.all.planes.size()));
   planes.all.planes.push_back(std::move(known));
-}
-
-/** The floor that other frames know replaces a higher one of this frame. */
-void useKnownFloor(ScenePlanes& planes, const Plane& known)
-{
-  constexpr double kSameFloor = 0.12;  // [m]; a table top is higher above the floor than this
-  if (planes.floor && known.signedDistance(planes.plane(*planes.floor).centroid) <= kSameFloor)
-    return;
-  planes.floorSeen = false;
-  planes.floor = static_cast<int>(planes.all.planes.size());
-  ScenePlane floor;
-  floor.plane = known;
-  floor.centroid = -known.d * known.n;
-  planes.all.planes.push_back(std::move(floor));
-  planes.horizontal.insert(planes.horizontal.begin(), *planes.floor);
 }
 
 }  // namespace
@@ -215,8 +198,7 @@ ScenePlanes classifyPlanes(
     const std::vector<SurfacePatch>& known,
     const SurfaceOptions& options)
 {
-  constexpr double kFloorMargin = 0.06;  // [m]
-  constexpr double kMaxBelowFloor = 0.03;
+  constexpr double kFloorMargin = 0.06;   // [m]
   constexpr std::size_t kMinSamples = 3;  // that make a surface
   constexpr double kSameWall = 0.05;      // [m]; the poses' noise
   ScenePlanes out;
@@ -248,8 +230,9 @@ ScenePlanes classifyPlanes(
     out.floor = out.horizontal.front();
   out.floorSeen = out.floor.has_value();
   if (out.floorSeen) alignFloorPieces(out, options);
+  markHollow(out, cloud, options);
   for (const auto& patch : known)
-    if (patch.kind == SurfaceKind::Floor) useKnownFloor(out, patch.plane);
+    if (patch.kind == SurfaceKind::Floor) useKnownFloor(out, cloud, patch.plane);
   if (out.floor) out.all.planes[static_cast<std::size_t>(*out.floor)].extent = PlaneExtent();
   for (const auto& patch : known)
   {
@@ -259,8 +242,7 @@ ScenePlanes classifyPlanes(
       addKnown(out, out.vertical, {patch.plane, std::move(samples), kSameWall});
     else
       addKnown(
-          out, out.horizontal,
-          knownSurfaceIn(cloud, patch.plane, std::move(samples), out.up, options));
+          out, out.horizontal, knownSurfaceIn(cloud, patch, std::move(samples), out.up, options));
   }
   sortByHeight();
   return out;
@@ -275,7 +257,7 @@ FrameSurfaces surfacesOf(const DepthCloud& cloud, const ScenePlanes& planes)
   const auto add = [&](int i, SurfaceKind kind)
   {
     const ScenePlane& plane = planes.plane(i);
-    SurfacePatch patch = {kind, plane.plane, {}};
+    SurfacePatch patch = {kind, plane.plane, {}, plane.isFurniture};
     for (const auto& p : plane.samples) patch.samples.push_back(p.cast<float>());
     out.seen.push_back(std::move(patch));
   };
@@ -287,6 +269,7 @@ FrameSurfaces surfacesOf(const DepthCloud& cloud, const ScenePlanes& planes)
         shareBelow(cloud, planes.plane(i).plane, kWallMargin) <= kMaxBehindWall)
       add(i, SurfaceKind::Wall);
   out.seenThrough = planes.seenThrough;
+  out.contradictsFloor = planes.contradictsFloor;
   return out;
 }
 

@@ -41,16 +41,30 @@ void RoomPlanes::voteForFloor(const SurfacePatch& patch_map, const CPose3D& T_ma
   // Where it was seen; a plane without samples where it meets the vertical through the sensor.
   const Eigen::Vector3d at =
       patch_map.samples.empty() ? positionOf(T_map_sensor) : centroidOf(patch_map);
-  floorVotes_.push_back({at.z() - plane.signedDistance(at) / plane.n.z(), T_map_sensor.z()});
+  vote({at.z() - plane.signedDistance(at) / plane.n.z(), T_map_sensor.z(), false});
+}
+
+void RoomPlanes::voteAgainstFloor()
+{
+  const auto known = floorHeight();
+  if (!known) return;
+  vote({*known, sensorHeight_, true});
+  const auto left = floorHeight();
+  if (!left || std::abs(*left - *known) >= kSameFloor) ++droppedFloors_;
+}
+
+void RoomPlanes::vote(const FloorVote& vote)
+{
+  floorVotes_.push_back(vote);
   if (floorVotes_.size() > kVoteWindow) floorVotes_.pop_front();
 }
 
 std::optional<double> RoomPlanes::floorHeight() const
 {
-  std::vector<double> sorted;
+  std::vector<double> sorted, against;
   for (const auto& vote : floorVotes_)
     if (std::abs(vote.sensorHeight - sensorHeight_) < kSensorHeightRange)
-      sorted.push_back(vote.height);
+      (vote.isAgainst ? against : sorted).push_back(vote.height);
   std::sort(sorted.begin(), sorted.end());
   const auto needed = std::max(
       kMinVotes, static_cast<std::size_t>(kMinVoteShare * static_cast<double>(sorted.size())));
@@ -58,7 +72,12 @@ std::optional<double> RoomPlanes::floorHeight() const
   {
     std::size_t last = first;
     while (last < sorted.size() && sorted[last] - sorted[first] < kSameFloor) ++last;
-    if (last - first >= needed) return sorted[first + (last - first) / 2];
+    if (last - first < needed) continue;
+    const double height = sorted[first + (last - first) / 2];
+    const auto contradicted = static_cast<std::size_t>(std::count_if(
+        against.begin(), against.end(),
+        [&](double other) { return std::abs(other - height) < kSameFloor; }));
+    if (contradicted < std::max(kMinVotes, last - first)) return height;
   }
   return {};
 }

@@ -20,6 +20,8 @@ constexpr int kMaxHits = 8;         // so that what was moved away is taken back
 constexpr unsigned kMinCells = 4;   // of a wall, or of what is in reach of one frame
 constexpr unsigned kMinHorizontalCells =
     48;                                // 0.12 m^2: a keyboard or a book is no surface of the room
+constexpr unsigned kMinFurniture = 2;  // frames that make a surface furniture
+constexpr unsigned kMaxOthers = 4;     // times as many may show it without saying so
 constexpr unsigned kDoubtful = 30;     // frames that an unconfirmed surface is kept for
 constexpr unsigned kMemory = 1000;     // frames after which a cell is forgotten: poses drift
 constexpr double kMinGain = 0.1;       // of one frame's plane; keeps following slow drift
@@ -101,11 +103,18 @@ bool RoomPlanes::isNear(const RoomSurface& surface, const SurfacePatch& patch_ma
 
 bool RoomPlanes::isConfirmed(const RoomSurface& surface) { return surface.frames >= kMinFrames; }
 
+bool RoomPlanes::isFurniture(const RoomSurface& surface)
+{
+  return surface.furnitureFrames >= kMinFurniture &&
+         kMaxOthers * surface.furnitureFrames >= surface.frames;
+}
+
 void RoomPlanes::add(const FrameSurfaces& frame, const CPose3D& T_map_sensor)
 {
   ++frame_;
   sensorHeight_ = T_map_sensor.z();
   takeBack(frame, T_map_sensor);
+  if (frame.contradictsFloor) voteAgainstFloor();
   const auto rise = riseToFloor(frame, T_map_sensor);
   std::vector<bool> taken(roomSurfaces_.size(), false);
   for (const auto& seen : frame.seen)
@@ -172,6 +181,7 @@ void RoomPlanes::fuse(const SurfacePatch& patch_map, double tolerance, std::vect
   const Eigen::Vector3d n = ((1 - gain) * best->plane.n + gain * fresh.plane.n).normalized();
   best->plane = {n, -n.dot(center) + (1 - gain) * gap};
   if (best->lastSeen != frame_) ++best->frames;
+  if (patch_map.isFurniture) ++best->furnitureFrames;
   best->lastSeen = frame_;
   for (const auto& p : patch_map.samples)
   {
@@ -222,7 +232,7 @@ std::vector<SurfacePatch> RoomPlanes::surfaces() const
     if (!isConfirmed(surface)) continue;
     if (surface.kind != SurfaceKind::Wall && floor && -surface.plane.d < *floor + kSameFloor)
       continue;
-    SurfacePatch patch = {surface.kind, surface.plane, {}};
+    SurfacePatch patch = {surface.kind, surface.plane, {}, isFurniture(surface)};
     for (const auto& [cell, state] : surface.cells)
       if (state.hits >= kMinHits) patch.samples.push_back(pointOf(surface, cell));
     const bool isWall = surface.kind == SurfaceKind::Wall;
@@ -246,7 +256,8 @@ std::vector<SurfacePatch> RoomPlanes::around(const CPose3D& T_map_sensor) const
     });
   for (const auto& surface : surfaces())
   {
-    SurfacePatch patch = {surface.kind, surface.plane.transformed(T_sensor_map), {}};
+    SurfacePatch patch = {
+        surface.kind, surface.plane.transformed(T_sensor_map), {}, surface.isFurniture};
     for (const auto& p : surface.samples)
       if ((p - sensor).norm() < kReach) patch.samples.push_back(transformed(p, T_sensor_map));
     if (patch.samples.size() >= kMinCells) out.push_back(std::move(patch));

@@ -98,6 +98,7 @@ struct SlamResult
   std::vector<FactorGraph::GraphEdge> edges;
   std::optional<CorrectionSummary> correction;  //!< Empty when poses were taken as given
   std::optional<MapContinuation> continuation;  //!< Set when it continued a map
+  std::size_t droppedFloors = 0;                //!< See RoomPlanes::droppedFloors()
   std::vector<std::string> warnings;
 
   SlamCounts counts() const;  //!< Of all sensors

@@ -18,6 +18,8 @@ struct ScenePlane
   std::vector<Eigen::Vector3d> samples;  //!< Some of its points
   std::vector<Eigen::Vector3d> rim;      //!< Its outermost points
   PlaneExtent extent;                    //!< Of horizontal planes
+  bool isFurniture = false;              //!< Something shows under it, or it is in a detector's box
+  bool isFloor = false;  //!< Known from other frames as a floor that ends, as a platform does
 };
 
 /** The planes of a frame and which cell belongs to which. */

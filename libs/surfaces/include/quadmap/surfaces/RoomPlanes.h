@@ -27,8 +27,11 @@ class RoomPlanes
   std::vector<SurfacePatch> around(const mrpt::poses::CPose3D& T_map_sensor) const;
 
   /** z of the floor in the map [m]: of the surfaces that recent frames of this storey took for the
-   * floor, the lowest that several agree on. Nothing at first. */
+   * floor, the lowest that several agree on and fewer contradict. Nothing at first. */
   std::optional<double> floorHeight() const;
+
+  /** How often the floor was given up because frames contradicted it. */
+  std::size_t droppedFloors() const { return droppedFloors_; }
 
   /** Direction of the walls in the map, modulo a quarter turn, in [0, pi/2) [rad]; nothing while no
    * wall is confirmed. */
@@ -47,17 +50,21 @@ class RoomPlanes
   struct RoomSurface
   {
     SurfaceKind kind = SurfaceKind::Horizontal;
-    Plane plane;          // in the map
-    unsigned frames = 0;  // that showed it
+    Plane plane;                   // in the map
+    unsigned frames = 0;           // that showed it
+    unsigned furnitureFrames = 0;  // ... as furniture
     std::uint32_t lastSeen = 0;
     std::map<Cell, CellState> cells;
   };
   struct FloorVote
   {
     double height = 0, sensorHeight = 0;  // in the map [m]
+    bool isAgainst = false;               // the frame looked below this height
   };
 
   void voteForFloor(const SurfacePatch& patch_map, const mrpt::poses::CPose3D& T_map_sensor);
+  void voteAgainstFloor();
+  void vote(const FloorVote& vote);
   /** By how much a frame's heights are too low, by the floor it shows: heights above that are as
    * good as the sensor, those in the map only as good as the pose. Nothing without a floor [m]. */
   std::optional<double> riseToFloor(
@@ -67,6 +74,7 @@ class RoomPlanes
   void forget();
   static bool isNear(const RoomSurface& surface, const SurfacePatch& patch_map);
   static bool isConfirmed(const RoomSurface& surface);
+  static bool isFurniture(const RoomSurface& surface);
   static Cell cellOf(const RoomSurface& surface, const Eigen::Vector3d& p_map);
   static Eigen::Vector3f pointOf(const RoomSurface& surface, const Cell& cell);
 
@@ -74,6 +82,7 @@ class RoomPlanes
   std::vector<RoomSurface> roomSurfaces_;
   std::deque<FloorVote> floorVotes_;
   double sensorHeight_ = 0;  // of the latest frame [m]
+  std::size_t droppedFloors_ = 0;
 };
 
 }  // namespace quadmap

@@ -15,8 +15,9 @@ struct ScenePlanes
   PlaneSegmentation all;
   std::vector<int> horizontal;  //!< Indices of those that face up, from the lowest to the highest
   std::vector<int> vertical;
-  std::optional<int> floor;  //!< The lowest horizontal one, when nothing much lies under it
-  bool floorSeen = false;    //!< False: the floor is the one known from other frames, if any
+  std::optional<int> floor;       //!< The lowest horizontal one, when nothing much lies under it
+  bool floorSeen = false;         //!< False: the floor is the one known from other frames, if any
+  bool contradictsFloor = false;  //!< Something shows below the known floor, which does not show
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();  //!< Optical frame, unit
   std::vector<Eigen::Vector3f> seenThrough;  //!< Samples of known surfaces that are not there [m]
 

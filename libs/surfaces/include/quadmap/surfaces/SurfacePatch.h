@@ -23,6 +23,7 @@ struct SurfacePatch
   Plane plane;  //!< Normal up, or into the room
   /** Points on it, some centimetres apart [m]. A floor may have none: it goes on everywhere. */
   std::vector<Eigen::Vector3f> samples;
+  bool isFurniture = false;  //!< A table top or the like: something is under it, or it is in a box
 };
 
 /** The point of frame b expressed in frame a. */
@@ -36,6 +37,7 @@ struct FrameSurfaces
 {
   std::vector<SurfacePatch> seen;
   std::vector<Eigen::Vector3f> seenThrough;  //!< Samples of known surfaces that are not there [m]
+  bool contradictsFloor = false;  //!< The known floor is not there: things were seen below it
 };
 
 }  // namespace quadmap

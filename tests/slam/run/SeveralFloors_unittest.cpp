@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../SyntheticRoom.h"
+#include "quadmap/evaluation/EvaluationReport.h"
+#include "quadmap/simulator/Simulator.h"
+#include "quadmap/slam/RawlogRun.h"
+
+using namespace quadmap;
+
+namespace
+{
+/** Maps an installed scene, with fewer and smaller images than it says, and compares with the
+ * truth.
+ */
+class SeveralFloors : public testing::TestWithParam<const char*>
+{
+ protected:
+  EvaluationReport map(const std::string& name, int frames) const
+  {
+    auto scene = simulator::readScene(simulator::findScene(name));
+    scene.options.resize(320, 240);
+    scene.options.trajectory.frames = frames;
+    simulator::simulateToFiles(
+        simulator::Simulator(scene, LabelTable::installed(), 1), folder_.path("a.rawlog"));
+    RawlogRunRequest request;
+    request.rawlog = folder_.path("a.rawlog");
+    request.outputDirectory = folder_.path("out");
+    const auto run = runOnRawlog(request);
+    EXPECT_EQ(run.result.droppedFloors, 0U);
+    EXPECT_TRUE(run.result.warnings.empty());
+    EvaluationInput input;
+    input.estimate = request.outputDirectory;
+    input.trueObjectsPath = folder_.path("a.objects.gt.json");
+    input.trueTrajectoryPath = folder_.path("a.groundtruth.tum");
+    return evaluateRun(input);
+  }
+
+  TemporaryFolder folder_;
+};
+
+double bottomOf(const ObjectRecord& record)
+{
+  return record.object.center().z() - record.object.semiAxes().z();
+}
+
+}  // namespace
+
+TEST_P(SeveralFloors, AreMappedAtTheirHeights)
+{
+  const auto report = map(GetParam(), 150);
+  EXPECT_GE(report.objects->f1().value_or(0), 0.9);
+  EXPECT_LT(report.trajectory->ateRmse, *report.trajectory->ateRmseOdometry);
+  std::size_t raised = 0;
+  for (const auto& match : report.objects->matches)
+  {
+    if (match.truth.label != "chair" || bottomOf(match.truth) < 0.2) continue;
+    ++raised;
+    EXPECT_NEAR(bottomOf(match.estimated), bottomOf(match.truth), 0.08) << match.truth.id;
+    EXPECT_NEAR(match.estimated.object.semiAxes().z(), match.truth.object.semiAxes().z(), 0.02)
+        << match.truth.id << " reaches down to another floor";
+  }
+  EXPECT_EQ(raised, 3U) << "chairs upstairs, or on the dais";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SeveralFloors, testing::Values("dais", "two-storeys"));
