@@ -68,31 +68,26 @@ struct Measured
 std::vector<std::optional<ObjectId>> associate(
     FactorGraph& graph, const std::vector<Measured>& measured, std::size_t objects)
 {
-  std::vector<AssociationTarget> targets;
+  std::vector<Eigen::Vector3d> centers;
   for (std::size_t i = 0; i < objects; ++i)
-  {
-    const Ellipsoid object = graph.object(static_cast<ObjectId>(i + 1));
-    AssociationTarget t;
-    t.position = object.center();
-    t.covariance = Eigen::Matrix3d::Identity() * 0.01;
-    t.observations = 100;
-    t.labelCounts = {
-        {"thing", 100}
-    };
-    targets.push_back(t);
-  }
+    centers.push_back(graph.object(static_cast<ObjectId>(i + 1)).center());
+  const std::vector<AssociationTarget> targets(objects, {100, {{"thing", 100}}});
+  const Eigen::Matrix3d S = Eigen::Matrix3d::Identity() * 0.05;
   std::vector<std::optional<ObjectId>> ids(measured.size());
   for (std::size_t first = 0; first < measured.size();)
   {
     std::size_t last = first;
-    std::vector<AssociationCandidate> candidates;
-    for (; last < measured.size() && measured[last].pose == measured[first].pose; ++last)
+    while (last < measured.size() && measured[last].pose == measured[first].pose) ++last;
+    Eigen::MatrixXd log(last - first, objects);
+    for (std::size_t k = first; k < last; ++k)
     {
-      const Ellipsoid seen =
-          GraphWorld::placed(measured[last].view, graph.pose(measured[last].pose));
-      candidates.push_back({seen.center(), Eigen::Matrix3d::Identity() * 0.04, "thing", true});
+      const auto& m = measured[k];
+      const Ellipsoid seen = GraphWorld::placed(m.view, graph.pose(m.pose));
+      for (std::size_t i = 0; i < objects; ++i)
+        log(Eigen::Index(k - first), Eigen::Index(i)) = logGaussian(seen.center() - centers[i], S);
     }
-    for (const auto& d : associateFrame(candidates, targets, AssociationParameters()))
+    const std::vector<AssociationCandidate> candidates(last - first, {"thing", true});
+    for (const auto& d : associateFrame(candidates, targets, {}, log))
       if (d.target) ids[first + d.measurement] = static_cast<ObjectId>(*d.target + 1);
     first = last;
   }

@@ -14,21 +14,39 @@ using namespace quadmap;
 
 namespace
 {
-AssociationTarget target(const Eigen::VectorXd& p, double sigma, unsigned m, const char* label)
+/** A Gaussian position of something that has a label: an object, or what was seen. */
+struct Thing
 {
-  AssociationTarget t;
-  t.position = p;
-  t.covariance = sigma * sigma * Eigen::MatrixXd::Identity(p.size(), p.size());
-  t.observations = m;
-  t.labelCounts = {
-      {label, m}
-  };
-  return t;
-}
+  Eigen::VectorXd position;  // [m]
+  double sigma;              // [m]
+  const char* label;
+  unsigned observations = 1;
+  bool mayStart = true;
+};
 
-AssociationCandidate candidate(const Eigen::VectorXd& p, double sigma, const char* label)
+/** Assigns what was seen to objects by how far they are from each other. */
+std::vector<AssociationDecision> associate(
+    const std::vector<Thing>& seen,
+    const std::vector<Thing>& objects,
+    const AssociationParameters& parameters = {})
 {
-  return {p, sigma * sigma * Eigen::MatrixXd::Identity(p.size(), p.size()), label, true};
+  std::vector<AssociationCandidate> candidates;
+  std::vector<AssociationTarget> targets;
+  Eigen::MatrixXd log(Eigen::Index(seen.size()), Eigen::Index(objects.size()));
+  for (const Thing& o : objects) targets.push_back({o.observations, {{o.label, o.observations}}});
+  for (const Thing& z : seen)
+  {
+    const auto row = Eigen::Index(candidates.size());
+    candidates.push_back({z.label, z.mayStart});
+    for (std::size_t i = 0; i < objects.size(); ++i)
+    {
+      const double variance = z.sigma * z.sigma + objects[i].sigma * objects[i].sigma;
+      const auto n = z.position.size();
+      log(row, Eigen::Index(i)) =
+          logGaussian(z.position - objects[i].position, variance * Eigen::MatrixXd::Identity(n, n));
+    }
+  }
+  return associateFrame(candidates, targets, parameters, log);
 }
 
 double bruteForceCost(const Eigen::MatrixXd& cost)
@@ -103,14 +121,19 @@ TEST(Association, PosteriorIsTheFormulaOfTheDesign)
     p.beta = 0.4;
     p.labels = 10;
     p.newObjectVolume = 50;
-    AssociationTarget t = target(at, 0.1, 5, "chair");
-    t.labelCounts = {
-        {"chair", 4},
-        { "sofa", 1}
+    const AssociationTarget object{
+        5, {{"chair", 4}, {"sofa", 1}}
     };
-    const auto d = associateFrame({candidate(seen, 0.1, "sofa")}, {t}, p);
+    const Eigen::MatrixXd S = 0.02 * Eigen::MatrixXd::Identity(dimension, dimension);
+    Eigen::MatrixXd log(1, 1);
+    log << logGaussian(seen - at, S);
+    const auto d = associateFrame(
+        {
+            {"sofa", true}
+    },
+        {object}, p, log);
 
-    const double s2 = 0.02;  // 0.1^2 + 0.1^2
+    const double s2 = 0.02;
     const double gaussian = std::exp(-0.5 * 0.04 / s2) / std::pow(2 * M_PI * s2, 0.5 * dimension);
     const double join = 5 * (1 + 0.4) / (5 + 10 * 0.4) * gaussian;
     const double fresh = 0.7 / 10 / 50;
@@ -122,12 +145,15 @@ TEST(Association, PosteriorIsTheFormulaOfTheDesign)
   }
 }
 
-TEST(Association, AddsTheExtraLogLikelihood)
+TEST(Association, AForbiddenPairIsNone)
 {
-  const Eigen::Vector3d p(0, 0, 0);
-  Eigen::MatrixXd extra(1, 1);
-  extra << -std::numeric_limits<double>::infinity();
-  const auto d = associateFrame({candidate(p, 0.1, "cup")}, {target(p, 0.1, 9, "cup")}, {}, extra);
+  Eigen::MatrixXd log(1, 1);
+  log << -std::numeric_limits<double>::infinity();
+  const auto d = associateFrame(
+      {
+          {"cup", true}
+  },
+      {{9, {{"cup", 9}}}}, {}, log);
   EXPECT_FALSE(d[0].target);
   EXPECT_TRUE(d[0].startsObject);
   EXPECT_NEAR(d[0].logPosterior, 0.0, 1e-12);
@@ -138,10 +164,12 @@ TEST(Association, NoTwoBoxesShareAnObject)
   // Both measurements prefer object 0; the best assignment as a whole gives the second one
   // object 1.
   const Eigen::Vector3d a(0, 0, 0), b(0.3, 0, 0);
-  const auto d = associateFrame(
-      {candidate(Eigen::Vector3d(0.02, 0, 0), 0.1, "cup"),
-       candidate(Eigen::Vector3d(0.12, 0, 0), 0.1, "cup")},
-      {target(a, 0.1, 9, "cup"), target(b, 0.1, 2, "cup")}, {});
+  const auto d = associate(
+      {
+          {Eigen::Vector3d(0.02, 0, 0), 0.1, "cup"},
+          {Eigen::Vector3d(0.12, 0, 0), 0.1, "cup"}
+  },
+      {{a, 0.1, "cup", 9}, {b, 0.1, "cup", 2}});
   EXPECT_EQ(d[0].target, std::optional<std::size_t>(0));
   EXPECT_EQ(d[1].target, std::optional<std::size_t>(1));
   EXPECT_GT(d[1].logPosteriorSecond, d[1].logPosterior)
@@ -150,11 +178,11 @@ TEST(Association, NoTwoBoxesShareAnObject)
 
 TEST(Association, FarMeasurementsStartAnObjectUnlessTheyMustNot)
 {
-  auto z = candidate(Eigen::Vector3d(3, 0, 0), 0.1, "cup");
-  const auto t = target(Eigen::Vector3d(0, 0, 0), 0.1, 50, "cup");
-  EXPECT_TRUE(associateFrame({z}, {t}, {})[0].startsObject);
-  z.mayStartObject = false;
-  const auto d = associateFrame({z}, {t}, {})[0];
+  Thing z{Eigen::Vector3d(3, 0, 0), 0.1, "cup"};
+  const Thing object{Eigen::Vector3d(0, 0, 0), 0.1, "cup", 50};
+  EXPECT_TRUE(associate({z}, {object})[0].startsObject);
+  z.mayStart = false;
+  const auto d = associate({z}, {object})[0];
   EXPECT_FALSE(d.startsObject);
   EXPECT_FALSE(d.target);
 }
@@ -162,28 +190,31 @@ TEST(Association, FarMeasurementsStartAnObjectUnlessTheyMustNot)
 TEST(Association, GateDoesNotGrowWithoutBound)
 {
   // Cups of 5 cm: with S = (6 cm)^2 the gate stays below half a metre however often one was seen.
-  const Eigen::Vector3d p(0, 0, 0);
   for (const unsigned m : {1u, 10u, 50u, 1000u})
   {
-    const auto d = associateFrame(
-        {candidate(Eigen::Vector3d(0.5, 0, 0), 0.03, "cup")}, {target(p, 0.05, m, "cup")}, {});
+    const auto d = associate(
+        {
+            {Eigen::Vector3d(0.5, 0, 0), 0.03, "cup"}
+    },
+        {{Eigen::Vector3d(0, 0, 0), 0.05, "cup", m}});
     EXPECT_TRUE(d[0].startsObject) << m << " observations";
   }
 }
 
 TEST(Association, RejectsNonsense)
 {
-  const Eigen::Vector3d p(0, 0, 0);
+  const Thing thing{Eigen::Vector3d(0, 0, 0), 1, "a"};
   AssociationParameters bad;
   bad.alpha = 0;
-  EXPECT_THROW(associateFrame({candidate(p, 1, "a")}, {}, bad), std::invalid_argument);
+  EXPECT_THROW(associate({thing}, {}, bad), std::invalid_argument);
   EXPECT_THROW(
-      associateFrame({candidate(p, 1, "a")}, {target(Eigen::Vector2d(0, 0), 1, 1, "a")}, {}),
+      logGaussian(Eigen::Vector3d(0, 0, 0), Eigen::Matrix3d::Zero()), std::invalid_argument);
+  EXPECT_THROW(
+      associateFrame(
+          {
+              {"a", true}
+  },
+          {{1, {{"a", 1}}}}, {}, Eigen::MatrixXd(2, 2)),
       std::invalid_argument);
-  EXPECT_THROW(
-      associateFrame({candidate(p, 0, "a")}, {target(p, 0, 1, "a")}, {}), std::invalid_argument);
-  EXPECT_THROW(
-      associateFrame({candidate(p, 1, "a")}, {target(p, 1, 1, "a")}, {}, Eigen::MatrixXd(2, 2)),
-      std::invalid_argument);
-  EXPECT_TRUE(associateFrame({}, {target(p, 1, 1, "a")}, {}).empty());
+  EXPECT_TRUE(associate({}, {thing}).empty());
 }

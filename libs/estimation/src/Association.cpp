@@ -101,30 +101,6 @@ std::vector<AssociationDecision> associateFrame(
     const std::vector<AssociationCandidate>& measurements,
     const std::vector<AssociationTarget>& targets,
     const AssociationParameters& parameters,
-    const Eigen::MatrixXd& extraLogLikelihood)
-{
-  Eigen::MatrixXd log = extraLogLikelihood;
-  const auto rows = static_cast<Eigen::Index>(measurements.size());
-  const auto columns = static_cast<Eigen::Index>(targets.size());
-  if (log.size() == 0) log = Eigen::MatrixXd::Zero(rows, columns);
-  if (log.rows() != rows || log.cols() != columns)
-    throw std::invalid_argument("associateFrame: extraLogLikelihood has the wrong size");
-  for (Eigen::Index k = 0; k < rows; ++k)
-    for (Eigen::Index i = 0; i < columns; ++i)
-    {
-      const auto& z = measurements[static_cast<std::size_t>(k)];
-      const auto& object = targets[static_cast<std::size_t>(i)];
-      if (z.position.size() != object.position.size())
-        throw std::invalid_argument("associateFrame: measurement and object differ in dimension");
-      log(k, i) += logGaussian(z.position - object.position, z.covariance + object.covariance);
-    }
-  return associateByLikelihood(measurements, targets, parameters, log);
-}
-
-std::vector<AssociationDecision> associateByLikelihood(
-    const std::vector<AssociationCandidate>& measurements,
-    const std::vector<AssociationTarget>& targets,
-    const AssociationParameters& parameters,
     const Eigen::MatrixXd& logLikelihood)
 {
   requireValid(parameters);

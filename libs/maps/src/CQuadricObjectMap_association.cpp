@@ -104,13 +104,13 @@ void CQuadricObjectMap::associate(Frame& frame) const
   Eigen::MatrixXd likelihood(frame.views.size(), ids.size());
   for (std::size_t k = 0; k < frame.views.size(); ++k)
   {
-    candidates.push_back({{}, {}, frame.views[k].label, frame.views[k].complete});
+    candidates.push_back({frame.views[k].label, frame.views[k].complete});
     for (std::size_t i = 0; i < ids.size(); ++i)
       likelihood(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
           associationLikelihood(frame, k, objects_.at(ids[i]));
   }
   for (const auto& d :
-       associateByLikelihood(candidates, targets, insertionOptions.association, likelihood))
+       associateFrame(candidates, targets, insertionOptions.association, likelihood))
   {
     Decision decision;
     decision.box = frame.boxes[d.measurement];

@@ -116,7 +116,7 @@ std::vector<PointDecision> PointSlamImpl<D>::decide(
     candidates[k].label = frame.measurements[k].label;
 
   std::vector<PointDecision> result;
-  for (const auto& d : associateByLikelihood(
+  for (const auto& d : associateFrame(
            candidates, targetsFor(frame, ids), parameters,
            logLikelihoods(frame, innovations, world.density)))
   {

@@ -129,18 +129,18 @@ std::vector<QuadricObjects::Decision> QuadricObjects::add(
   for (const auto& [id, object] : objects_)
   {
     ids.push_back(id);
-    targets.push_back({{}, {}, object.record.observations(), {}});
+    targets.push_back({object.record.observations(), {}});
     targets.back().labelCounts.assign(
         object.record.labelCounts.begin(), object.record.labelCounts.end());
   }
   std::vector<AssociationCandidate> candidates;
-  for (const auto& view : views) candidates.push_back({{}, {}, view.label, true});
+  for (const auto& view : views) candidates.push_back({view.label, true});
   AssociationParameters parameters = options_.association;
   parameters.newObjectVolume = 1;  // the likelihoods are ratios to that of "anywhere"
 
   std::vector<Decision> decisions;
-  for (const auto& d : associateByLikelihood(
-           candidates, targets, parameters, likelihoods(views, poseCovariance, poseOf)))
+  for (const auto& d :
+       associateFrame(candidates, targets, parameters, likelihoods(views, poseCovariance, poseOf)))
   {
     const BoxView& view = views[d.measurement];
     Decision decision;

@@ -19,19 +19,15 @@ struct AssociationParameters
   double newObjectVolume = 100.0;  //!< V, volume (area in 2-D) a new object may lie in [m^D]
 };
 
-/** What the posterior needs to know of an object. D = 2 or 3 is the size of the vectors. */
+/** What the posterior's prior needs to know of an object. */
 struct AssociationTarget
 {
-  Eigen::VectorXd position;    //!< [m]
-  Eigen::MatrixXd covariance;  //!< Uncertainty of the position plus the object's extent [m^2]
-  unsigned observations = 0;   //!< m_i
+  unsigned observations = 0;  //!< m_i
   std::vector<std::pair<std::string, unsigned>> labelCounts;
 };
 
 struct AssociationCandidate
 {
-  Eigen::VectorXd position;    //!< Measured position in the map [m]
-  Eigen::MatrixXd covariance;  //!< Measurement plus pose uncertainty [m^2]
   std::string label;
   bool mayStartObject = true;  //!< False for partial measurements: join or wait
 };
@@ -46,18 +42,12 @@ struct AssociationDecision
 };
 
 /** Assigns the boxes of one frame: the most probable assignment in which no two boxes share an
- * object (optimal, not greedy). `extraLogLikelihood(k, i)`, when given, has one row per measurement
- * and one column per target and is added to the position's log-likelihood. */
+ * object (optimal, not greedy).
+ * \param logLikelihood ln p(measurement | object): one row per measurement, one column per object.
+ * -infinity forbids a pair.
+ * \exception std::invalid_argument For parameters that are not positive, a matrix of another size,
+ * or a likelihood that is no number. */
 std::vector<AssociationDecision> associateFrame(
-    const std::vector<AssociationCandidate>& measurements,
-    const std::vector<AssociationTarget>& targets,
-    const AssociationParameters& parameters,
-    const Eigen::MatrixXd& extraLogLikelihood = {});
-
-/** The same with the log-likelihoods of the measurements given: one row per measurement, one column
- * per object, for measurements that are more than a position (their `position` and `covariance` are
- * not looked at). -infinity forbids a pair. */
-std::vector<AssociationDecision> associateByLikelihood(
     const std::vector<AssociationCandidate>& measurements,
     const std::vector<AssociationTarget>& targets,
     const AssociationParameters& parameters,
