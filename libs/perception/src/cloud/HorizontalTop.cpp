@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
@@ -67,23 +68,6 @@ std::optional<int> largestHeight(const AreaOfHeight& areas, double minArea)
   return best;
 }
 
-/** The median of the values in the densest window, which is the interval of a given width that
- * holds most values. The rim of a table is near its top, and would move the median of all values.
- * \param values Not empty. */
-double densest(std::vector<double> values, double width)
-{
-  std::sort(values.begin(), values.end());
-  std::size_t first = 0, best = 0, most = 0;
-  for (std::size_t last = 0; last < values.size(); ++last)
-  {
-    while (values[last] - values[first] > width) ++first;
-    if (last - first < most) continue;
-    most = last - first;
-    best = first;
-  }
-  return values[best + most / 2];
-}
-
 }  // namespace
 
 std::optional<Plane> horizontalTop(
@@ -117,11 +101,13 @@ std::optional<Plane> horizontalTop(
       depths.push_back(points[i].z());
     }
   const double depth = median(std::move(depths));
-  const double slope = (cameraHeight - areas.height(*top)) / depth;
+  const double slope = (cameraHeight - areas.height(*top)) / depth;  // (7.2)
   if (slope < kMinSlope) return {};
   constexpr double kUneven = 0.002;  // [m]
   const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
-  return Plane{support.n, support.d - densest(std::move(near), width)};
+  // The rim of a table is near its top, and would move the median of all heights.
+  std::sort(near.begin(), near.end());
+  return Plane{support.n, support.d - near[densestWindow(near, width).middle()]};
 }
 
 std::optional<PlaneExtent> topExtent(

@@ -29,19 +29,15 @@ std::vector<Eigen::Vector3d> atMainDepth(std::vector<Weighted> all, double width
   std::stable_sort(
       all.begin(), all.end(),
       [](const auto& a, const auto& b) { return a.point.z() < b.point.z(); });
-  std::size_t first = 0, bestFirst = 0, bestLast = 0;
-  double sum = 0, best = 0;
-  for (std::size_t last = 0; last < all.size(); ++last)
+  std::vector<double> depths, weights;
+  for (const auto& w : all)
   {
-    sum += all[last].weight;
-    while (all[last].point.z() - all[first].point.z() > width) sum -= all[first++].weight;
-    if (sum <= best) continue;
-    best = sum;
-    bestFirst = first;
-    bestLast = last + 1;
+    depths.push_back(w.point.z());
+    weights.push_back(w.weight);
   }
+  const Window window = densestWindow(depths, weights, width);
   std::vector<Eigen::Vector3d> out;
-  for (std::size_t i = bestFirst; i < bestLast; ++i) out.push_back(all[i].point);
+  for (std::size_t i = 0; i < window.count; ++i) out.push_back(all[window.first + i].point);
   return out;
 }
 
