@@ -4,18 +4,15 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "quadmap/estimation/RobustKernel.h"
+
 namespace quadmap
 {
 namespace
 {
 constexpr double kMinDepth = 0.1;  // nearer points are not projected [m]
 
-/** Cauchy's weight of a residual, from its square [variances]: doc/mathematics.md, (15.7). */
-double robustWeight(double squared)
-{
-  constexpr double kScale = 2.0;  // [sigma]
-  return 1 / (1 + squared / (kScale * kScale));
-}
+constexpr RobustKernel kKernel = RobustKernel::cauchy(2.0);  // doc/mathematics.md, (15.7)
 
 double worstSigma(const Eigen::Matrix3d& covariance)
 {
@@ -152,11 +149,11 @@ void MotionEstimator::addCorrespondences(
     const Eigen::Vector3d p = T_to_from * c.point_from;
     if (p.z() < kMinDepth) continue;
     Eigen::Matrix<double, 3, 6> dp;
-    dp << Eigen::Matrix3d::Identity(), -skew(p);
+    dp << Eigen::Matrix3d::Identity(), -crossMatrix(p);
     const Eigen::RowVector3d du(camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()));
     const Eigen::RowVector3d dv(0, camera.fy / p.z(), -camera.fy * p.y() / (p.z() * p.z()));
     const Eigen::Vector2d r = (camera.project(p) - c.pixel_to) / sigmaPixel;
-    const double weight = robustWeight(r.squaredNorm());
+    const double weight = kKernel.weight(r.norm());
     equations.add((du * dp).transpose() / sigmaPixel, r.x(), weight);
     equations.add((dv * dp).transpose() / sigmaPixel, r.y(), weight);
     bool agrees = r.norm() < kInlier;
@@ -164,7 +161,7 @@ void MotionEstimator::addCorrespondences(
     {
       const double sigma = std::sqrt(depthVariance(c.point_from.z()) + depthVariance(c.depth_to));
       const double rz = (p.z() - c.depth_to) / sigma;
-      equations.add(dp.row(2).transpose() / sigma, rz, robustWeight(rz * rz));
+      equations.add(dp.row(2).transpose() / sigma, rz, kKernel.weight(rz));
       agrees = agrees && std::abs(rz) < kInlier;
     }
     if (agrees) ++equations.inliers;
@@ -197,7 +194,7 @@ void MotionEstimator::addSurface(
     Vector6 J;
     J << n, p.cross(n);
     const double r = gap / sigma;
-    const double weight = options_.denseWeight * robustWeight(r * r);
+    const double weight = options_.denseWeight * kKernel.weight(r);
     equations.add(J / sigma, r, weight);
   }
 }

@@ -5,17 +5,12 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
+#include "quadmap/geometry/RotationVector.h"
+
 namespace quadmap
 {
 using Vector6 = Eigen::Matrix<double, 6, 1>;  //!< A small motion: translation [m], turn [rad]
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-inline Eigen::Matrix3d skew(const Eigen::Vector3d& v)
-{
-  Eigen::Matrix3d S;
-  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return S;
-}
 
 /** The motion of a small increment. The rotation is exact, and the coupling with the translation is
  * of first order. That suffices for iterations, each of which starts from the last result. */
@@ -34,7 +29,7 @@ inline Matrix6 adjoint(const Eigen::Isometry3d& T_a_b)
 {
   Matrix6 A = Matrix6::Zero();
   A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = T_a_b.linear();
-  A.topRightCorner<3, 3>() = skew(T_a_b.translation()) * T_a_b.linear();
+  A.topRightCorner<3, 3>() = crossMatrix(T_a_b.translation()) * T_a_b.linear();
   return A;
 }
 

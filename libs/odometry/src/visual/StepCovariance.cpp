@@ -20,7 +20,7 @@ mrpt::poses::CPose3DPDFGaussian gaussianOf(
       std::cos(yaw) * cosine, std::sin(yaw) * cosine, -std::sin(result.mean.pitch()));
   Matrix6 J = Matrix6::Zero();
   J.topLeftCorner<3, 3>().setIdentity();
-  J.topRightCorner<3, 3>() = -skew(T_from_to.translation());
+  J.topRightCorner<3, 3>() = -crossMatrix(T_from_to.translation());
   J.bottomRightCorner<3, 3>() = E.inverse();
   result.cov = (J * covarianceInFrom * J.transpose()).eval();
   return result;
