@@ -58,8 +58,7 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
   std::array<double, kColumns> v{};
   for (std::size_t i = 0; i < kColumns; ++i) v[i] = parseNumber(words[i], place);
   const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);  // Eigen's constructor starts with w
-  constexpr double kFarthest = 1e8;  // [m], ten times the largest coordinates of maps (UTM)
-  if (!(Eigen::Vector3d(v[1], v[2], v[3]).norm() <= kFarthest))
+  if (!(Eigen::Vector3d(v[1], v[2], v[3]).norm() <= kFarthestPosition))
     throw std::runtime_error(place + ": the position is absurdly far away");
   if (!(q.norm() > 1e-6)) throw std::runtime_error(place + ": quaternion is zero");
   return {v[0], poseFrom(q.normalized(), {v[1], v[2], v[3]})};

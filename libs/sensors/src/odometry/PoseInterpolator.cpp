@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "quadmap/geometry/StepCovariance.h"
+#include "quadmap/obs/Trajectory.h"
 
 namespace quadmap
 {
@@ -44,13 +45,13 @@ CPose3DPDFGaussian interpolate(
 
 std::optional<std::string> whyUnusable(const mrpt::poses::CPose3D& pose)
 {
-  constexpr double kFarthest = 1e8;      // [m], ten times the largest coordinates of maps (UTM)
   constexpr double kLeastRotated = 0.9;  // least determinant, for numbers that were rounded
   const auto matrix = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
   const Eigen::Matrix4d T = matrix.asEigen();
   if (!T.allFinite()) return "has numbers that are not finite";
   const double distance = T.topRightCorner<3, 1>().norm();
-  if (!(distance <= kFarthest)) return mrpt::format("is %g m away, which is absurd", distance);
+  if (!(distance <= kFarthestPosition))
+    return mrpt::format("is %g m away, which is absurd", distance);
   if (!(T.topLeftCorner<3, 3>().determinant() >= kLeastRotated))
     return "has no rotation (its quaternion is zero?)";
   return std::nullopt;
