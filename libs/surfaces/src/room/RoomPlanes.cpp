@@ -25,6 +25,7 @@ constexpr unsigned kMaxOthers = 4;     // times as many may show it without sayi
 constexpr unsigned kDoubtful = 30;     // frames that an unconfirmed surface is kept for
 constexpr unsigned kMemory = 1000;     // frames after which a cell is forgotten: poses drift
 constexpr double kMinGain = 0.1;       // of one frame's plane; keeps following slow drift
+// The tolerance of poses, doc/mathematics.md, (5.3).
 constexpr double kPoseHeight = 0.03;   // height error of a pose, two standard deviations [m]
 constexpr double kPoseAngle = 0.03;    // tilt error of a pose, two standard deviations [rad]
 constexpr double kFloorHeight = 0.01;  // error of heights above the floor of the frame [m]
@@ -33,7 +34,6 @@ constexpr double kFloorAngle = 0.005;  // [rad]
 constexpr double kSameDirection = 0.985;  // cosine: one wall, 10 degrees
 // Parts of one surface that things on it keep apart are nearer than this [cells of 0.05 m].
 constexpr int kNear = 5;
-constexpr double kQuarterTurn = 1.57079632679489661923;
 
 /** Moves a surface up by some metres. */
 void raise(SurfacePatch& patch_map, double by)
@@ -176,7 +176,7 @@ void RoomPlanes::fuse(const SurfacePatch& patch_map, double tolerance, std::vect
   if (taken.size() < roomSurfaces_.size()) taken.resize(roomSurfaces_.size(), false);
   taken[bestIndex] = true;
 
-  const double gain = std::max(kMinGain, 1.0 / (best->frames + 1.0));
+  const double gain = std::max(kMinGain, 1.0 / (best->frames + 1.0));  // (5.4)
   const double gap = best->plane.signedDistance(center);
   const Eigen::Vector3d n = ((1 - gain) * best->plane.n + gain * fresh.plane.n).normalized();
   best->plane = {n, -n.dot(center) + (1 - gain) * gap};
@@ -263,22 +263,6 @@ std::vector<SurfacePatch> RoomPlanes::around(const CPose3D& T_map_sensor) const
     if (patch.samples.size() >= kMinCells) out.push_back(std::move(patch));
   }
   return out;
-}
-
-std::optional<double> RoomPlanes::wallHeading() const
-{
-  // Four times the angle: walls a quarter turn apart agree.
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const auto& surface : roomSurfaces_)
-  {
-    if (surface.kind != SurfaceKind::Wall || !isConfirmed(surface)) continue;
-    const double angle = 4 * std::atan2(surface.plane.n.y(), surface.plane.n.x());
-    sum += static_cast<double>(surface.cells.size()) *
-           Eigen::Vector2d(std::cos(angle), std::sin(angle));
-  }
-  if (sum.norm() < kMinCells) return {};
-  const double heading = std::atan2(sum.y(), sum.x()) / 4;
-  return heading < 0 ? heading + kQuarterTurn : heading;
 }
 
 }  // namespace quadmap

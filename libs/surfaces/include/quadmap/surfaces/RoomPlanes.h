@@ -33,10 +33,6 @@ class RoomPlanes
   /** How often the floor was given up because frames contradicted it. */
   std::size_t droppedFloors() const { return droppedFloors_; }
 
-  /** Direction of the walls in the map, modulo a quarter turn, in [0, pi/2) [rad]; nothing while no
-   * wall is confirmed. */
-  std::optional<double> wallHeading() const;
-
   /** Confirmed surfaces in the map, without the floor. */
   std::vector<SurfacePatch> surfaces() const;
 
