@@ -329,6 +329,24 @@ TEST(ObjectEstimator, RoundLabelsBecomeRound)
   EXPECT_LT((result.state.head<3>() - cup.object.center()).norm(), 0.02);
 }
 
+TEST(MedianState, DoesNotDependOnWhereTheMapsOriginIs)
+{
+  SyntheticCamera camera(11);
+  auto views = viewsAround(camera, kCabinet, 21);
+  // A third has a wrong yaw, as it happens where only one side is seen.
+  for (std::size_t k = 0; k < views.size(); k += 3) views[k].yaw += k % 2 ? 0.35 : -0.35;
+  const std::deque<ObjectView> here(views.begin(), views.end());
+  auto far = here;
+  const Eigen::Vector3d shift(30, -40, 0.5);
+  for (auto& view : far) view.center += shift;
+  const auto state = medianState(here, boxy("suitcase"));
+  auto moved = medianState(far, boxy("suitcase"));
+  ASSERT_TRUE(state && moved);
+  moved->head<3>() -= shift;
+  EXPECT_LT((*moved - *state).cwiseAbs().maxCoeff(), 1e-9);
+  expectNear(*state, kCabinet.object, 0.03, 8.0);
+}
+
 TEST(ObjectEstimator, NothingToEstimateIsAnError)
 {
   EXPECT_THROW(ObjectEstimator().estimate({}, boxy("x"), {}), std::logic_error);

@@ -28,7 +28,8 @@ double commonYaw(const std::deque<ObjectView>& views)
   return std::atan2(s, c) / 4;
 }
 
-/** Positions of one side along its outward normal [m]: all measured ones, and the lower bounds. */
+/** Positions of one side along its outward normal, from a point near the object [m]: all measured
+ * ones, and the lower bounds. */
 struct Side
 {
   std::vector<double> measured, atLeast;
@@ -36,7 +37,10 @@ struct Side
   double position() const { return measured.empty() ? quantile(atLeast, 0.8) : median(measured); }
 };
 
-std::array<Side, kFaces> collectSides(const std::deque<ObjectView>& views, double yaw)
+/** \param near A point near the object. About a point far from it, a view with a wrong yaw would
+ * have its sides far from the others'. */
+std::array<Side, kFaces> collectSides(
+    const std::deque<ObjectView>& views, double yaw, const Eigen::Vector3d& near)
 {
   std::array<Side, kFaces> sides;
   for (const auto& v : views)
@@ -54,10 +58,9 @@ std::array<Side, kFaces> collectSides(const std::deque<ObjectView>& views, doubl
         const auto at = std::find(kAround.begin(), kAround.end(), f) - kAround.begin();
         turned = kAround[static_cast<std::size_t>(((at + quarter) % 4 + 4) % 4)];
       }
-      if (isEquality(v.faces[f].kind))
-        sides[turned].measured.push_back(v.faceOffset(f));
-      else
-        sides[turned].atLeast.push_back(v.faceOffset(f));
+      const double position = v.faceOffset(f) - v.faceNormal(f).dot(near);
+      auto& side = sides[turned];
+      (isEquality(v.faces[f].kind) ? side.measured : side.atLeast).push_back(position);
     }
   }
   return sides;
@@ -95,7 +98,9 @@ std::optional<UprightState> medianState(
 
   UprightState x = UprightState::Zero();
   x[3] = commonYaw(views);
-  const auto sides = collectSides(views, x[3]);
+  const Eigen::Vector3d near = medianOfCenters(views);
+  x.head<3>() = near;
+  const auto sides = collectSides(views, x[3], near);
   ObjectView frame;  // for its face normals at the common yaw
   frame.yaw = x[3];
   for (std::size_t axis = 0; axis < 3; ++axis)  // (11.16)
@@ -106,7 +111,7 @@ std::optional<UprightState> medianState(
   }
   // One or two cuboids among many that fitted none do not say where the object is.
   if (complete < kFewCuboids && 2 * complete < static_cast<std::ptrdiff_t>(views.size()))
-    x.head<3>() = medianOfCenters(views);
+    x.head<3>() = near;
   return x;
 }
 
