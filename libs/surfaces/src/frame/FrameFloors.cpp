@@ -16,7 +16,7 @@ constexpr double kMinFloorArea = 1.0;  // of one that ends [m^2]: a step or a se
 bool isHollow(const DepthCloud& cloud, const ScenePlane& surface, const SurfaceOptions& options)
 {
   constexpr double kCell = 0.15;    // wider than the distance of samples [m]
-  constexpr double kClearly = 0.1;  // below the surface [m]
+  constexpr double kClearly = 0.1;  // below the surface [m], doc/mathematics.md, (5.5)
   constexpr int kMinPoints = 8;
   const Eigen::Vector3d e1 = surface.plane.n.unitOrthogonal(), e2 = surface.plane.n.cross(e1);
   const auto cellOf = [&](const Eigen::Vector3d& p)
