@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "quadmap/estimation/MapObject.h"
+#include "quadmap/estimation/Visibility.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/obs/CObservationObjects.h"
 
@@ -115,7 +116,9 @@ class SyntheticCamera
     const auto box = projectCuboidBox(camera, object_optical);
     if (!box || object_optical.center().z() < 0.4) return {};
     const ImageBox inside = box->clipped(camera.width, camera.height);
-    if (inside.area() < 0.5 * box->area() || inside.area() < 100) return {};
+    // It sees all that the map expects it to see: what it misses is up to the disturbances.
+    const double leastInside = ExistenceOptions().visibleShare;
+    if (inside.area() < leastInside * box->area() || inside.area() < 100) return {};
     if (uniform() < disturbances.missProbability) return {};
 
     DetectedObject d;
