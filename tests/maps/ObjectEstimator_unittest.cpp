@@ -329,6 +329,30 @@ TEST(ObjectEstimator, RoundLabelsBecomeRound)
   EXPECT_LT((result.state.head<3>() - cup.object.center()).norm(), 0.02);
 }
 
+TEST(ObjectEstimator, APriorHoldsBeyondTheTurn)
+{
+  SyntheticCamera camera(12);
+  const TrueObject cabinet = cuboid("suitcase", {1.5, 0.4, 0.28}, {0.78, 0.43, 0.56}, M_PI + 0.01);
+  ObjectEstimator::Estimate known;
+  known.state = uprightStateOf(cabinet.object);
+  known.state[3] = M_PI - 0.001;
+  known.orientationDefined = true;
+  for (const int views : {1, 5, 20})
+    for (const double information : {80.0, 800.0, 8000.0})  // of the yaw [1/rad^2]
+    {
+      known.covariance = 1e-4 * UprightCovariance::Identity();
+      known.covariance(3, 3) = 1 / information;
+      auto e = ObjectEstimator::fromEstimate(known, boxy("suitcase"), {});
+      for (const auto& view : viewsAround(camera, cabinet, views)) e.add(view, {});
+      UprightState start = known.state;
+      start[3] = -M_PI + 0.005;  // the same heading, as a state that was stored and read has it
+      const UprightState x = e.estimate(start, boxy("suitcase"), {}).state;
+      EXPECT_LT((x.head<3>() - cabinet.object.center()).norm(), 0.03);
+      EXPECT_LT(std::abs(std::remainder(x[3] - M_PI - 0.01, 2 * M_PI)), 0.05)
+          << views << " views, information " << information;
+    }
+}
+
 TEST(MedianState, DoesNotDependOnWhereTheMapsOriginIs)
 {
   SyntheticCamera camera(11);

@@ -34,9 +34,13 @@ void addLabelPrior(
     eq.add(row.r, row.byUprightState(), RobustKernel::quadratic());
 }
 
-/** Adds what a file knew, doc/mathematics.md, (11.19). */
-void addPrior(const InformationPrior& prior, const UprightState& x, NormalEquations& eq)
+/** Adds what a file knew, doc/mathematics.md, (11.19). A yaw means the same every full turn, and
+ * the prior's is taken in the turn in which it agrees best. */
+void addPrior(const InformationPrior& prior, UprightState x, NormalEquations& eq)
 {
+  constexpr double kTurn = 2 * M_PI;
+  if (prior.L(3, 3) > 0)
+    x[3] -= kTurn * std::round((prior.L * x - prior.xi)[3] / prior.L(3, 3) / kTurn);
   eq.H += prior.L;
   eq.g += prior.L * x - prior.xi;
   eq.cost += 0.5 * x.dot(prior.L * x) - prior.xi.dot(x);
@@ -216,7 +220,8 @@ void ObjectEstimator::absorb(
   prior_.complete += other.prior_.complete;
   prior_.yawDefined += other.prior_.yawDefined;
   const UprightCovariance error = r.P * other.sharedError_ * r.P.transpose();
-  if (error.trace() > sharedError_.trace()) sharedError_ = error;
+  const auto ofCenter = [](const UprightCovariance& P) { return P.topLeftCorner<3, 3>().trace(); };
+  if (ofCenter(error) > ofCenter(sharedError_)) sharedError_ = error;
 }
 
 InformationPrior ObjectEstimator::summary(
