@@ -49,6 +49,20 @@ TEST(SharedError, IsThereHoweverManyMeasurementsCome)
   EXPECT_THROW(map.setSharedError(99, error), std::out_of_range);
 }
 
+TEST(SharedError, AMapWithANegativeVarianceIsNotRead)
+{
+  SyntheticCamera camera(3);
+  CQuadricObjectMap map = mapOfACabinet(camera);
+  map.setSharedError(onlyObject(map).id, -errorOf(1.0, 0.0));
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << map;
+  stream.Seek(0);
+  CQuadricObjectMap loaded;
+  EXPECT_THROW(archive >> loaded, std::exception);
+  EXPECT_TRUE(loaded.objects().empty());
+}
+
 TEST(SharedError, StaysWithAStoredMap)
 {
   SyntheticCamera camera(2);

@@ -129,7 +129,8 @@ void CQuadricObjectMap::addView(Entry& object, const WaitingList::Entry& entry)
 {
   ++object.labelCounts[entry.view.label];
   ++(entry.view.complete ? object.completeCount : object.partialCount);
-  object.lastSeen = entry.time;
+  object.firstSeen = std::min(object.firstSeen, entry.time);
+  object.lastSeen = std::max(object.lastSeen, entry.time);
   object.looks.add(
       {entry.view.camera, mrpt::Clock::toDouble(entry.time), true}, entry.view.center,
       insertionOptions.existence);

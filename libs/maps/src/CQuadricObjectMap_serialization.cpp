@@ -89,6 +89,9 @@ MapObject readObject(CArchive& in)
   o.confirmed = readBool(in);
   in >> o.firstSeen >> o.lastSeen;
   requireStored(std::isfinite(o.existenceLogOdds), "an object's existence is not a number");
+  requireStored(
+      o.covariance.llt().info() == Eigen::Success,
+      "an object's covariance is not positive definite");
   o.object = ellipsoidOf(state);
   return o;
 }
