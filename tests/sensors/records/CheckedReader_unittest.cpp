@@ -185,6 +185,12 @@ TEST(CheckedReader, RefusesSizesThatCannotBe)
       std::string::npos);
 }
 
+TEST(CheckedReader, AnEmptyObjectIsNotTheEndOfTheFile)
+{
+  const std::string empty = "\x87nullptr\x88";
+  EXPECT_NE(errorOf([&] { read(empty + bytesOf(*sampleScan(kStart))); }), "");
+}
+
 TEST(CheckedReader, RefusesNestedFrames)
 {
   const std::string head = "\x98mrpt::obs::CSensoryFrame\x02" + number(1);

@@ -20,6 +20,8 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::next()
   if (!bytes.begin()) return nullptr;
   RecordCheck check(bytes, limits_);
   const auto head = check.headAfterFirstByte();
+  // Callers would take the null pointer for the end of the file.
+  RecordCheck::require(head.name != "nullptr", "holds an empty object");
   if (!RecordCheck::knows(head.name))
   {
     const MemoryGuard guard;
