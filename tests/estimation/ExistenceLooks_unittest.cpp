@@ -52,6 +52,15 @@ TEST(ExistenceLooks, FromOnePlaceCountAsFewHoweverManyTheyAre)
   }
 }
 
+TEST(ExistenceLooks, AnEarlierLookIsAVisitOfItsOwn)
+{
+  ExistenceLooks late = looks({true}, 0, 1000), early = late;
+  late.add({placeAt(0), 1000.1, true}, kObject, kOptions);
+  early.add({placeAt(0), 100, true}, kObject, kOptions);  // records may come out of order
+  EXPECT_NEAR(early.independent(kOptions).seen, 2, 1e-12);
+  EXPECT_LT(late.independent(kOptions).seen, 1.5);
+}
+
 TEST(ExistenceLooks, DetectionsAndMissesOfOnePlaceWeighAlike)
 {
   auto seen = alternating(400);

@@ -40,7 +40,7 @@ void ExistenceLooks::add(
   const auto isOf = [&](const Visit& v)
   {
     return (v.camera - look.camera).norm() <= kSamePlace * reach &&
-           look.time - v.last < options.independentViewTime;
+           std::max(v.first - look.time, look.time - v.last) < options.independentViewTime;
   };
   const auto known = std::find_if(visits_.rbegin(), visits_.rend(), isOf);
   Visit* visit = known == visits_.rend() ? nullptr : &*known;
@@ -51,6 +51,7 @@ void ExistenceLooks::add(
     for (const Visit& other : visits_)
       visit->crowd += other.looks() * correlation(*visit, other, options);
   }
+  visit->first = std::min(visit->first, look.time);
   visit->last = std::max(visit->last, look.time);
   ++(look.seen ? visit->seen : visit->missed);
   for (Visit& other : visits_) other.crowd += correlation(other, *visit, options);
