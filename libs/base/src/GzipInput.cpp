@@ -41,7 +41,9 @@ GzInput::GzInput(const std::string& path)
     throw std::runtime_error(path + ": is a directory, not a file");
   requireOneRun(path);
   file_ = openOrThrow(path);
-  fileBytes_ = std::filesystem::file_size(path);
+  std::error_code unknown;  // of a pipe
+  const auto size = std::filesystem::file_size(path, unknown);
+  fileBytes_ = unknown ? 0 : size;
 }
 
 GzInput::~GzInput() { gzclose_r(file_); }

@@ -1,6 +1,7 @@
 #include <ceres/crs_matrix.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "GraphProblem.h"
 #include "SparseInverse.h"
@@ -41,7 +42,8 @@ SparseMatrix squaredJacobian(ceres::Problem& problem, ceres::Problem::EvaluateOp
         all.begin() + static_cast<std::ptrdiff_t>(begin),
         all.begin() + static_cast<std::ptrdiff_t>(end));
     ceres::CRSMatrix crs;
-    problem.Evaluate(options, nullptr, nullptr, nullptr, &crs);
+    if (!problem.Evaluate(options, nullptr, nullptr, nullptr, &crs))
+      throw std::runtime_error("the factor graph has a residual that is no number");
     const SparseMatrix J = jacobianOf(crs);
     const SparseMatrix part = SparseMatrix(J.transpose() * J).triangularView<Eigen::Lower>();
     if (begin == 0)
@@ -107,6 +109,8 @@ FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
   const NormalMatrix normal = normalMatrix(kFreePositionSigma, kFreeAngleSigma);
   if (normal.H.rows() == 0) return result;
   const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  if (factorised.info() != Eigen::Success)
+    throw std::runtime_error("the normal matrix of the factor graph cannot be factorised");
   const auto last = normal.poseAt.find(graph_.poses_.size() - 1);
   if (last != normal.poseAt.end()) result.lastPose = marginalBlock(factorised, last->second, 6);
   if (withObjects)
