@@ -10,7 +10,7 @@ namespace quadmap
 namespace
 {
 constexpr double kMinRange = 0.1;        // [m]
-constexpr double kSamePlace = 0.1;       // of the reach: looks this near are taken as one place
+constexpr double kSamePlace = 0.1;       // looks nearer than this share of the reach are one visit
 constexpr std::size_t kMaxVisits = 200;  // kept, so that the cost does not grow with the run
 }  // namespace
 

@@ -9,7 +9,7 @@ namespace
 constexpr double kMinRange = 0.1;  // [m]
 constexpr std::size_t kRememberedCameras = 200;
 
-/** Sum of k_ij over some places, doc/mathematics.md, (16.15). */
+/** Sum of k_ij over some places, doc/mathematics.md, (16.20). */
 template <typename Places>
 double neighbours(
     const Eigen::Vector3d& camera,

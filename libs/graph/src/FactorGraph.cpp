@@ -177,7 +177,7 @@ void FactorGraph::fold(const View& view, const PoseBlock& pose)
   else
     d = Eigen::Map<const UprightState>(object.block.data()) -
         Eigen::Map<const UprightState>(folded.at.data());
-  // (16.11) of doc/mathematics.md
+  // (16.13) of doc/mathematics.md
   folded.L += J.transpose() * J;
   folded.g += J.transpose() * (r - J * d);
   object.foldedBottom += bottomInformation(view.view);

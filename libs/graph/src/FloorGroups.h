@@ -8,8 +8,8 @@
 
 namespace quadmap
 {
-/** How far the heights of two places of a trajectory may be off each other by what its steps know,
- * doc/mathematics.md, (16.19). */
+/** Variance of one place's height relative to another's, from the steps between them:
+ * doc/mathematics.md, (16.11). */
 class HeightDrift
 {
  public:
@@ -41,7 +41,7 @@ struct StandingThing
 
 /** Which things stand on the same floor. Two heights are two floors when neither the measurements
  * nor the drift between the poses explains their difference, or when it is more than half a storey:
- * doc/mathematics.md, (16.20).
+ * doc/mathematics.md, (16.12).
  * \return Number of the floor of each thing, from 0 on. */
 std::vector<std::size_t> floorsOf(
     const std::vector<StandingThing>& things, const HeightDrift& drift);

@@ -3,13 +3,13 @@
 
 #include "GraphProblem.h"
 
-// Things that stand on one floor: (16.8), (16.19) and (16.20) of doc/mathematics.md.
+// Things that stand on one floor: (16.8), (16.11) and (16.12) of doc/mathematics.md.
 namespace quadmap
 {
 namespace
 {
-/** What all bottoms of one floor err by alike, however often they were seen: floors are not even,
- * and the supporting plane is fitted to what shows of it [m]. */
+/** Standard deviation that all bottoms on one floor have in common [m]: floors are not even, and
+ * the supporting plane is fitted to what shows of it. */
 constexpr double kUneven = 0.03;
 
 double medianOf(std::vector<double> values)

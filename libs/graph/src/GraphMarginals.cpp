@@ -12,11 +12,11 @@ namespace
 {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/** Sigma of objects whose poses are asked for. The objects together must not seem to know anything
- * of the poses that no measurement told, and this much keeps what nothing holds away from zero. */
+/** Loose prior of each object when covariances of poses are asked for. It keeps H invertible and
+ * says nothing about the poses. */
 constexpr double kLooseSigma = 100;  // [m], [rad]
 
-constexpr double kLeast = 1e-9;  // information of what nothing tells of, against zero pivots
+constexpr double kLeast = 1e-9;  // information added to every unknown, so that no pivot is zero
 
 SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
 {

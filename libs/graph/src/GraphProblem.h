@@ -23,7 +23,8 @@ double bottomInformation(const BoxMeasurement& view);
 class GraphProblem
 {
  public:
-  /** \param folded What is folded of views enters as that, else they all enter as they are. */
+  /** \param folded True: folded views enter as their object's Gaussian. False: each enters itself.
+   */
   GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folded);
 
   FactorGraph::Summary solve();

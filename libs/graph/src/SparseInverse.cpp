@@ -12,7 +12,7 @@ SparseInverse::SparseInverse(const Eigen::SimplicialLDLT<Eigen::SparseMatrix<dou
     diagonal_(factorised.vectorD().cwiseInverse())
 {
   // From the last column to the first, each column of L becomes that of Z in place,
-  // doc/mathematics.md, (16.12) and (16.13):
+  // doc/mathematics.md, (16.14) and (16.15):
   //   Z(s, j) = -Z(s, s) l,  Z(j, j) = 1 / D(j) - l^t Z(s, j),  l = L(s, j), s the rows it has.
   const Index n = diagonal_.size();
   Eigen::VectorXd l = Eigen::VectorXd::Zero(n), z = Eigen::VectorXd::Zero(n);

@@ -48,7 +48,8 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
   return missed;
 }
 
-/** (13.3): p_D of each label by the looks at its objects, each object as far as it exists. */
+/** Detection probability of each label, (13.3). An object's looks count by the probability that it
+ * exists. */
 std::map<std::string, double> CQuadricObjectMap::detectionProbabilities() const
 {
   const auto& existence = insertionOptions.existence;

@@ -10,8 +10,8 @@ namespace quadmap
 // Standard deviations of faces [m], fitted to simulated scenes with known truth; the table
 // `observation_tables residuals` (doc/benchmarks.md) shows how well they hold.
 
-/** Cosine between a face's normal and the line of sight from which it is turned away; towards the
- * camera below its negative, in between the object's outline shows it. */
+/** A face is turned away above this cosine of its normal with the line of sight, and towards the
+ * camera below its negative. In between only the outline shows it. */
 inline constexpr double kTurnedAway = 0.25;
 
 /** How far an object reaches, on average, beyond its outermost cells, equation (8.8) [m]: half a

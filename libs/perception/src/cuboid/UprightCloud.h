@@ -13,7 +13,7 @@ namespace quadmap
 struct UprightCloud
 {
   Eigen::Matrix3d R_upright_optical = Eigen::Matrix3d::Identity();
-  std::vector<ObjectCloud::Cell> cells;  //!< A regular sample of the object's, at most some 2500
+  std::vector<ObjectCloud::Cell> cells;  //!< A regular sample of the object's, at most some 1600
   std::vector<Eigen::Vector3d> points;
   std::vector<std::optional<Eigen::Vector3d>> normals;  //!< Unit, towards the camera
   double medianRange = 0;                               //!< Median depth of the points [m]

@@ -27,7 +27,7 @@ struct EdgeContext
   Eigen::Vector3d up;                      //!< Optical frame, unit
   double depth = 0;                        //!< Of the object [m]; 0 = unknown
   std::vector<Plane> surfaces;             //!< Support and floor are no occluders; optical frame
-  std::vector<BoxAtDepth> screens;         //!< Of the frame: in front, they hide without depth
+  std::vector<BoxAtDepth> screens;         //!< In front they hide the object, without depth
   std::optional<ImageBox> cuboidBox = {};  //!< Of the object's cuboid, unclipped [px]
 };
 

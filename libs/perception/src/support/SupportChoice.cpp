@@ -25,7 +25,7 @@ constexpr double kUsual = 4.0;      // it is where such objects usually stand
 constexpr double kUnusual = -1.5;
 constexpr double kTooTall = -2.0;  // for its kind, from the surface up, at most
 constexpr double kTooLow = -0.5;   // its top may be hidden or cut off
-constexpr double kAnything = 2.0;  // a surface that is not in sight
+constexpr double kAnything = 2.0;  // it stands on something out of sight; a support must exceed it
 constexpr double kOnWall = 3.0;    // the wall shows around the object
 constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs on it
 

@@ -49,7 +49,7 @@ CPose3D alignmentWithOdometry(
   double weights = 0;
   for (std::size_t k = 0; k < keyframes.size(); ++k)
   {
-    // (16.14) of doc/mathematics.md
+    // (16.19) of doc/mathematics.md
     const double weight = *first / (*first + variances[k]);
     const CPose3D difference = keyframes[k].T_odom_robot + (-poseOf(k));
     sum += weight * mrpt::poses::Lie::SE<3>::log(difference).asEigen();

@@ -9,8 +9,8 @@
 
 namespace quadmap
 {
-/** The step; of a robot that stands still the odometry knows more than its options say: images of
- * several cameras at one moment have one pose. */
+/** The same step, but nearly exact when the robot did not move: images of several cameras at one
+ * moment have one pose. */
 mrpt::poses::CPose3DPDFGaussian stiffAtRest(mrpt::poses::CPose3DPDFGaussian step);
 
 /** Brings the poses of a graph nearest to those of the odometry, as a motion of the map. A graph

@@ -77,8 +77,8 @@ class Matcher
     return shift.norm() > kOtherPlace || std::abs(mrpt::math::wrapToPi(a.yaw - b.yaw)) > kOtherYaw;
   }
 
-  /** The most promising ones, best first; of those near each other two, as either may have
-   * started with a pair that is none. */
+  /** The most promising guesses, best first. At most two describe the same place, because one may
+   * have started from a wrong pair. */
   std::vector<Place> bestGuesses() const
   {
     constexpr int kOfOnePlace = 2;
@@ -127,8 +127,8 @@ class Matcher
     return h;
   }
 
-  /** ln of how likely the map lacks all local objects of its area, against which pairs are counted:
-   * many strangers among the local objects speak against a place. */
+  /** ln of the probability that the map lacks every local object within its area. Unmatched objects
+   * thus speak against a place. */
   double logUnknown(const PlacedObjects& placed, const Pairs& pairs) const
   {
     std::vector<bool> counts(local_.size());

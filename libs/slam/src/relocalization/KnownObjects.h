@@ -14,8 +14,8 @@ namespace quadmap
  * \param sigma What each side may err by beyond the map's covariance [m], > 0. */
 ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma);
 
-/** What a map knows of objects that a run has found again, by their ids in the run: their states
- * with the map's covariance and what both may err by beyond it.
+/** Priors of the objects that a run has found again, by their ids in the run: the map's state, and
+ * its covariance enlarged by (19.5).
  * \param pairs (local, given), of objects the maps have. */
 std::map<ObjectId, ObjectPrior> priorsOf(
     const CQuadricObjectMap& local,

@@ -42,8 +42,8 @@ class PlaceEvidence
    * \param factor On the sigmas. */
   double of(const PlacedObjects& placed, std::size_t i, std::size_t j, double factor) const;
 
-  /** The sum over the local objects, each with the object of the map that fits best, which several
-   * may share. */
+  /** Sum over the local objects of the best evidence that any object of the map gives. Several may
+   * use the same one. */
   double coarse(const Place& place) const;
 
   /** The pairing with the most evidence, each object once. */

@@ -42,8 +42,8 @@ double yawOf(const MapObject& object);
 constexpr std::size_t kMaxPairsOfPairs = 100000;
 
 /** Where the local frame may be: wherever two objects are as far from each other as two of the map,
- * or one has a heading. Each two local objects have the same share of kMaxPairsOfPairs; those that
- * are alike with more pairs of the map are held against every so many of them. */
+ * or one has a heading. Each two local objects have the same share of kMaxPairsOfPairs. Those that
+ * could be more pairs of the map than their share are compared with every n-th pair only. */
 std::vector<Place> guessPlaces(const Constellations& both, const RelocalizationOptions& options);
 
 }  // namespace quadmap

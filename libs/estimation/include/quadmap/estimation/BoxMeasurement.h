@@ -38,7 +38,7 @@ struct BoxMeasurement : MeasuredGeometry
 /** The measurement in the robot's frame.
  * \param view Made from `detected` with T_map_robot + T_robot_sensor: its sigmas and kinds of
  *  faces are taken over.
- *  \param tiltSigma Of a support's normal [rad]; 0: it is no measurement of what is up. */
+ *  \param tiltSigma Standard deviation of a support's normal [rad]; 0: the normal is not used. */
 BoxMeasurement measurementFromRobot(
     const DetectedObject& detected,
     const ObjectView& view,

@@ -8,9 +8,8 @@ struct EstimatorOptions
   int maxIterations = 25;     //!< Of the optimiser, >= 1
   /** Residuals beyond this many sigmas lose weight, lower bounds of sizes most of it, > 0. */
   double huber = 1.5;
-  /** Added to the sigma of every box edge: this [m], >= 0, and that share of the mean half size,
-   * >= 0, which the outline of a real thing is off that of an h_q. */
-  double edgeFloor = 0.002;
+  double edgeFloor = 0.002;  //!< Fixed part of what is added to an edge's sigma [m], >= 0
+  /** The rest, as a share of the mean half size, >= 0: no outline is quite that of an h_q. */
   double edgeShapeShare = 0.03;
   bool edgesOfComplete =
       true;  //!< Use the box edges of complete measurements with unseen sides too

@@ -32,7 +32,7 @@ class ExistenceLooks
   };
 
   ExistenceLooks() = default;
-  /** Knows only what all looks so far, which are not there any more, made of the log-odds. */
+  /** Starts from log-odds that earlier looks led to. Those looks are no longer known. */
   explicit ExistenceLooks(double logOdds) : before_{logOdds, {}} {}
 
   /** \param center Of the object [m]. */

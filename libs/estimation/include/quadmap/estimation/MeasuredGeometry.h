@@ -28,8 +28,8 @@ struct MeasuredGeometry
   double yawSigma = 0;      //!< Standard deviation of the heading [rad]
   Eigen::Vector3d halfSizes = Eigen::Vector3d::Ones();  //!< [m]; partial: typical ones
   std::array<FaceMeasurement, kFaces> faces;            //!< All Unknown when not complete
-  /** Of the h_q the faces touch: 2, and the label's when the cuboid was measured without a heading:
-   * then its faces touch the object's corners. */
+  /** Exponent of the h_q that the faces touch: 2, or the label's for a cuboid without a heading,
+   * whose faces touch corners. */
   double faceExponent = 2.0;
 
   /** True when both sides of axis 0..2 were measured. */

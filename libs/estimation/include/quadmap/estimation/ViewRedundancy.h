@@ -10,7 +10,7 @@ namespace quadmap
 {
 /** Views of one object from nearly the same place repeat each other's mistakes: n of them,
  * perfectly correlated, know as much as one. The share of its information that each of them may
- * claim (doc/mathematics.md, (16.15)),
+ * claim (doc/mathematics.md, (16.20)),
  *
  *   1 / (1 + rho * sum over the others of k_ij),   k_ij = max(0, 1 - d_ij / (range * angle)),
  *

@@ -92,8 +92,8 @@ class FactorGraph
     Eigen::Matrix<double, 6, 6> lastPose = Eigen::Matrix<double, 6, 6>::Zero();
     std::map<ObjectId, Eigen::MatrixXd> objects;
   };
-  /** Of the free part, given the rest. \param firstFree As in optimiseWindow(); 0: everything.
-   *  \param withObjects False: of the last pose only. */
+  /** Covariances of the free poses and objects, with everything else fixed. \param firstFree As in
+   * optimiseWindow(); 0: everything. \param withObjects False: of the last pose only. */
   Marginals marginals(std::size_t firstFree, bool withObjects);
   /** Covariances of the increments of all poses (GraphState.h), that of pose 0 being zero. It takes
    * about as long as one iteration of optimise().

@@ -107,7 +107,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
 
   /** Settles the map after a batch of insertions: it estimates all objects anew (while the map
    * grows, those with many measurements wait for some more; `estimateGrowth`), merges overlapping
-   * compatible ones, and decides which are confirmed. Cheap to repeat. */
+   * compatible ones, and decides which are confirmed. */
   void consolidate();
 
   /** How a box of an observation was assigned. */

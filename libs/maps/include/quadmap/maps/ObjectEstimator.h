@@ -60,9 +60,8 @@ class ObjectEstimator
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
   static ObjectEstimator fromSummary(const InformationPrior& prior);
 
-  /** Knows what another estimation found out: estimate() started there returns that state and, as
-   *  far as the label's prior alone does not know more, that covariance. \param estimate `cost` is
-   * not looked at. */
+  /** An estimator whose estimate(), started there, returns this state, and this covariance unless
+   * the label's prior alone is more certain. \param estimate `cost` is not looked at. */
   static ObjectEstimator fromEstimate(
       const Estimate& estimate, const LabelProperties& label, const EstimatorOptions& options);
 

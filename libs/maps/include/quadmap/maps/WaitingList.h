@@ -18,8 +18,8 @@ struct WaitingOptions
   double gateShare = 0.5;     //!< They agree within this share of the typical size + 0.1 m, > 0
 };
 
-/** Partial measurements no object explains. They start one when several agree, of one image each,
- * from directions different enough to fix the distance. */
+/** Partial measurements that no object explains. Several that agree start an object, if each is
+ * from another image and the directions fix the distance. */
 class WaitingList
 {
  public:

@@ -4,8 +4,8 @@
 
 namespace quadmap
 {
-/** How objects that are points, and the poses they were seen from, are estimated together. Section
- * [point] of the configuration has what its own keys name. */
+/** How points and poses are estimated together. The first six fields come from other sections; the
+ * rest are the keys of [point]. */
 struct PointOptions : public OptionGroup
 {
   // The Dirichlet process and the optimiser; the program takes them from its other sections.

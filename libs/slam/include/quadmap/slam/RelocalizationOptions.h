@@ -7,8 +7,8 @@ namespace quadmap
 /** How a run finds itself in an existing object map. Section [relocalization]. */
 struct RelocalizationOptions : public OptionGroup
 {
-  /** How far an object of the run is from its place in the map, beyond the uncertainty of both: the
-   * run's drift, sides of it that only one of them saw [m], > 0 */
+  /** Standard deviation of an object's place in the map beyond both covariances [m], > 0: the run
+   * drifts, and some sides only one of the two saw. */
   double positionSigma = 0.08;
   double yawSigma = fromDegrees(5.0L);  //!< The same of its heading [rad], > 0; INI in degrees
   /** How far the sides of a known object are from where the map has them, beyond its covariance:
