@@ -2,6 +2,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
+#include <limits>
 
 #include "LabelSource.h"
 #include "quadmap/base/ArchiveFields.h"
@@ -74,6 +75,25 @@ void writeObject(CArchive& out, const MapObject& o)
   out << o.orientationDefined << o.existenceLogOdds << o.confirmed << o.firstSeen << o.lastSeen;
 }
 
+/** The object of a stored state. Its sizes are chosen so that they have exactly the logarithms
+ * stored, and a map that is read is written with the same bytes: exp() may be off in the last bit.
+ */
+Ellipsoid storedObject(const UprightState& state)
+{
+  constexpr double kUp = std::numeric_limits<double>::infinity();
+  Ellipsoid object = ellipsoidOf(state);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (const double towards : {0.0, kUp})
+    {
+      if (uprightStateOf(object)[4 + i] == state[4 + i]) break;
+      Eigen::Vector3d sizes = object.semiAxes();
+      sizes[i] = std::nextafter(sizes[i], towards);
+      const Ellipsoid near(object.pose(), sizes);
+      if (uprightStateOf(near)[4 + i] == state[4 + i]) object = near;
+    }
+  return object;
+}
+
 MapObject readObject(CArchive& in)
 {
   MapObject o;
@@ -92,7 +112,7 @@ MapObject readObject(CArchive& in)
   requireStored(
       o.covariance.llt().info() == Eigen::Success,
       "an object's covariance is not positive definite");
-  o.object = ellipsoidOf(state);
+  o.object = storedObject(state);
   return o;
 }
 
