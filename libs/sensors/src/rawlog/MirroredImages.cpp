@@ -77,9 +77,13 @@ void makeFyPositive(RgbdFrame& frame)
     if (scan.hasIntensityImage) turn(scan.intensityImage);
     turn(scan.cameraParamsIntensity);
   }
-  if (!frame.objects || !(frame.objects->cameraParams.fy() < 0)) return;
-  for (auto& object : frame.objects->objects) turn(object, frame.objects->cameraParams.nrows);
-  turn(frame.objects->cameraParams);
+  if (frame.objects && frame.objects->cameraParams.fy() < 0) turnUpsideDown(*frame.objects);
+}
+
+void turnUpsideDown(CObservationObjects& boxes)
+{
+  for (auto& object : boxes.objects) turn(object, boxes.cameraParams.nrows);
+  turn(boxes.cameraParams);
 }
 
 }  // namespace quadmap

@@ -30,4 +30,8 @@ struct RgbdFrame
   double time() const { return mrpt::Clock::toDouble(scan->timestamp); }  //!< [s]
 };
 
+/** Turns boxes, masks and their calibration upside down, from those of a frame that isTurned to
+ * those of the recorded images, and back. */
+void turnUpsideDown(CObservationObjects& boxes);
+
 }  // namespace quadmap

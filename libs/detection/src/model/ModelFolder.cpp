@@ -1,0 +1,108 @@
+#include "model/ModelFolder.h"
+
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/ShareFiles.h"
+#include "quadmap/detection/KnownDetectors.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".ini";
+
+/** The value of a variable, empty when it is not set. */
+std::string variable(const char* name)
+{
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/** The folder of the project's model files. */
+fs::path sharedFolder() { return fs::path(findShareFile("detectors/coco.names")).parent_path(); }
+
+std::vector<std::string> modelFilesIn(const fs::path& folder)
+{
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == kExtension) files.push_back(entry.path().string());
+  const auto stem = [](const std::string& file) { return fs::path(file).stem(); };
+  std::sort(
+      files.begin(), files.end(),
+      [&](const std::string& a, const std::string& b) { return stem(a) < stem(b); });
+  return files;
+}
+
+bool isFile(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+std::string detectorFolder()
+{
+  if (const std::string folder = variable("QUADMAP_MODELS"); !folder.empty()) return folder;
+  const std::string data = variable("XDG_DATA_HOME");
+  const fs::path home = data.empty() ? fs::path(variable("HOME")) / ".local/share" : fs::path(data);
+  return (home / "quadmap/detectors").string();
+}
+
+std::string modelFileOf(const std::string& model)
+{
+  const fs::path path(model);
+  if (path.extension() == kExtension)
+  {
+    if (!isFile(path)) throw std::runtime_error(model + ": there is no such model file");
+    return model;
+  }
+  std::string known;
+  for (const std::string& file : allModelFiles())
+  {
+    const std::string name = fs::path(file).stem().string();
+    if (name == model) return file;
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  throw std::runtime_error(model + ": is no known model and no model file (.ini); known: " + known);
+}
+
+std::vector<std::string> allModelFiles()
+{
+  std::vector<std::string> files = modelFilesIn(sharedFolder());
+  for (auto& own : modelFilesIn(detectorFolder())) files.push_back(std::move(own));
+  return files;
+}
+
+std::optional<std::string> findModelPart(const std::string& modelFile, const std::string& name)
+{
+  for (const fs::path& folder :
+       {fs::path(modelFile).parent_path(), fs::path(detectorFolder()), sharedFolder()})
+    if (const fs::path path = folder / name; isFile(path)) return path.string();
+  return std::nullopt;
+}
+
+std::vector<std::string> readLabels(const std::string& path)
+{
+  requireModestText(path);
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  std::vector<std::string> labels;
+  for (std::string line; std::getline(file, line);)
+    if (std::string label = mrpt::system::trim(line); !label.empty())
+      labels.push_back(std::move(label));
+  if (file.bad()) throw std::runtime_error(path + ": read error");
+  return labels;
+}
+
+}  // namespace quadmap

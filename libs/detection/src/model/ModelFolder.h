@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadmap
+{
+/** The model file of a name or path.
+ * \exception std::runtime_error If there is none; names the places and the known models. */
+std::string modelFileOf(const std::string& model);
+
+/** All model files: those of share/quadmap/detectors, then those of detectorFolder(), by name. */
+std::vector<std::string> allModelFiles();
+
+/** A file that a model file names, from the model file's folder, from detectorFolder() or, as the
+ * names of COCO's classes, from share/quadmap/detectors. */
+std::optional<std::string> findModelPart(const std::string& modelFile, const std::string& name);
+
+/** The lines of a file with names, without blanks around them and without empty lines.
+ *  \exception std::runtime_error If it cannot be read; names it. */
+std::vector<std::string> readLabels(const std::string& path);
+
+}  // namespace quadmap
