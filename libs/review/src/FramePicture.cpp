@@ -1,0 +1,159 @@
+#include "quadmap/review/FramePicture.h"
+
+#include <mrpt/core/format.h>
+
+#include <array>
+#include <opencv2/imgproc.hpp>
+
+#include "FrameCanvas.h"
+#include "LabelColor.h"
+#include "quadmap/base/ErrorText.h"
+
+namespace quadmap
+{
+namespace
+{
+const cv::Scalar kGreen(60, 220, 60), kGrey(150, 150, 150), kWhite(255, 255, 255);
+const cv::Scalar kYellow(0, 220, 255);
+
+cv::Scalar colorOf(const std::string& label)
+{
+  const mrpt::img::TColor color = labelColor(label);
+  return {static_cast<double>(color.B), static_cast<double>(color.G), static_cast<double>(color.R)};
+}
+
+/** The depth image as greys, black where there is none and white near by. */
+cv::Mat greyDepth(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  constexpr double kFarthest = 6.0;  // [m]
+  const int rows = static_cast<int>(scan.cameraParams.nrows);
+  const int columns = static_cast<int>(scan.cameraParams.ncols);
+  cv::Mat grey(rows, columns, CV_8U, cv::Scalar(0));
+  for (int v = 0; v < rows && scan.hasRangeImage; ++v)
+    for (int u = 0; u < columns; ++u)
+    {
+      const double depth = scan.rangeImage(v, u) * static_cast<double>(scan.rangeUnits);
+      if (depth > 0 && depth < kFarthest)
+        grey.at<std::uint8_t>(v, u) =
+            cv::saturate_cast<std::uint8_t>(255 - 215 * depth / kFarthest);
+    }
+  return grey;
+}
+
+/** Three channels of 8 bits, in the size of the calibration. */
+cv::Mat imageOf(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  cv::Mat image;
+  if (scan.hasIntensityImage && !scan.intensityImage.isEmpty())
+    image = scan.intensityImage.asCvMatRef();
+  else
+    image = greyDepth(scan);
+  if (image.depth() == CV_16U)
+  {
+    cv::Mat narrow;
+    image.convertTo(narrow, CV_8U, 1 / 256.0);
+    image = narrow;
+  }
+  cv::Mat bgr = image;
+  if (image.channels() == 1) cv::cvtColor(image, bgr, cv::COLOR_GRAY2BGR);
+  const cv::Size size(
+      static_cast<int>(scan.cameraParams.ncols), static_cast<int>(scan.cameraParams.nrows));
+  cv::Mat scaled = bgr;
+  if (bgr.size() != size) cv::resize(bgr, scaled, size, 0, 0, cv::INTER_AREA);
+  return scaled;
+}
+
+/** Draws all parts of a picture onto its canvas. */
+class FramePainter
+{
+ public:
+  explicit FramePainter(const FramePictureContent& content) :
+      content_(content),
+      canvas_(imageOf(*content.scan), pinholeFrom(content.scan->cameraParams)),
+      T_optical_sensor_(-T_sensor_optical())
+  {
+  }
+
+  mrpt::img::CImage paint()
+  {
+    static const std::vector<DetectedObject> kNone;
+    const auto& boxes = content_.boxes ? content_.boxes->objects : kNone;
+    for (const auto& box : boxes)
+      if (box.mask) canvas_.tint(*box.mask, colorOf(box.label));
+    for (const auto& object : content_.objects) paintObject(object);
+    for (const auto& box : boxes) paintMeasurement(box.measurement);
+    for (const auto& box : boxes) paintEdges(box);
+    for (std::size_t i = 0; i < boxes.size(); ++i) paintText(boxes[i], i);
+    return {canvas_.picture(), mrpt::img::DEEP_COPY};
+  }
+
+ private:
+  void paintObject(const ObjectInFrame& object)
+  {
+    const cv::Scalar color = colorOf(object.label);
+    const Ellipsoid object_optical = object.object_sensor.transformed(T_optical_sensor_);
+    canvas_.cuboid(object_optical, color);
+    if (const auto top = canvas_.outline(object_optical, color))
+      canvas_.text(*top, 0, "#" + object.id, color);
+  }
+
+  void paintMeasurement(const ObjectMeasurement& measurement)
+  {
+    if (!measurement.complete) return;
+    constexpr std::size_t kBottom = 5;  // face -z
+    const Ellipsoid object_optical =
+        measurement.complete->object_sensor.transformed(T_optical_sensor_);
+    if (measurement.complete->faces[kBottom].kind == FaceKind::Support)
+      canvas_.fillBottom(object_optical, kYellow);
+    canvas_.cuboid(object_optical, kWhite);
+  }
+
+  void paintEdges(const DetectedObject& object)
+  {
+    const ImageBox& b = object.box;
+    const std::array<Eigen::Vector2d, 4> corners{
+        {{b.x1, b.y1}, {b.x2, b.y1}, {b.x2, b.y2}, {b.x1, b.y2}}
+    };
+    for (std::size_t edge = 0; edge < 4; ++edge)  // left, top, right, bottom
+    {
+      const Eigen::Vector2d &from = corners[(edge + 3) % 4], &to = corners[edge];
+      const auto& edges = object.measurement.edges;
+      cv::Scalar color = kGrey;
+      if (object.measurement.kind == MeasurementKind::None) color = colorOf(object.label);
+      if (edges && (*edges)[edge].state == EdgeState::Usable) color = kGreen;
+      canvas_.line(from, to, color, FrameCanvas::Weight::Bold);
+      if (edges && (*edges)[edge].state != EdgeState::Usable)
+        canvas_.text(
+            (from + to) / 2, 0,
+            (*edges)[edge].state == EdgeState::Occluded ? "hidden" : "image border", kGrey);
+    }
+  }
+
+  void paintText(const DetectedObject& object, std::size_t index)
+  {
+    std::string head = mrpt::format("%s %.2f", oneLine(object.label).c_str(), object.score);
+    if (index < content_.objectOfBox.size())
+      head += content_.objectOfBox[index].empty() ? ", no object"
+                                                  : ", object #" + content_.objectOfBox[index];
+    const Eigen::Vector2d corner(object.box.x1, object.box.y1);
+    canvas_.text(corner, 0, head, kWhite);
+    const ObjectMeasurement& m = object.measurement;
+    if (m.kind != MeasurementKind::None)
+      canvas_.text(
+          corner, 1, std::string(nameOf(m.kind)) + ": " + oneLine(m.reason),
+          m.kind == MeasurementKind::Rejected ? kGrey : kGreen);
+  }
+
+  const FramePictureContent& content_;
+  FrameCanvas canvas_;
+  mrpt::poses::CPose3D T_optical_sensor_;
+};
+
+}  // namespace
+
+mrpt::img::CImage drawFrame(const FramePictureContent& content)
+{
+  return FramePainter(content).paint();
+}
+
+}  // namespace quadmap
