@@ -331,6 +331,19 @@ TEST(RawlogSource, HasBoxesOnlyWhenTheSidecarHasSome)
   EXPECT_FALSE(source.hasBoxes()) << "a file of 0 bytes";
 }
 
+TEST(RawlogSource, LeavesBoxesAloneWhenAsked)
+{
+  const TemporaryFolder folder;
+  RawlogSourceOptions options;
+  options.readBoxes = false;
+  const auto rawlog =
+      writeObjects(folder.path("x.rawlog"), {sampleScan(kStart), sampleBoxes(kStart)});
+  EXPECT_FALSE(readAll(rawlog, options).at(0).objects) << "those in the rawlog";
+  folder.write("x.objects.rawlog", "nonsense");
+  EXPECT_FALSE(readAll(rawlog, options).at(0).objects) << "those beside it";
+  EXPECT_THROW(readAll(rawlog), std::runtime_error);
+}
+
 TEST(RawlogSource, SelectsOneSensor)
 {
   const TemporaryFolder folder;

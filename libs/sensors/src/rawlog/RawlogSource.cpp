@@ -25,6 +25,7 @@ constexpr std::size_t kMaxPendingPixels = 80u << 20;
 
 std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
 {
+  if (!options.readBoxes) return {};
   if (!options.objectsFile.empty()) return options.objectsFile;
   const std::string name = objectsFileOf(file);
   return std::filesystem::exists(name) ? name : std::string();

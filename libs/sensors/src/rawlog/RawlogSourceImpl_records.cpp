@@ -83,6 +83,8 @@ void RawlogSource::Impl::readObservation(
   {
     if (scan)
       addScan(record, scan);
+    else if (found && !options.readBoxes)
+      return;
     else if (found && !boxes.hasSidecar())
       boxes.add({record, found});
     else if (found)

@@ -20,6 +20,7 @@ struct RawlogSourceOptions
   /** The file with the boxes (sidecar). When it is empty, NAME.objects.rawlog is used if it exists.
    */
   std::string objectsFile;
+  bool readBoxes = true;  //!< Read boxes from the sidecar or the rawlog; pixelLabels aside
   /** The labels whose pixelLabels become boxes. When it is empty, pixelLabels are ignored. */
   std::optional<LabelTable> pixelLabelClasses;
   int minLabelPixels = 1;       //!< See boxesFromPixelLabels()
