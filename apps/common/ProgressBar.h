@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <string>
 
 namespace quadmap::cli
 {
@@ -11,15 +12,15 @@ namespace quadmap::cli
 class ProgressBar
 {
  public:
-  /** \param share Share that is done, in [0, 1]. */
-  void operator()(double share)
+  /** \param share Share that is done, in [0, 1]. \param note A few words behind the bar. */
+  void operator()(double share, const std::string& note = {})
   {
     constexpr int kWidth = 40;  // [letters]
     const int percent = static_cast<int>(100 * share);
     if (percent == shownPercent_ || !isatty(STDERR_FILENO)) return;
     shownPercent_ = percent;
-    std::cerr << "\r" << mrpt::system::progress(share, kWidth) << (percent >= 100 ? "\n" : "")
-              << std::flush;
+    std::cerr << "\r" << mrpt::system::progress(share, kWidth) << note
+              << (percent >= 100 ? "\n" : "") << std::flush;
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../detection/TinyDetector.h"
 #include "RunProgram.h"
 
 extern char** environ;
@@ -126,6 +127,19 @@ class StoppedPrograms : public testing::Test
 TemporaryFolder* StoppedPrograms::recordings_ = nullptr;
 
 }  // namespace
+
+TEST_F(StoppedPrograms, DetectLeavesTheBoxesThatThereWere)
+{
+  const TinyDetector tiny;
+  const std::string boxes = folder_.write("boxes.rawlog", "as before");
+  const auto program =
+      start("quadmap-detect", {recording("long"), "--model", tiny.model(), "-o", boxes});
+  waitUntil([&] { return folder_.fileCount() > 1; });  // the temporary file
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait(), 128 + SIGINT) << log();
+  EXPECT_EQ(readFile(boxes), "as before");
+  EXPECT_EQ(folder_.fileCount(), 1u);
+}
 
 TEST_F(StoppedPrograms, ASimulationThatASignalEndsChangesNothing)
 {

@@ -1,0 +1,162 @@
+#include "DetectRun.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <stdexcept>
+
+#include "quadmap/base/ErrorText.h"
+#include "quadmap/base/GzipStream.h"
+#include "quadmap/detection/FrameDetection.h"
+#include "quadmap/review/FramePicture.h"
+#include "quadmap/review/SceneRenderer.h"
+#include "quadmap/sensors/RawlogSource.h"
+
+namespace quadmap
+{
+namespace
+{
+RawlogSourceOptions sourceOptions(const DetectRequest& request)
+{
+  RawlogSourceOptions options;
+  options.readBoxes = false;
+  options.sensorLabel = request.sensorLabel;
+  options.keepGoing = request.keepGoing;
+  options.imagesAnywhere = request.imagesAnywhere;
+  return options;
+}
+
+class DetectRun
+{
+ public:
+  DetectRun(const DetectRequest& request, Detector& detector) :
+      request_(request),
+      detector_(detector),
+      source_(request.rawlog, sourceOptions(request)),
+      output_(request.output, kCompression),
+      start_(std::chrono::steady_clock::now())
+  {
+    source_.logging_enable_console_output = false;
+    source_.logRegisterCallback(
+        [this](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
+        {
+          if (level == mrpt::system::LVL_WARN) request_.onWarning(std::string(text));
+        });
+    if (!request.pictures.empty()) std::filesystem::create_directories(request.pictures);
+  }
+
+  DetectSummary run()
+  {
+    auto next = readAhead();
+    while (auto read = next.get())
+    {
+      next = readAhead();
+      lookAt(read->frame);
+      request_.onProgress(read->progress, framesPerSecond());
+    }
+    requireFrames();
+    output_.commit();
+    summary_.framesPerSecond = framesPerSecond();
+    for (const auto& problem : source_.problems()) summary_.dropped.push_back(problem.text());
+    return summary_;
+  }
+
+ private:
+  static constexpr int kCompression = 6;  // of zlib; boxes are small
+
+  struct ReadFrame
+  {
+    RgbdFrame frame;
+    double progress = 0;
+  };
+
+  /** Reads the next frame in another thread. */
+  std::future<std::optional<ReadFrame>> readAhead()
+  {
+    return std::async(
+        std::launch::async,
+        [this]() -> std::optional<ReadFrame>
+        {
+          auto frame = source_.next();
+          if (!frame) return std::nullopt;
+          return ReadFrame{std::move(*frame), source_.progress()};
+        });
+  }
+
+  void lookAt(const RgbdFrame& frame)
+  {
+    ++summary_.frames;
+    auto boxes = detect(frame);
+    if (!boxes)
+    {
+      ++summary_.framesWithoutColour;
+      return;
+    }
+    summary_.boxes += boxes->objects.size();
+    if (!request_.pictures.empty()) draw(frame, *boxes);
+    if (frame.isTurned) turnUpsideDown(*boxes);  // the file speaks of the images as recorded
+    mrpt::serialization::archiveFrom(output_) << *boxes;
+    output_.requireWritten();
+  }
+
+  CObservationObjects::Ptr detect(const RgbdFrame& frame)
+  try
+  {
+    return detectObjects(frame, detector_);
+  }
+  catch (const std::exception& e)
+  {
+    const InputProblem problem{
+        request_.rawlog, frame.record, frame.scan->sensorLabel, rootMessage(e)};
+    throw std::runtime_error(problem.text());
+  }
+
+  void draw(const RgbdFrame& frame, const CObservationObjects& boxes) const
+  {
+    FramePictureContent content;
+    content.scan = frame.scan.get();
+    content.boxes = &boxes;
+    const std::string name = mrpt::format("frame-%06zu.jpg", summary_.frames - 1);
+    writePicture(drawFrame(content), (std::filesystem::path(request_.pictures) / name).string());
+  }
+
+  double framesPerSecond() const
+  {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    return static_cast<double>(summary_.frames) / passed.count();
+  }
+
+  void requireFrames() const
+  {
+    const std::string sensor =
+        request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
+    if (summary_.frames == 0)
+      throw std::runtime_error(
+          request_.rawlog + ": no usable RGB-D images" + sensor + "; it has " +
+          source_.contentSummary());
+    if (summary_.framesWithoutColour == summary_.frames)
+      throw std::runtime_error(mrpt::format(
+          "%s: none of its %zu images%s has colour", request_.rawlog.c_str(), summary_.frames,
+          sensor.c_str()));
+  }
+
+  const DetectRequest& request_;
+  Detector& detector_;
+  RawlogSource source_;
+  GzipFileWriter output_;
+  std::chrono::steady_clock::time_point start_;
+  DetectSummary summary_;
+};
+
+}  // namespace
+
+DetectSummary detectInRawlog(const DetectRequest& request, Detector& detector)
+{
+  return DetectRun(request, detector).run();
+}
+
+}  // namespace quadmap

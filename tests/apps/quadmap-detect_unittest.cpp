@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "RedCorner.h"
+#include "RunProgram.h"
+#include "quadmap/obs/FrameAgreement.h"
+
+using namespace quadmap;
+
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+class QuadmapDetect : public testing::Test
+{
+ protected:
+  /** Runs the program with the model of TinyDetector. */
+  ProgramResult run(const std::string& arguments) const
+  {
+    return runProgram("quadmap-detect", arguments + " --model '" + tiny_.model() + "'");
+  }
+  std::string writeRecording(int frames = 5) const
+  {
+    return writeScans(folder_.path("x.rawlog"), redCornerScans(frames));
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path(name)); }
+
+  TinyDetector tiny_;
+  TemporaryFolder folder_;
+};
+
+bool isOneLine(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+}  // namespace
+
+TEST_F(QuadmapDetect, WritesBoxesWhereTheOtherProgramsLook)
+{
+  const auto rawlog = writeRecording();
+  const auto result = run(rawlog);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "no bar without a terminal";
+  EXPECT_NE(result.out.find("x.objects.rawlog: 5 frames, 5 boxes, "), kNotFound) << result.out;
+  EXPECT_NE(result.out.find("frames/s"), kNotFound) << result.out;
+  const auto frames = readAll(rawlog);
+  ASSERT_EQ(frames.size(), 5u);
+  for (const auto& frame : frames)
+  {
+    ASSERT_TRUE(frame.objects);
+    ASSERT_EQ(frame.objects->objects.size(), 1u);
+    EXPECT_EQ(frame.objects->objects[0].label, "chair");
+    EXPECT_NEAR(frame.objects->objects[0].box.x2, 12, 0.5);
+    EXPECT_NEAR(frame.objects->objects[0].box.y2, 9, 0.5);
+  }
+}
+
+TEST_F(QuadmapDetect, TheSameImagesGiveTheSameBytes)
+{
+  const auto rawlog = writeRecording();
+  ASSERT_EQ(run(rawlog).status, 0);
+  const auto first = readFile(folder_.path("x.objects.rawlog"));
+  ASSERT_EQ(run(rawlog).status, 0);
+  EXPECT_EQ(readFile(folder_.path("x.objects.rawlog")), first);
+}
+
+TEST_F(QuadmapDetect, ReplacesEarlierBoxesWithoutReadingThem)
+{
+  const auto rawlog = writeRecording();
+  folder_.write("x.objects.rawlog", "nonsense");
+  ASSERT_EQ(run(rawlog).status, 0);
+  EXPECT_TRUE(readAll(rawlog).at(0).objects);
+  ASSERT_EQ(run(rawlog + " -o " + folder_.path("other.rawlog")).status, 0);
+  EXPECT_EQ(readFile(folder_.path("other.rawlog")), readFile(folder_.path("x.objects.rawlog")));
+}
+
+TEST_F(QuadmapDetect, LooksAtImagesThatAreUpsideDown)
+{
+  auto scans = redCornerScans(2);
+  for (auto& scan : scans)
+  {
+    scan->cameraParams.setIntrinsicParamsFromValues(60, -62, 31.5, 23.5);
+    scan->cameraParamsIntensity = scan->cameraParams;
+  }
+  const auto rawlog = writeScans(folder_.path("x.rawlog"), scans);
+  ASSERT_EQ(run(rawlog).status, 0);
+  const auto frames = readAll(rawlog);  // which checks that boxes and scans agree
+  ASSERT_EQ(frames.size(), 2u);
+  ASSERT_TRUE(frames[1].isTurned);
+  ASSERT_TRUE(frames[1].objects);
+  EXPECT_NEAR(frames[1].objects->objects.at(0).box.y1, kRows - 1 - 9, 0.5);
+}
+
+TEST_F(QuadmapDetect, DrawsPictures)
+{
+  const auto rawlog = writeRecording(3);
+  ASSERT_EQ(run(rawlog + " --draw " + folder_.path("a/b")).status, 0);
+  for (const char* name : {"a/b/frame-000000.jpg", "a/b/frame-000002.jpg"})
+  {
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile(folder_.path(name))) << name;
+    EXPECT_GT(picture.getWidth(), 1000u);
+  }
+  EXPECT_FALSE(exists("a/b/frame-000003.jpg"));
+}
+
+TEST_F(QuadmapDetect, ListsTheModels)
+{
+  ::setenv("QUADMAP_MODELS", folder_.folder().c_str(), 1);
+  folder_.write("nanodet.onnx", "x");
+  const auto result = runProgram("quadmap-detect", "--list");
+  ::unsetenv("QUADMAP_MODELS");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find(folder_.folder().string()), kNotFound) << result.out;
+  std::istringstream lines(result.out);
+  int curl = 0;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const bool isInstalled = line.find("installed  Apache-2.0") != kNotFound;
+    EXPECT_EQ(isInstalled, line.find("nanodet-m ") == 0) << line;
+    curl += line.find("    mkdir -p '" + folder_.folder().string() + "' && curl -fL ") == 0;
+    EXPECT_EQ(line.find("ultralytics"), kNotFound);
+  }
+  EXPECT_GE(curl, 4);
+}
+
+TEST_F(QuadmapDetect, NamesWhatIsWrongInOneLine)
+{
+  const auto rawlog = writeRecording();
+  folder_.write("x.objects.rawlog", "as before");
+  const auto expectError = [&](const ProgramResult& result, const std::string& part)
+  {
+    EXPECT_EQ(result.status, 1) << part;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_EQ(result.err.find("quadmap-detect: "), 0u) << result.err;
+    EXPECT_NE(result.err.find(part), kNotFound) << result.err;
+    EXPECT_EQ(readFile(folder_.path("x.objects.rawlog")), "as before");
+    EXPECT_EQ(folder_.fileCount(), 2u);
+  };
+  expectError(run("/nonexistent.rawlog"), "/nonexistent.rawlog");
+  expectError(run(rawlog + " -o /nonexistent/boxes"), "/nonexistent/boxes");
+  expectError(run(rawlog + " --sensor left"), "no usable RGB-D images of a sensor \"left\"");
+  expectError(
+      runProgram("quadmap-detect", rawlog + " --model nosuch"), "nosuch: is no known model");
+  tiny_.folder.write("tiny.weights", "");
+  expectError(run(rawlog), "tiny.weights: is empty");
+}
+
+TEST_F(QuadmapDetect, TellsOfImagesWithoutColour)
+{
+  auto scans = redCornerScans(3);
+  scans[1]->hasIntensityImage = false;
+  auto rawlog = writeScans(folder_.path("x.rawlog"), scans);
+  auto result = run(rawlog);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("1 of 3 images have no colour"), kNotFound) << result.err;
+  EXPECT_FALSE(readAll(rawlog).at(1).objects) << "nobody looked";
+  for (auto& scan : scans) scan->hasIntensityImage = false;
+  rawlog = writeScans(folder_.path("y.rawlog"), scans);
+  result = run(rawlog);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("none of its 3 images has colour"), kNotFound) << result.err;
+  EXPECT_FALSE(exists("y.objects.rawlog"));
+}
+
+TEST_F(QuadmapDetect, KeepsGoingWhenAsked)
+{
+  const auto rawlog = writeRecording(6);
+  const auto whole = readFile(rawlog);
+  folder_.write("x.rawlog", whole.substr(0, whole.size() * 2 / 3));
+  EXPECT_EQ(run(rawlog).status, 1);
+  EXPECT_FALSE(exists("x.objects.rawlog"));
+  const auto result = run(rawlog + " --keep-going");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("left out: "), kNotFound) << result.err;
+  EXPECT_TRUE(exists("x.objects.rawlog"));
+}
+
+TEST_F(QuadmapDetect, AnswersWrongUsageWithStatus2AndOneLine)
+{
+  for (const char* arguments : {"", "x.rawlog", "--model m", "x.rawlog --list --model m", "--lsit"})
+  {
+    const auto result = runProgram("quadmap-detect", arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  }
+}
