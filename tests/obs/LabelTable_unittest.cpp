@@ -309,6 +309,34 @@ TEST(LabelTable, RoundTripsThroughAnArchive)
   EXPECT_ANY_THROW(LabelTable::readFrom(half));
 }
 
+TEST(LabelTable, FilesAndArchivesHaveTheSameLimits)
+{
+  const std::string sizes[] = {"0.01 1 100", "0.009 1 1", "1 1 101"};
+  for (const auto& size : sizes)
+    EXPECT_EQ(
+        errorOf([&] { tableOf("[cup]\ntypicalSize = " + size + "\n"); }).empty(), &size == sizes)
+        << size;
+
+  const double allowed = 3, others[] = {0.009, 3.1, 999, -1, std::nan("")};
+  const auto withSpread = [&](double spread)
+  {
+    mrpt::io::CMemoryStream stream;
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    tableOf("[cup]\ntypicalSize = 1 1 1\nsizeSpread = 3\n").writeTo(archive);
+    std::string bytes(
+        static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount());
+    const std::string stored(reinterpret_cast<const char*>(&allowed), sizeof allowed);
+    const auto at = bytes.find(stored);
+    EXPECT_EQ(at, bytes.rfind(stored));
+    bytes.replace(at, sizeof spread, reinterpret_cast<const char*>(&spread), sizeof spread);
+    mrpt::io::CMemoryStream changed(bytes.data(), bytes.size());
+    auto in = mrpt::serialization::archiveFrom(changed);
+    return LabelTable::readFrom(in);
+  };
+  EXPECT_EQ(withSpread(allowed).properties("cup").sizeSpread, allowed);
+  for (const double spread : others) EXPECT_ANY_THROW(withSpread(spread)) << spread;
+}
+
 TEST(LabelTable, IsCompletedByClassesItDoesNotHave)
 {
   const TemporaryFolder folder;

@@ -57,17 +57,16 @@ UsualSupport readSupport(const CConfigFile& config, const std::string& section)
 
 Eigen::Vector3d readSize(const CConfigFile& config, const std::string& section)
 {
-  constexpr double kLargest = 100.0;  // largest size of an object [m]
   const auto text = config.read_string(section, "typicalSize", "");
   std::vector<std::string> words;
   mrpt::system::tokenize(text, " \t,", words);
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < words.size() && i < 3; ++i)
     size[static_cast<int>(i)] = parseNumber(words[i]).value_or(0.0);
-  if (words.size() != 3 || !size.allFinite() || !(size.minCoeff() > 0) ||
-      !(size.maxCoeff() <= kLargest))
+  if (words.size() != 3 || !size.allFinite() || size.minCoeff() < LabelLimits::kSmallestSize ||
+      size.maxCoeff() > LabelLimits::kLargestSize)
     throw std::invalid_argument(
-        "[" + section + "] typicalSize=" + text + ": must be three lengths in (0, 100] m");
+        "[" + section + "] typicalSize=" + text + ": must be three lengths in [0.01, 100] m");
   return size;
 }
 
@@ -85,7 +84,9 @@ LabelProperties readProperties(const CConfigFile& config, const std::string& sec
   readFlag(config, section, "levelTop", p.levelTop);
   p.support = readSupport(config, section);
   p.typicalSize = readSize(config, section);
-  readNumber(config, section, "sizeSpread", p.sizeSpread, 0.01, 3.0);
+  readNumber(
+      config, section, "sizeSpread", p.sizeSpread, LabelLimits::kSmallestSpread,
+      LabelLimits::kLargestSpread);
   p.confusedWith = readList(config, section, "confusedWith");
   return p;
 }

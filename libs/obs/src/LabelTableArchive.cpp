@@ -13,8 +13,6 @@ using mrpt::serialization::CArchive;
 
 /** A stream that announces more than this holds garbage. */
 constexpr std::uint32_t kMaxClasses = 10000, kMaxSpellings = 100000, kMaxConfused = 100;
-/** Largest size of an object, as in the label table's own file [m]. */
-constexpr double kLargest = 100.0;
 
 void writeProperties(CArchive& out, const LabelProperties& p)
 {
@@ -44,10 +42,12 @@ LabelProperties readProperties(CArchive& in)
       p.shapeExponent >= 1 && p.shapeExponent <= 2, "a label's shape exponent is not in [1, 2]");
   requireStored(!p.name.empty(), "a label has no name");
   requireStored(
-      p.typicalSize.allFinite() && p.typicalSize.minCoeff() > 0 &&
-          p.typicalSize.maxCoeff() <= kLargest,
-      "a label's size is not within 0 and 100 m");
-  requireStored(p.sizeSpread > 0 && p.sizeSpread < 1e3, "a label's size spread is not positive");
+      p.typicalSize.allFinite() && p.typicalSize.minCoeff() >= LabelLimits::kSmallestSize &&
+          p.typicalSize.maxCoeff() <= LabelLimits::kLargestSize,
+      "a label's size is not in [0.01, 100] m");
+  requireStored(
+      p.sizeSpread >= LabelLimits::kSmallestSpread && p.sizeSpread <= LabelLimits::kLargestSpread,
+      "a label's size spread is not in [0.01, 3]");
   return p;
 }
 

@@ -25,6 +25,14 @@ enum class UsualSupport
   Any
 };
 
+/** What a label table may say, whichever file it comes from. Sizes and spreads beyond these are no
+ * object's, and what is computed from them would overflow. */
+struct LabelLimits
+{
+  static constexpr double kSmallestSize = 0.01, kLargestSize = 100;    //!< [m]
+  static constexpr double kSmallestSpread = 0.01, kLargestSpread = 3;  //!< See sizeSpread [-]
+};
+
 /** What is known about the objects of a label before one is seen. */
 struct LabelProperties
 {
