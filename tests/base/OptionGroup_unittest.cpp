@@ -106,6 +106,24 @@ TEST(OptionGroup, NamesSectionKeyValueAndBoundsOfWhatIsWrong)
         << c.line << " gave " << errorOf([&] { basketFrom(c.line); });
 }
 
+TEST(OptionGroup, IsAsItWasWhenReadingFails)
+{
+  for (const char* wrong : {"fruit = plum", "most = 1", "label = a-b", "weight = 11"})
+  {
+    Basket basket;
+    basket.weight = 1.0 / 3;
+    basket.tilt = 1.0 / 7;
+    const std::string ini = std::string("[b]\nplace = 1 2 3\nweight = 2.5\ntilt_deg = 3\n") + wrong;
+    const mrpt::config::CConfigFileMemory config(
+        wrong[0] == 'w' ? "[b]\nplace = 1 2 3\nmost = 8\nweight = 11\n" : ini);
+    EXPECT_THROW(basket.loadFromConfigFile(config, "b"), std::invalid_argument) << wrong;
+    EXPECT_EQ(basket.weight, 1.0 / 3) << wrong;
+    EXPECT_EQ(basket.tilt, 1.0 / 7) << wrong;
+    EXPECT_EQ(basket.place[0], 0) << wrong;
+    EXPECT_EQ(basket.most, 9) << wrong;
+  }
+}
+
 TEST(OptionGroup, SavesWithoutLoss)
 {
   Basket basket;

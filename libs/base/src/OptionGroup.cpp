@@ -89,6 +89,8 @@ void OptionGroup::loadFromConfigFile(const CConfigFileBase& config, const std::s
 {
   const OptionList list = options();
   rejectUnknownKeys(config, section, knownKeys(list, config, section));
+  std::vector<std::string> before;
+  for (const auto& option : list.options()) before.push_back(option.text());
   try
   {
     for (const auto& option : list.options()) load(option, config, section);
@@ -96,6 +98,9 @@ void OptionGroup::loadFromConfigFile(const CConfigFileBase& config, const std::s
   }
   catch (const std::invalid_argument& e)
   {
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (const Option& option = list.options()[i]; option.text() != before[i])
+        option.read(before[i]);
     throw std::invalid_argument("[" + section + "] " + e.what());
   }
 }

@@ -26,7 +26,8 @@ constexpr double fromDegrees(long double degrees)
 class OptionGroup : public mrpt::config::CLoadableOptions
 {
  public:
-  /** Reads the keys that the section has; a missing key leaves its option as it is.
+  /** Reads the keys that the section has; a missing key leaves its option as it is. All options
+   * are as they were when this fails.
    *  \exception std::invalid_argument For an unknown key and for a value that is malformed or out
    *  of bounds; the message names section, key, value and bounds. */
   void loadFromConfigFile(
