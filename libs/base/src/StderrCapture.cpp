@@ -8,7 +8,12 @@
 
 namespace quadmap
 {
-StderrCapture::StderrCapture()
+namespace
+{
+std::mutex oneAtATime;
+}
+
+StderrCapture::StderrCapture() : alone_(oneAtATime)
 {
   std::fflush(stderr);
   kept_ = ::memfd_create("stderr", MFD_CLOEXEC);

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 
 namespace quadmap
 {
 /** While it lives, what libraries print to the terminal is kept instead: libpng and libjpeg tell
  * there what is wrong with an image, and name no file. What other threads print meanwhile is kept,
- * too, so it should be short. */
+ * too, so it should be short. One lives at a time: another thread that makes one waits, and one
+ * thread must not make two. */
 class StderrCapture
 {
  public:
@@ -19,7 +21,8 @@ class StderrCapture
   std::string text() const;
 
  private:
-  int terminal_ = -1, kept_ = -1;  //!< Descriptors; -1 when nothing can be kept
+  std::unique_lock<std::mutex> alone_;  //!< The terminal is the process's
+  int terminal_ = -1, kept_ = -1;       //!< Descriptors; -1 when nothing can be kept
 };
 
 }  // namespace quadmap
