@@ -9,6 +9,7 @@
 #include <random>
 
 #include "../obs/TemporaryFolder.h"
+#include "quadmap/base/GzipInput.h"
 #include "quadmap/base/OutputFile.h"
 
 using namespace quadmap;
@@ -142,6 +143,14 @@ TEST(OutputSet, AMixtureIsRefusedFileByFile)
         errorOf([&] { requireOneRun(folder.path(name)); }).find("two runs"), std::string::npos)
         << name;
   EXPECT_EQ(errorOf([&] { requireOneRun(folder.path("other.txt")); }), "") << "is of no set";
+}
+
+TEST(OutputSet, FilesThatAreNoResultsAreOpenedWithoutASearch)
+{
+  const TemporaryFolder folder;
+  leaveMixture(folder);
+  EXPECT_THROW(GzInput(folder.path("a.txt")), std::runtime_error);
+  EXPECT_NO_THROW(GzInput(folder.path("a.txt"), false));
 }
 
 TEST(OutputSet, TheNextProgramCompletesAMixture)

@@ -35,11 +35,11 @@ std::string errorText(int zlibError)
 }
 }  // namespace
 
-GzInput::GzInput(const std::string& path)
+GzInput::GzInput(const std::string& path, bool isResult)
 {
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(path + ": is a directory, not a file");
-  requireOneRun(path);
+  if (isResult) requireOneRun(path);
   file_ = openOrThrow(path);
   std::error_code unknown;  // of a pipe
   const auto size = std::filesystem::file_size(path, unknown);

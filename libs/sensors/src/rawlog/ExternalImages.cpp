@@ -19,7 +19,7 @@ namespace
 namespace fs = std::filesystem;
 
 // MRPT does not notice that the end of a file was not written.
-void requireCompleteGz(const std::string& path) { GzInput(path).skipToEnd(); }
+void requireCompleteGz(const std::string& path) { GzInput(path, false).skipToEnd(); }
 
 void requireCompleteJpeg(const std::string& path)
 {

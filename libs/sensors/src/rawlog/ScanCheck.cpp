@@ -46,7 +46,7 @@ std::string pathOf(const std::string& name, const ImageRules& rules)
  * bits per pixel. MRPT's own loader crashes on damaged files. */
 void loadDepthFile(const std::string& path, std::uint64_t mostPixels, CObservation3DRangeScan& scan)
 {
-  GzInput file(path);
+  GzInput file(path, false);
   std::uint32_t size[2] = {0, 0};
   if (file.Read(size, sizeof size) == 0) throw std::runtime_error("it is empty");
   const auto [rows, columns] = size;

@@ -14,8 +14,11 @@ namespace quadmap
 class GzInput : public mrpt::io::CStream
 {
  public:
-  /** \exception std::runtime_error If the file cannot be opened. */
-  explicit GzInput(const std::string& path);
+  /** \param isResult False for a file that never is a result by itself, as an image in a folder of
+   *  thousands. For a result the folder is searched for what a killed program left.
+   *  \exception std::runtime_error If the file cannot be opened, or is a result that belongs to two
+   *  runs (requireOneRun()). */
+  explicit GzInput(const std::string& path, bool isResult = true);
   ~GzInput() override;
   GzInput(const GzInput&) = delete;
   GzInput& operator=(const GzInput&) = delete;
