@@ -1,9 +1,11 @@
 #include "records/MemoryGuard.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
+#include <mutex>
 
 namespace quadmap
 {
@@ -20,20 +22,28 @@ rlim_t memoryNow()
   file >> total >> resident >> shared >> text >> unused >> data;
   return file ? data * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
+
+/** The limit belongs to the process, and so do these. */
+std::mutex mutex;
+int guards = 0;
+rlimit limitWithoutGuards{};
 }  // namespace
 
 MemoryGuard::MemoryGuard()
 {
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (guards++ == 0) ::getrlimit(RLIMIT_DATA, &limitWithoutGuards);
   const rlim_t now = memoryNow();
-  if (now == 0 || ::getrlimit(RLIMIT_DATA, &before_) != 0) return;
-  rlimit limit = before_;
-  limit.rlim_cur = std::min(before_.rlim_cur, now + kMore);
-  active_ = ::setrlimit(RLIMIT_DATA, &limit) == 0;
+  if (now == 0) return;
+  rlimit limit = limitWithoutGuards;
+  limit.rlim_cur = std::min(limitWithoutGuards.rlim_cur, now + kMore);
+  ::setrlimit(RLIMIT_DATA, &limit);
 }
 
 MemoryGuard::~MemoryGuard()
 {
-  if (active_) ::setrlimit(RLIMIT_DATA, &before_);
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (--guards == 0) ::setrlimit(RLIMIT_DATA, &limitWithoutGuards);
 }
 
 }  // namespace quadmap

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <sys/resource.h>
-
 namespace quadmap
 {
 /** While it lives, the process may take only so much more memory than it has; then allocation
- * fails with an exception. It is for reading objects whose layout is not known here. */
+ * fails with an exception. It is for reading objects whose layout is not known here. Several may
+ * live at once, in any threads: the limit of the process goes with the last one. */
 class MemoryGuard
 {
  public:
@@ -13,10 +12,6 @@ class MemoryGuard
   ~MemoryGuard();
   MemoryGuard(const MemoryGuard&) = delete;
   MemoryGuard& operator=(const MemoryGuard&) = delete;
-
- private:
-  bool active_ = false;
-  rlimit before_{};
 };
 
 }  // namespace quadmap

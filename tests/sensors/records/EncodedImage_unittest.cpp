@@ -1,0 +1,41 @@
+#include "records/EncodedImage.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+using namespace quadmap;
+
+namespace
+{
+constexpr int kColumns = 40, kRows = 30;
+
+/** \param format The end of a file's name. */
+std::vector<std::uint8_t> encoded(const char* format)
+{
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(format, cv::Mat(kRows, kColumns, CV_8UC3, cv::Scalar(10, 200, 30)), bytes);
+  return bytes;
+}
+
+bool isRead(const std::vector<std::uint8_t>& bytes, std::uint64_t mostPixels)
+{
+  try
+  {
+    return decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, mostPixels).cols == kColumns;
+  }
+  catch (const std::runtime_error&)
+  {
+    return false;
+  }
+}
+}  // namespace
+
+TEST(EncodedImage, NoFormatEscapesTheLimitOfPixels)
+{
+  constexpr std::uint64_t kEnough = kColumns * kRows;
+  for (const char* format : {".jpg", ".png"})
+    EXPECT_TRUE(isRead(encoded(format), kEnough)) << format;
+  for (const char* format : {".jpg", ".png", ".bmp", ".ppm"})
+    EXPECT_FALSE(isRead(encoded(format), kEnough - 1)) << format;
+}
