@@ -67,7 +67,7 @@ ImageSize sizeOfJpeg(const std::uint8_t* bytes, std::size_t size)
   return largest;
 }
 
-/** Zero when the format does not tell. */
+/** Zero when the image has another format or does not tell. */
 ImageSize statedSize(const std::uint8_t* bytes, std::size_t size)
 {
   constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8}, kPng[] = {0x89, 'P', 'N', 'G'};
@@ -109,7 +109,9 @@ cv::Mat decodeImage(
     const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels)
 {
   const ImageSize stated = statedSize(bytes, size);
-  if (stated.width > 0 && stated.height > mostPixels / stated.width)
+  if (stated.width == 0 || stated.height == 0)
+    throw std::runtime_error("cannot be read as an image: is neither a JPEG nor a PNG file");
+  if (stated.height > mostPixels / stated.width)
     throw std::runtime_error(mrpt::format(
         "has %llux%llu pixels, more than %llu million",
         static_cast<unsigned long long>(stated.width),

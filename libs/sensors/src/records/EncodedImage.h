@@ -7,10 +7,11 @@
 
 namespace quadmap
 {
-/** Decodes an image file that is in memory. JPEG and PNG state their size at the beginning, and it
- * is looked at before memory is taken for the pixels.
+/** Decodes a JPEG or PNG file that is in memory. They state their size, which is looked at before
+ * memory is taken for the pixels.
  * \param flags Of cv::imdecode(). The orientation in EXIF data is ignored in any case.
- * \exception std::runtime_error If it is damaged or has more pixels than that. */
+ * \exception std::runtime_error If it has another format, is damaged, or has more
+ * pixels than that. */
 cv::Mat decodeImage(
     const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels);
 
