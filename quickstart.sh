@@ -80,8 +80,8 @@ demo() {
   "$build/bin/quadmap-evaluate" "$out" --objects "$in.objects.gt.json" \
     --trajectory "$in.groundtruth.tum" --json "$out/evaluation.json"
   say "drawing the map"
-  "$build/bin/quadmap-export" "$out" --png "$out/map.png" >"$logs/export.log"
-  say "done; picture: $out/map.png; files in $out:"
+  "$build/bin/quadmap-export" "$out" --png "$out/map.png" --html "$out/map.html" >"$logs/export.log"
+  say "done; picture: $out/map.png; page for a browser: $out/map.html; files in $out:"
   find "$out" -maxdepth 1 -type f -printf '     %f\n' | sort
 }
 

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "quadmap/evaluation/EvaluationReport.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/review/KeyframeContent.h"
+#include "quadmap/review/PageKeyframes.h"
 
 namespace quadmap
 {
@@ -21,27 +23,125 @@ std::vector<mrpt::poses::CPose3D> posesOf(const fs::path& path)
   return poses;
 }
 
+CQuadricObjectMap readMap(const std::string& input)
+{
+  const fs::path path = input;
+  if (!fs::exists(path)) throw std::runtime_error(input + ": there is no such file or folder");
+  const fs::path mapPath = fs::is_directory(path) ? path / "objects.quadmap" : path;
+  if (!fs::exists(mapPath))
+    throw std::runtime_error(mapPath.string() + ": is missing; is this a folder of quadmap-slam?");
+  CQuadricObjectMap map;
+  map.loadFromFile(mapPath.string());
+  return map;
+}
+
+/** The true objects in the frame of the map. */
+std::vector<ObjectRecord> readTruth(const ExportInput& input)
+{
+  if (!input.truthPath) return {};
+  std::vector<ObjectRecord> truth = readObjectsJson(*input.truthPath);
+  if (input.inPlace) return truth;
+  if (!fs::is_directory(input.path))
+    throw std::runtime_error(
+        input.path + ": a map file has no trajectory to align the truth by; give the folder");
+  EvaluationInput alignment;
+  alignment.estimate = input.path;
+  alignment.trueTrajectoryPath = input.trajectoryPath;
+  const mrpt::poses::CPose3D T_map_truth = -evaluateRun(alignment).T_truth_estimated;
+  for (ObjectRecord& record : truth) record.object = record.object.transformed(T_map_truth);
+  return truth;
+}
+
+SceneContent readScene(
+    const ExportInput& input, const CQuadricObjectMap& map, const KeyframeVisitor& visit)
+{
+  SceneContent content;
+  content.objects = map.toRecords();
+  content.truth = readTruth(input);
+  const fs::path path = input.path;
+  if (!fs::is_directory(path)) return content;
+  content.trajectory = posesOf(path / "trajectory.tum");
+  content.odometry = posesOf(path / "trajectory_odometry.tum");
+  const fs::path keyframes = path / "map.simplemap";
+  if (input.withCloud && fs::exists(keyframes))
+    addKeyframes(keyframes.string(), {}, content, visit);
+  return content;
+}
+
+PageObject pageObjectOf(const MapObject& object)
+{
+  PageObject out;
+  out.record.id = std::to_string(object.id);
+  out.record.label = object.label();
+  out.record.object = object.object;
+  out.record.orientationDefined = object.orientationDefined;
+  out.record.observations = object.observations();
+  out.record.existence = object.existence();
+  out.record.labelCounts = object.labelCounts;
+  out.record.covariance = object.covariance;
+  out.confirmed = object.confirmed;
+  out.misses = object.missCount;
+  out.firstSeen = mrpt::Clock::toDouble(object.firstSeen);
+  out.lastSeen = mrpt::Clock::toDouble(object.lastSeen);
+  return out;
+}
+
+std::vector<PageObject> pageObjectsOf(const CQuadricObjectMap& map)
+{
+  std::vector<PageObject> objects;
+  for (const auto& entry : map.objects()) objects.push_back(pageObjectOf(entry.second));
+  return objects;
+}
+
+/** Fills in the truth or the second map. */
+void addCompared(
+    const ExportInput& input, const std::optional<std::string>& mapPath, PageContent& content)
+{
+  if (mapPath)
+  {
+    content.comparedName = *mapPath;
+    content.compared = pageObjectsOf(readMap(*mapPath));
+  }
+  else if (input.truthPath)
+  {
+    content.comparedName = *input.truthPath;
+    content.comparedIsTruth = true;
+    for (const ObjectRecord& record : content.scene.truth)
+    {
+      content.compared.emplace_back();
+      content.compared.back().record = record;
+    }
+  }
+}
+
 }  // namespace
 
 SceneContent readExportInput(const ExportInput& input)
 {
-  const fs::path path = input.path;
-  if (!fs::exists(path)) throw std::runtime_error(input.path + ": there is no such file or folder");
-  const bool isFolder = fs::is_directory(path);
-  const fs::path mapPath = isFolder ? path / "objects.quadmap" : path;
-  if (!fs::exists(mapPath))
-    throw std::runtime_error(mapPath.string() + ": is missing; is this a folder of quadmap-slam?");
+  return readScene(input, readMap(input.path), {});
+}
 
-  SceneContent content;
-  CQuadricObjectMap map;
-  map.loadFromFile(mapPath.string());
-  content.objects = map.toRecords();
-  if (input.truthPath) content.truth = readObjectsJson(*input.truthPath);
-  if (!isFolder) return content;
-  content.trajectory = posesOf(path / "trajectory.tum");
-  content.odometry = posesOf(path / "trajectory_odometry.tum");
-  const fs::path keyframes = path / "map.simplemap";
-  if (input.withCloud && fs::exists(keyframes)) addKeyframes(keyframes.string(), {}, content);
+PageContent readPageInput(
+    const ExportInput& input, const std::optional<std::string>& comparedMapPath)
+{
+  const CQuadricObjectMap map = readMap(input.path);
+  std::optional<PageImages> images;
+  const auto visit = [&images](const auto& scan, const CameraPose& camera, std::size_t keyframes)
+  {
+    if (!images) images.emplace(PageImageOptions(), keyframes);
+    images->add(scan, camera);
+  };
+  PageContent content;
+  content.title = input.path;
+  content.scene = readScene(input, map, visit);
+  content.objects = pageObjectsOf(map);
+  for (const auto& entry : map.labels().all()) content.labels.push_back(entry.first);
+  if (images) content.keyframes = std::move(images->keyframes());
+  const fs::path boxes = fs::path(input.path) / "objects.simplemap";
+  if (fs::exists(boxes))
+    addPageBoxes(
+        boxes.string(), (fs::path(input.path) / "report.json").string(), content.keyframes);
+  addCompared(input, comparedMapPath, content);
   return content;
 }
 

@@ -1,11 +1,13 @@
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <regex>
 #include <string>
 
 #include "ExportInput.h"
 #include "common/CommandLine.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/review/PageFile.h"
 #include "quadmap/review/PlyFile.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/review/SceneRenderer.h"
@@ -35,8 +37,22 @@ struct Cli
   Text ply{"",     "ply",      "Ellipsoids as triangles, and the point cloud.", false, "",
            "FILE", line.args()};
   Text json{"", "json", "The objects (form of objects.json).", false, "", "FILE", line.args()};
-  Text truth{"",        "truth",    "True objects to draw in black, in the map's frame.", false, "",
-             "gt.json", line.args()};
+  Text html{"", "html", "Page for a browser, complete in itself.", false, "", "FILE", line.args()};
+  Text truth{"",         "truth", "True objects, drawn in black. Needs --trajectory or --in-place.",
+             false,      "",      "gt.json",
+             line.args()};
+  Text trajectory{"",         "trajectory", "True trajectory, by which the truth is aligned.",
+                  false,      "",           "gt.tum",
+                  line.args()};
+  TCLAP::SwitchArg inPlace{"", "in-place", "The truth is in the map's frame already.", line.args()};
+  Text compare{
+      "",         "compare", "Second map to show beside this one in the page, in the same frame.",
+      false,      "",        "OUTDIR",
+      line.args()};
+  Text three{
+      "",         "three",      "Folder of three.js for --html (default that of libjs-three).",
+      false,      kThreeFolder, "DIR",
+      line.args()};
   Text size{"",    "size",     "Of the pictures [px] (default 1280x720).", false, "1280x720",
             "WxH", line.args()};
   TCLAP::SwitchArg noCloud{"", "no-cloud", "Leave out the point cloud.", line.args()};
@@ -62,11 +78,20 @@ void requirePngName(TCLAP::ValueArg<std::string>& argument)
 
 void checkUsage(Cli& cli)
 {
+  pictureSizeFrom(cli.size.getValue());
   requirePngName(cli.png);
   requirePngName(cli.top);
-  for (const auto* output : {&cli.scene, &cli.png, &cli.top, &cli.ply, &cli.json})
+  if (cli.truth.isSet() && cli.trajectory.isSet() == cli.inPlace.getValue())
+    throw cli::UsageError(
+        "--truth: give either --trajectory, the true trajectory that aligns it with the map, or "
+        "--in-place when it is in the map's frame");
+  if (!cli.truth.isSet() && (cli.trajectory.isSet() || cli.inPlace.getValue()))
+    throw cli::UsageError("--trajectory and --in-place belong to --truth");
+  if (cli.compare.isSet() && (cli.truth.isSet() || !cli.html.isSet()))
+    throw cli::UsageError("--compare: belongs to --html, and goes without --truth");
+  for (const auto* output : {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.json})
     if (output->isSet()) return;
-  throw cli::UsageError("nothing to write: give --scene, --png, --top, --ply or --json");
+  throw cli::UsageError("nothing to write: give --html, --scene, --png, --top, --ply or --json");
 }
 
 /** Runs a writer if its file was asked for, and prints the name of the file. */
@@ -78,18 +103,30 @@ void writeIfSet(TCLAP::ValueArg<std::string>& argument, Write&& write)
   std::cout << "wrote " << argument.getValue() << "\n";
 }
 
-void run(Cli& cli)
+/** The value of an argument, if it was given. */
+std::optional<std::string> given(Cli::Text& argument)
 {
-  checkUsage(cli);
-  const PictureSize size = pictureSizeFrom(cli.size.getValue());
+  if (!argument.isSet()) return std::nullopt;
+  return argument.getValue();
+}
+
+ExportInput inputOf(Cli& cli)
+{
   ExportInput input;
   input.path = cli.input.getValue();
-  if (cli.truth.isSet()) input.truthPath = cli.truth.getValue();
-  const bool showsCloud =
-      cli.scene.isSet() || cli.png.isSet() || cli.top.isSet() || cli.ply.isSet();
+  input.truthPath = given(cli.truth);
+  input.trajectoryPath = given(cli.trajectory);
+  input.inPlace = cli.inPlace.getValue();
+  const bool showsCloud = cli.html.isSet() || cli.scene.isSet() || cli.png.isSet() ||
+                          cli.top.isSet() || cli.ply.isSet();
   input.withCloud = showsCloud && !cli.noCloud.getValue();
-  const SceneContent content = readExportInput(input);
+  return input;
+}
 
+/** All that shows a scene. */
+void writeScenes(Cli& cli, const SceneContent& content)
+{
+  const PictureSize size = pictureSizeFrom(cli.size.getValue());
   const SceneBuilder builder;
   writeIfSet(cli.json, [&](const auto& path) { writeObjectsJson(path, content.objects); });
   writeIfSet(cli.ply, [&](const auto& path) { writePly(content, path); });
@@ -100,6 +137,16 @@ void run(Cli& cli)
   { writePicture(renderer.render(*builder.picture(content, camera, size), camera), path); };
   writeIfSet(cli.png, [&](const auto& p) { picture(p, obliqueCamera(content, size.aspect())); });
   writeIfSet(cli.top, [&](const auto& p) { picture(p, cameraFromAbove(content, size.aspect())); });
+}
+
+void run(Cli& cli)
+{
+  checkUsage(cli);
+  const ExportInput input = inputOf(cli);
+  if (!cli.html.isSet()) return writeScenes(cli, readExportInput(input));
+  PageContent page = readPageInput(input, given(cli.compare));
+  writeIfSet(cli.html, [&](const auto& path) { writePage(page, path, cli.three.getValue()); });
+  writeScenes(cli, page.scene);
 }
 }  // namespace
 

@@ -116,13 +116,65 @@ TEST_F(QuadmapExport, WritesEverythingOfAFolder)
 TEST_F(QuadmapExport, ShowsASingleMapAndTheTruth)
 {
   writeObjectsJson(folder_.path("gt.json"), sampleMap().toRecords());
-  const auto result =
-      run("DIR/objects.quadmap --scene DIR/s.3Dscene --truth DIR/gt.json --json DIR/o.json");
+  const auto result = run(
+      "DIR/objects.quadmap --scene DIR/s.3Dscene --truth DIR/gt.json --in-place --json DIR/o.json");
   ASSERT_EQ(result.status, 0) << result.err;
   mrpt::opengl::COpenGLScene scene;
   ASSERT_TRUE(scene.loadFromFile(folder_.path("s.3Dscene")));
   EXPECT_EQ(childrenOf(scene, "truth"), 3u);
   EXPECT_EQ(childrenOf(scene, "labels"), 3u);
+}
+
+TEST_F(QuadmapExport, CarriesTheTruthIntoTheMapByTheTrajectories)
+{
+  // The true world is the map turned by a quarter and shifted.
+  const CPose3D T_truth_map(3, -2, 0.5, M_PI / 2, 0, 0);
+  std::vector<ObjectRecord> records = sampleMap().toRecords();
+  for (ObjectRecord& record : records) record.object = record.object.transformed(T_truth_map);
+  writeObjectsJson(folder_.path("gt.json"), records);
+  Trajectory truth = readTumTrajectory(folder_.path("trajectory.tum"));
+  for (StampedPose& stamped : truth) stamped.pose = T_truth_map + stamped.pose;
+  writeTumTrajectory(folder_.path("gt.tum"), truth);
+
+  const auto result =
+      run("DIR --no-cloud --scene DIR/s.3Dscene --truth DIR/gt.json --trajectory DIR/gt.tum");
+  ASSERT_EQ(result.status, 0) << result.err;
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder_.path("s.3Dscene")));
+  const auto truthDrawn =
+      std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(scene.getByName("truth"));
+  ASSERT_EQ(truthDrawn->size(), records.size());
+  const auto expected = sampleMap().toRecords();
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const auto drawn =
+        (*std::next(truthDrawn->begin(), static_cast<std::ptrdiff_t>(i)))->getBoundingBox();
+    const auto corners = expected[i].object.cuboidCorners();
+    const Eigen::Vector3d low = corners.rowwise().minCoeff(), high = corners.rowwise().maxCoeff();
+    constexpr double kLineWidth = 0.02;  // [m]
+    EXPECT_NEAR(static_cast<double>(drawn.min.x), low.x(), kLineWidth) << expected[i].label;
+    EXPECT_NEAR(static_cast<double>(drawn.min.y), low.y(), kLineWidth) << expected[i].label;
+    EXPECT_NEAR(static_cast<double>(drawn.max.x), high.x(), kLineWidth) << expected[i].label;
+    EXPECT_NEAR(static_cast<double>(drawn.max.z), high.z(), kLineWidth) << expected[i].label;
+  }
+}
+
+TEST_F(QuadmapExport, WritesAPageOfAFolderAndOfAMap)
+{
+  if (!std::filesystem::exists("/usr/share/javascript/three/three.min.js"))
+    GTEST_SKIP() << "libjs-three is not installed";
+  ASSERT_EQ(run("DIR --html DIR/p.html").status, 0);
+  const std::string page = readFile(folder_.path("p.html"));
+  EXPECT_NE(page.find("\"label\":\"refrigerator\""), kNotFound);
+  EXPECT_NE(page.find("\"jpeg\":\"/9j/"), kNotFound) << "the keyframes' images, as JPEG";
+  ASSERT_EQ(run("DIR/objects.quadmap --html DIR/m.html --compare DIR").status, 0);
+  EXPECT_EQ(readFile(folder_.path("m.html")).find("\"jpeg\":"), kNotFound) << "a map has none";
+
+  const auto missing = run("DIR --html DIR/x.html --three DIR/nowhere");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_TRUE(isOneLine(missing.err)) << missing.err;
+  EXPECT_NE(missing.err.find("libjs-three"), kNotFound) << missing.err;
+  EXPECT_FALSE(exists("x.html"));
 }
 
 TEST_F(QuadmapExport, LeavesOutTheCloudWhenAsked)
@@ -158,7 +210,12 @@ TEST_F(QuadmapExport, NamesTheFileItCannotRead)
   expectError("/nonexistent", "/nonexistent");
   expectError("/usr", "/usr/objects.quadmap");
   expectError("DIR/trajectory.tum", "trajectory.tum");
-  expectError("DIR --truth DIR/missing.json", "missing.json");
+  expectError("DIR --truth DIR/missing.json --in-place", "missing.json");
+  folder_.write("gt.json", R"({"objects": []})");
+  expectError("DIR --truth DIR/gt.json --trajectory DIR/missing.tum", "missing.tum");
+  expectError(
+      "DIR/objects.quadmap --truth DIR/gt.json --trajectory DIR/trajectory.tum",
+      "a map file has no trajectory");
   const auto cutInHalf = [&](const std::string& name)
   {
     const std::string whole = readFile(folder_.path(name));
@@ -203,7 +260,10 @@ TEST_F(QuadmapExport, AnswersWrongUsageWithStatus2AndOneLine)
   for (const char* arguments :
        {"", "DIR", "--png DIR/p.png", "DIR --png", "DIR --png DIR/p.jpeg", "DIR --pgn DIR/p.png",
         "DIR --png DIR/p.png --size big", "DIR --png DIR/p.png --size 10x10",
-        "DIR --png DIR/p.png --size 5000x100", "DIR DIR --png DIR/p.png", "DIR --no-cloud"})
+        "DIR --png DIR/p.png --size 5000x100", "DIR DIR --png DIR/p.png", "DIR --no-cloud",
+        "DIR --png DIR/p.png --truth DIR/gt.json", "DIR --png DIR/p.png --in-place",
+        "DIR --png DIR/p.png --truth DIR/gt.json --in-place --trajectory DIR/trajectory.tum",
+        "DIR --png DIR/p.png --compare DIR", "DIR --html DIR/p.htm --size 1x1"})
   {
     const auto result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;

@@ -46,7 +46,10 @@ CloudCollector::Selection selectionOf(
 }  // namespace
 
 void addKeyframes(
-    const std::string& simpleMapPath, const CloudOptions& options, SceneContent& content)
+    const std::string& simpleMapPath,
+    const CloudOptions& options,
+    SceneContent& content,
+    const KeyframeVisitor& visit)
 {
   SimpleMapReader reader(simpleMapPath);
   CloudCollector collector(options.cellSize, options.maxPoints);
@@ -60,13 +63,15 @@ void addKeyframes(
       const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
       if (!scan) continue;
       content.cameras.push_back(cameraOf(*scan, T_map_robot));
-      if (imagesOfSensor[scan->sensorLabel]++ % step != 0) continue;
+      const bool isUsed = imagesOfSensor[scan->sensorLabel]++ % step == 0;
+      if (!isUsed && !visit) continue;
       try
       {
         // A file beside the map could be any file of the user's.
         if (scan->rangeImage_isExternallyStored() || scan->intensityImage.isExternallyStored())
           throw std::runtime_error("its images are not in the simple map");
-        if (scan->hasRangeImage)
+        if (visit) visit(*scan, content.cameras.back(), reader.size());
+        if (isUsed && scan->hasRangeImage)
           collector.add(*scan, T_map_robot, selectionOf(*scan, options, reader.size()));
       }
       catch (const std::exception&)  // its text is about the inside of the library

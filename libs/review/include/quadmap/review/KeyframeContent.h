@@ -1,5 +1,8 @@
 #pragma once
 
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <functional>
 #include <string>
 
 #include "quadmap/review/SceneContent.h"
@@ -16,9 +19,19 @@ struct CloudOptions
   std::size_t maxKeyframes = 100;  //!< Largest number of keyframes, spread evenly, > 0
 };
 
+/** Gets each scan with where it was taken, and the number of keyframes of the whole file. */
+using KeyframeVisitor = std::function<void(
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const CameraPose& camera,
+    std::size_t keyframes)>;
+
 /** Adds cloud and cameras from the keyframes of a .simplemap. One keyframe is in memory at a time.
- * \exception std::runtime_error For a file that cannot be read. The message names it. */
+ * \param visit Is called for each scan, if it is given. \exception std::runtime_error For a file
+ * that cannot be read. The message names it. */
 void addKeyframes(
-    const std::string& simpleMapPath, const CloudOptions& options, SceneContent& content);
+    const std::string& simpleMapPath,
+    const CloudOptions& options,
+    SceneContent& content,
+    const KeyframeVisitor& visit = {});
 
 }  // namespace quadmap

@@ -1,0 +1,162 @@
+"""check_page.py CHECK PAGE: looks at a page in a browser as a person does. Says what is wrong; 77: no browser."""
+import sys
+import time
+
+from browser import Browser, path_of_browser
+
+
+def require(condition, text):
+    if not condition:
+        raise AssertionError(text)
+
+
+def address_of(path, link=""):
+    return "file://" + path + link
+
+
+def pixel_of(page, object_id):
+    """Where the middle of an object is drawn in the window."""
+    return page.evaluate(
+        f"(() => {{ const p = Page.view.pixelOf(new THREE.Vector3().fromArray(Page.objects.get('{object_id}').center));"
+        "const b = document.getElementById('view').getBoundingClientRect(); return [b.left + p.x, b.top + p.y]; })()")
+
+
+def check_links_between_table_and_view(path):
+    with Browser(address_of(path)) as page:
+        page.click_on("#objects tbody tr[data-id='2']")
+        require(page.evaluate("Page.selected") == "2", "a click on a row selects its object")
+        require(page.evaluate("document.querySelector('tr.selected').dataset.id") == "2", "the row is marked")
+        require(page.evaluate("Page.shapes.drawn.get('2').body.material.opacity") > 0.7, "the body is marked")
+        page.click(*pixel_of(page, "3"))
+        require(page.evaluate("Page.selected") == "3", "a click on a body selects its object")
+        require(page.evaluate("document.querySelector('tr.selected').dataset.id") == "3", "and its row")
+        require(page.evaluate("document.querySelector('#facts h2').textContent").endswith(" 3"), "and its facts")
+
+
+def check_labels_stay_text(path):
+    with Browser(address_of(path)) as page:
+        page.click_on("#objects tbody tr[data-id='1']")
+        for tab in ("object", "keyframes", "compare", "objects"):
+            page.evaluate(f"Page.showTab('{tab}')")
+        label = page.evaluate("Page.objects.get('1').label")
+        require("<script>" in label and "<img" in label, "the test's label holds markup: " + label)
+        require(page.evaluate("document.querySelector('tr[data-id=\"1\"]').textContent.includes(Page.objects.get('1').label)"),
+                "the table shows the label as it is")
+        require(page.evaluate("document.querySelectorAll('img').length") == 0, "no element came from a label")
+        require(page.evaluate("typeof window.attacked") == "undefined", "no script came from a label")
+
+
+def check_keyframes(path):
+    with Browser(address_of(path, "#k=1")) as page:
+        require(page.evaluate("Page.keyframe") == 1, "the link names the keyframe")
+        page.evaluate("Page.showTab('keyframes')")
+        page.wait("document.getElementById('image').getContext('2d').getImageData(2, 2, 1, 1).data[0] > 150")
+        text = page.evaluate("document.getElementById('boxes').textContent")
+        for part in ("complete", "the cuboid fits", "rejected", "too few points", "object 2", "no object"):
+            require(part in text, f"the list of boxes lacks '{part}': {text}")
+        page.click_on("#boxes button")
+        require(page.evaluate("Page.selected") == "2", "a box's button selects its object")
+        page.click_on("#after")
+        require(page.evaluate("Page.keyframe") == 2, "the button goes on")
+
+
+def check_link_keeps_the_view(path):
+    with Browser(address_of(path)) as page:
+        page.evaluate("Page.select('3')")
+        page.click_on("#top")
+        page.wait("!Page.view.moving && location.hash.includes('o=3')")
+        link, seen = page.evaluate("location.hash"), page.evaluate("Page.view.camera.position.toArray()")
+    with Browser(address_of(path, link)) as page:
+        again = page.evaluate("Page.view.camera.position.toArray()")
+        require(max(abs(a - b) for a, b in zip(seen, again)) < 0.01, f"{seen} became {again}")
+        require(page.evaluate("Page.selected") == "3", "the link keeps what is selected")
+
+
+def check_measures(path):
+    with Browser(address_of(path)) as page:
+        page.click_on("#measure")
+        page.click(*pixel_of(page, "2"))
+        page.click(*pixel_of(page, "3"))
+        require(page.evaluate("Page.overlay.measured.length") == 2, "two clicks, two points")
+        away = page.evaluate("Page.overlay.distance()")
+        require(1.0 < away < 4.0, f"distance between the surfaces: {away}")
+        require(f"{away:.3f} m" in page.evaluate("document.getElementById('note').textContent"), "it is told")
+
+
+def check_compares(path):
+    with Browser(address_of(path)) as page:
+        text = page.evaluate("document.getElementById('compare').textContent")
+        for part in ("1 found", "1 phantom", "1 missed", "phantom: refrigerator 3", "missed: bed 9"):
+            require(part in text, f"lacks '{part}': {text}")
+        require(page.evaluate("Page.shapes.layers.compared.children.length") == 2, "all true objects are drawn")
+
+
+def check_phone_and_themes(path):
+    with Browser(address_of(path), 390, 800) as page:
+        box = page.evaluate("(() => { const b = document.querySelector('aside').getBoundingClientRect(); return [b.left, b.width]; })()")
+        require(box == [0, 390], f"the panel takes the whole width: {box}")
+        require(page.evaluate("document.documentElement.scrollWidth") <= 390, "nothing sticks out")
+        before = page.evaluate("Page.themeColor('--back')")
+        page.click_on("#theme")
+        require(page.evaluate("Page.themeColor('--back')") != before, "the theme changes")
+
+
+def check_rests(path):
+    with Browser(address_of(path)) as page:
+        page.wait("!Page.view.moving")
+        time.sleep(0.5)
+        frames = page.evaluate("Page.view.frames")
+        time.sleep(1)
+        require(page.evaluate("Page.view.frames") == frames, "nothing is drawn while nothing changes")
+        require(page.evaluate("Page.cloud.points.geometry.drawRange.count") == page.evaluate("Page.data.cloud.points"),
+                "at rest all points are drawn")
+
+
+def frames_per_second(page, seconds):
+    frames, start, i = page.evaluate("Page.view.frames"), time.monotonic(), 0
+    page.mouse("mouseMoved", 100, 300, 0)
+    page.mouse("mousePressed", 100, 300)
+    while time.monotonic() < start + seconds:
+        i += 1
+        page.mouse("mouseMoved", 100 + i % 200, 300 + i % 70)
+    rate = (page.evaluate("Page.view.frames") - frames) / (time.monotonic() - start)
+    page.mouse("mouseReleased", 100, 300, 0)
+    return rate
+
+
+def check_speed(path):
+    """Ten frames a second while the view moves, however large the cloud is. Other work may take turns."""
+    with Browser(address_of(path)) as page:
+        rates = []
+        while len(rates) < 4 and max(rates, default=0) < 10:
+            rates.append(frames_per_second(page, 4))
+        print("frames per second:", ", ".join(f"{r:.1f}" for r in rates))
+        require(max(rates) >= 10, f"frames per second: {rates}")
+
+
+def main():
+    name, path = sys.argv[1:]
+    if not path_of_browser():
+        return 77
+    kept = []
+    original = Browser.close
+
+    def close(self):  # what every check has in common
+        kept.append((self.errors, self.requests))
+        original(self)
+
+    Browser.close = close
+    globals()["check_" + name](path)
+    for errors, requests in kept:
+        require(not errors, "the console has errors: " + "; ".join(errors))
+        outside = [r for r in requests if not r.startswith(("file://", "data:", "blob:"))]
+        require(not outside, f"the page asked for {outside}")
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (AssertionError, RuntimeError, TimeoutError) as failure:
+        print(failure, file=sys.stderr)
+        sys.exit(1)
