@@ -24,8 +24,9 @@ struct Cli
 {
   cli::CommandLine line{
       "quadmap-slam",
-      "Makes the trajectory and the object map of an RGB-D rawlog. Boxes come from the rawlog or "
-      "from NAME.objects.rawlog beside it. Ctrl-C stops early: the files then hold what was done, "
+      "Makes the trajectory and the object map of an RGB-D rawlog. Boxes come from the rawlog, "
+      "from NAME.objects.rawlog beside it, or from --detector. Ctrl-C stops early: the files then "
+      "hold what was done, "
       "and the exit status is 130 (143 after SIGTERM); a second one ends at once and changes "
       "nothing.",
       QUADMAP_VERSION};
@@ -86,6 +87,16 @@ struct Cli
       line.args()};
   TCLAP::ValueArg<std::string> objects{
       "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
+  TCLAP::ValueArg<std::string> detector{
+      "",
+      "detector",
+      "Find the boxes of the keyframes with this model, whatever boxes the input has: its name "
+      "(see "
+      "quadmap-detect --list) or its model file (.ini).",
+      false,
+      "",
+      "NAME|FILE",
+      line.args()};
   TCLAP::ValueArg<std::string> sensor{"",      "sensor",   "Use only this RGB-D sensor.", false, "",
                                       "LABEL", line.args()};
   TCLAP::SwitchArg keepGoing{
@@ -129,6 +140,9 @@ SlamConfiguration configurationOf(Cli& cli)
     set<const std::string&>(configuration.slam, &SlamOptions::setOdometry, cli.odometry.getValue());
   if (cli.association.isSet())
     configuration.slam.association = associationSourceFrom(cli.association.getValue());
+  if (cli.detector.isSet()) configuration.slam.detector = cli.detector.getValue();
+  if (cli.objects.isSet() && configuration.slam.findsBoxes())
+    throw cli::UsageError("--objects: not with a detector, which finds the boxes");
   if (cli.every.isSet())
   {
     if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be 1 or more");

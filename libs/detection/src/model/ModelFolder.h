@@ -6,10 +6,6 @@
 
 namespace quadmap
 {
-/** The model file of a name or path.
- * \exception std::runtime_error If there is none; names the places and the known models. */
-std::string modelFileOf(const std::string& model);
-
 /** All model files: those of share/quadmap/detectors, then those of detectorFolder(), by name. */
 std::vector<std::string> allModelFiles();
 

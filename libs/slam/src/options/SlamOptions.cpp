@@ -7,6 +7,7 @@
 
 #include "quadmap/base/NamedValues.h"
 #include "quadmap/base/OptionList.h"
+#include "quadmap/detection/KnownDetectors.h"
 
 namespace quadmap
 {
@@ -21,12 +22,24 @@ constexpr std::pair<SlamMethod, const char*> kMethods[] = {
 
 const std::string kGraph = "graph:";  // followed by the name of the file
 
-constexpr unsigned kUsefulThreads = 4;  // the input, and the three stages of a keyframe
+constexpr unsigned kUsefulThreads = 4;      // the input, and the three stages of a keyframe
+constexpr unsigned kThreadsOfDetector = 1;  // one more stage
 
 constexpr std::pair<AssociationSource, const char*> kAssociations[] = {
     {AssociationSource::Estimated, "estimated"},
     {    AssociationSource::Given,     "given"}
 };
+
+/** \exception std::invalid_argument If there is no such model file. */
+void requireModel(const std::string& name)
+try
+{
+  if (!name.empty()) modelFileOf(name);
+}
+catch (const std::runtime_error& e)
+{
+  throw std::invalid_argument("detector=" + std::string(e.what()));
+}
 
 }  // namespace
 
@@ -57,7 +70,8 @@ void SlamOptions::setThreads(int number)
 std::size_t SlamOptions::workingThreads() const
 {
   if (threads > 0) return static_cast<std::size_t>(threads);
-  return std::clamp(std::thread::hardware_concurrency(), 1u, kUsefulThreads);
+  const unsigned useful = kUsefulThreads + (findsBoxes() ? kThreadsOfDetector : 0);
+  return std::clamp(std::thread::hardware_concurrency(), 1u, useful);
 }
 
 AssociationSource associationSourceFrom(const std::string& name)
@@ -69,8 +83,8 @@ std::string nameOf(AssociationSource source) { return nameIn(kAssociations, sour
 void SlamOptions::describe(OptionList& list)
 {
   list.about(
-      "What is made of the input. --method, --odometry, --association and --threads on the command "
-      "line come before this section.");
+      "What is made of the input. --method, --odometry, --association, --detector and --threads on "
+      "the command line come before this section.");
   list.choice(
       "method", method, kMethods,
       "rgbd makes objects from boxes and depth. quadric makes them from box edges alone, as "
@@ -84,6 +98,18 @@ void SlamOptions::describe(OptionList& list)
       "ground-truth is its \"ground_truth\" poses. graph:FILE is the nodes of a pose graph. auto "
       "is "
       "the rawlog's odometry or, without any, visual odometry. Images of one moment need none.");
+  list.text(
+      "detector", [this] { return detector; },
+      [this](const std::string& name)
+      {
+        requireModel(name);
+        detector = name;
+      },
+      "a name, a file, nothing",
+      "The model that finds the boxes of the keyframes, by name or as a model file (.ini); "
+      "quadmap-detect --list prints the names. Boxes of the input are then ignored. Without one "
+      "the "
+      "input has the boxes.");
   list.integer(
       "threads", threads, {0, kMostThreads}, "",
       "Threads that work, as with --threads. 0 takes as many as useful. The results are the same "

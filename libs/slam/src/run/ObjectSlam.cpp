@@ -1,3 +1,4 @@
+// This file chooses the keyframes. ObjectSlam_stages.cpp takes them through the stages.
 #include "run/ObjectSlam.h"
 
 #include <algorithm>
@@ -14,15 +15,6 @@ namespace
 /** Largest number of keyframes under way: one in each stage, and some more so that no stage waits
  * for the input. Each has its images in memory, 1.5 MB. */
 constexpr std::size_t kCapacity = 6;
-
-constexpr std::size_t kBackEnd = 1;  // number of the stage
-
-bool hasDepth(const mrpt::obs::CObservation3DRangeScan& scan)
-{
-  const auto& depth = scan.rangeImage;
-  return scan.hasRangeImage &&
-         std::any_of(depth.data(), depth.data() + depth.size(), [](auto d) { return d != 0; });
-}
 
 std::optional<GraphOdometry> graphOf(const SlamOptions& options)
 {
@@ -58,18 +50,11 @@ ObjectSlam::ObjectSlam(
         configuration.visual,
         survey.up_robot,
         graphOf(configuration.slam)),
+    detection_(configuration.slam),
     perception_(configuration, labels),
     backEnd_(configuration, labels_),
     tasks_(kCapacity),
-    pipeline_(
-        {
-            {    [this](std::size_t item) { measure(item); },
-             StagePipeline::Feedback{kBackEnd, BackEndStage::kLag}},
-            {   [this](std::size_t item) { addToMap(item); }     },
-            {[this](std::size_t item) { this->spool(item); }     }
-},
-        configuration.slam.workingThreads(),
-        kCapacity)
+    pipeline_(stages(), configuration.slam.workingThreads(), kCapacity)
 {
   result_.odometry.upFromFloor = survey.upFromFloor;
   result_.map.insertionOptions = configuration.mapInsertion;
@@ -139,82 +124,11 @@ void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_rob
   if (frame.objects && configuration_.slam.method != SlamMethod::Odometry)
   {
     next.boxes = CObservationObjects::Create(*frame.objects);
-    warnOfUnknownLabels(*next.boxes);
-    for (const auto& object : next.boxes->objects) anyInstanceId_ |= object.instanceId.has_value();
+    lookThrough(*next.boxes);
   }
   task(added_++) = std::move(next);
   pipeline_.add();
   takeFinished();
-}
-
-void ObjectSlam::measure(std::size_t item)
-{
-  KeyframeTask& keyframe = task(item);
-  if (!keyframe.boxes) return;
-  const auto scope = times_.measure("perception");
-  try
-  {
-    perception_.measure(keyframe, backEnd_.correctionFor(item));
-    if (configuration_.slam.association == AssociationSource::Given)
-      leaveOutAnonymous(*keyframe.boxes);
-  }
-  catch (const std::exception& e)  // OpenCV's, a failed allocation: nothing but this frame is lost
-  {
-    if (!keepGoing_) throw BadFrame(keyframe.frame, rootMessage(e));
-    keyframe.problem = rootMessage(e);
-  }
-}
-
-void ObjectSlam::addToMap(std::size_t item)
-{
-  const auto scope = times_.measure("map");
-  try
-  {
-    backEnd_.add(item, task(item), result_);
-  }
-  catch (const std::exception& e)  // half of the frame may be in the map, so the run ends here
-  {
-    throw BadFrame(task(item).frame, rootMessage(e));
-  }
-}
-
-void ObjectSlam::spool(std::size_t item)
-{
-  const KeyframeTask& keyframe = task(item);
-  if (keyframe.problem) return;
-  const auto scope = times_.measure("spool");
-  spool_.append(*keyframe.frame.scan, keyframe.boxes.get());
-}
-
-void ObjectSlam::takeFinished()
-{
-  for (const std::size_t finished = pipeline_.finished(); taken_ < finished; ++taken_)
-  {
-    account(task(taken_));
-    task(taken_) = {};
-  }
-}
-
-void ObjectSlam::account(const KeyframeTask& keyframe)
-{
-  const RgbdFrame& frame = keyframe.frame;
-  if (keyframe.problem)
-  {
-    badFrames_.emplace_back(frame, *keyframe.problem);
-    return;
-  }
-  const auto* boxes = keyframe.boxes.get();
-  if (boxes) countBoxes(*boxes, labels_, result_.labels);
-  SlamCounts& counts = result_.countsBySensor[frame.scan->sensorLabel];
-  ++counts.keyframes;
-  if (boxes) counts.boxes += boxes->objects.size();
-  if (!frame.objects) ++counts.keyframesWithoutBoxes;
-  if (frame.objectsFromPixelLabels) ++counts.keyframesFromPixelLabels;
-  if (!hasDepth(*frame.scan)) ++counts.keyframesWithoutDepth;
-  MRPT_LOG_DEBUG_FMT(
-      "keyframe %zu: record %zu (%s), %zu boxes, %zu objects in the map",
-      taken_ - badFrames_.size(), frame.record, frame.scan->sensorLabel.c_str(),
-      boxes ? boxes->objects.size() : 0, keyframe.objectsInMap);
 }
 
 void ObjectSlam::settle()
@@ -309,6 +223,13 @@ void ObjectSlam::warnOfDroppedFloors()
         "what was taken for the floor was given up %zu times, because more keyframes showed things "
         "below it than had shown it",
         result_.droppedFloors));
+}
+
+/** Notes what is new in the boxes of a keyframe. */
+void ObjectSlam::lookThrough(const CObservationObjects& boxes)
+{
+  warnOfUnknownLabels(boxes);
+  for (const auto& object : boxes.objects) anyInstanceId_ |= object.instanceId.has_value();
 }
 
 void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)

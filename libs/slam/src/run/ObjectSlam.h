@@ -10,6 +10,7 @@
 
 #include "keyframes/KeyframeSpool.h"
 #include "pipeline/BackEndStage.h"
+#include "pipeline/DetectionStage.h"
 #include "pipeline/KeyframeTask.h"
 #include "pipeline/PerceptionStage.h"
 #include "pipeline/StagePipeline.h"
@@ -95,10 +96,13 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void warnOfDroppedFloors();
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;
+  void lookThrough(const CObservationObjects& boxes);
   void warnOfUnknownLabels(const CObservationObjects& boxes);
 
   // The stages. Each is called from one thread at a time.
+  std::vector<StagePipeline::Stage> stages();
   KeyframeTask& task(std::size_t item) { return tasks_[item % tasks_.size()]; }
+  void detect(std::size_t item);
   void measure(std::size_t item);
   void addToMap(std::size_t item);
   void spool(std::size_t item);
@@ -115,6 +119,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   SingleMoment moment_;
   std::set<std::string> unknownLabels_;
   bool anyInstanceId_ = false;  //!< Some box so far has one
+  DetectionStage detection_;
   PerceptionStage perception_;
   BackEndStage backEnd_;
   SlamResult result_;

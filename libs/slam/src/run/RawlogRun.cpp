@@ -1,71 +1,24 @@
 #include "quadmap/slam/RawlogRun.h"
 
-#include <filesystem>
 #include <initializer_list>
-#include <list>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "files/ResultWriter.h"
 #include "keyframes/KeyframeSpool.h"
 #include "quadmap/base/ErrorText.h"
-#include "quadmap/base/Json.h"
-#include "quadmap/base/Temporary.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "run/ObjectSlam.h"
+#include "run/OutputDirectory.h"
 
 namespace quadmap
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 constexpr const char* kSetName = "results";  //!< The files of one run, see OutputSet
-
-/** The output directory. When the run fails, the directories that were made for it are removed. */
-class OutputDirectory
-{
- public:
-  explicit OutputDirectory(const std::string& path)
-  {
-    std::error_code error;
-    const auto pause = Temporary::pause();
-    for (fs::path p = path; !p.empty() && !fs::exists(p, error); p = p.parent_path())
-      made_.emplace_front(p.string(), Temporary::Kind::EmptyFolder);
-    fs::create_directories(path, error);
-    if (!error && fs::is_directory(path)) return;
-    throw std::runtime_error(
-        path + ": cannot be made: " + (error ? error.message() : "a file of that name exists"));
-  }
-  ~OutputDirectory()
-  {
-    while (!made_.empty()) made_.pop_back();
-  }
-  OutputDirectory(const OutputDirectory&) = delete;
-  OutputDirectory& operator=(const OutputDirectory&) = delete;
-
- private:
-  std::list<Temporary> made_;  //!< The deepest last
-};
-
-/** Whether a folder has the result of a run that nobody stopped. */
-bool hasCompleteResult(const std::string& directory)
-{
-  const std::string report = directory + "/report.json";
-  if (!fs::exists(report)) return false;
-  try
-  {
-    return readJson(report).at("input").at("interrupted") == false;
-  }
-  catch (const std::exception&)  // what cannot be read cannot be lost
-  {
-    return false;
-  }
-}
 
 class RawlogRun
 {
@@ -134,7 +87,8 @@ class RawlogRun
     options.objectsFile = request.objectsFile;
     options.sensorLabel = request.sensorLabel;
     options.keepGoing = request.keepGoing;
-    if (request.configuration.slam.method != SlamMethod::Odometry)
+    options.readBoxes = !request.configuration.slam.findsBoxes();
+    if (options.readBoxes && request.configuration.slam.method != SlamMethod::Odometry)
       options.pixelLabelClasses = LabelTable::installed();
     options.minLabelPixels = request.configuration.perception.minLabelPixels;
     options.maxBoxDelay = request.configuration.input.maxBoxDelay;
@@ -213,15 +167,29 @@ class RawlogRun
           file + ": no usable RGB-D images" + sensor + "; it has " + source_.contentSummary());
     }
     if (!interrupted) slam_.requireAllPosesUsed();
-    const bool wantsBoxes = request_.configuration.slam.method != SlamMethod::Odometry;
-    if (!wantsBoxes || source_.hasBoxes() || interrupted) return;
-    const std::string text =
-        file +
-        ": no object boxes, neither in it nor beside it, and no pixel labels; import them with the "
-        "images "
-        "(quadmap-import --detections), name their file with --objects, or use --method odometry";
+    if (hasSourceOfBoxes() || interrupted) return;
+    const std::string text = file + whyNoBoxes();
     if (!request_.keepGoing) throw std::runtime_error(text);
     slam_.warn(text);
+  }
+
+  /** Whether some keyframe has boxes, be they none, or none is wanted. */
+  bool hasSourceOfBoxes() const
+  {
+    const SlamOptions& slam = request_.configuration.slam;
+    const SlamCounts counts = slam_.result().counts();
+    if (slam.findsBoxes())
+      return counts.keyframes == 0 || counts.keyframesWithoutBoxes < counts.keyframes;
+    return slam.method == SlamMethod::Odometry || source_.hasBoxes();
+  }
+
+  const char* whyNoBoxes() const
+  {
+    return request_.configuration.slam.findsBoxes()
+               ? ": none of its images has colour, which the detector needs"
+               : ": no object boxes, neither in it nor beside it, and no pixel labels; find some "
+                 "with --detector, import them with the images (quadmap-import --detections), name "
+                 "their file with --objects, or use --method odometry";
   }
 
   void finish()

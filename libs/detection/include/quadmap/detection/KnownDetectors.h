@@ -18,6 +18,10 @@ struct KnownDetector
 /** The models of share/quadmap/detectors and those of the user's folder, by name. */
 std::vector<KnownDetector> knownDetectors();
 
+/** The model file of a known name, or of a path that ends in .ini.
+ * \exception std::runtime_error If there is none; the message starts with the name. */
+std::string modelFileOf(const std::string& model);
+
 /** The folder of the user's models: $QUADMAP_MODELS or, without it, quadmap/detectors in
  * $XDG_DATA_HOME, which is ~/.local/share by default. It need not exist. */
 std::string detectorFolder();

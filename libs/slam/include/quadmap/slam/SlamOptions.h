@@ -41,6 +41,9 @@ struct SlamOptions : public OptionGroup
   PoseSource odometry = PoseSource::Auto;
   std::string odometryGraph;  //!< File of PoseSource::Graph; see GraphOdometry
   AssociationSource association = AssociationSource::Estimated;
+  /** Name or file of the detector that finds the boxes, see loadDetector(); empty when the input
+   * has them. */
+  std::string detector;
   int threads = 0;  //!< Number of threads, 0..kMostThreads; 0 chooses. It does not change results
 
   static constexpr int kMostThreads = 64;
@@ -53,6 +56,9 @@ struct SlamOptions : public OptionGroup
   /** \exception std::invalid_argument If it is not within 0..kMostThreads. */
   void setThreads(int number);
   std::size_t workingThreads() const;  //!< >= 1
+
+  /** Whether the run finds the boxes itself: the method wants some, and a detector is named. */
+  bool findsBoxes() const { return method != SlamMethod::Odometry && !detector.empty(); }
 
  private:
   void describe(OptionList& list) override;
