@@ -10,7 +10,6 @@
 #include "SamplePage.h"
 #include "page/Base64.h"
 #include "page/PageData.h"
-#include "page/Sha256.h"
 #include "quadmap/base/Json.h"
 #include "quadmap/review/PageKeyframes.h"
 
@@ -21,13 +20,6 @@ using quadmap::testing::samplePage;
 namespace
 {
 constexpr auto kNotFound = std::string::npos;
-
-std::string hexOf(const std::string& bytes)
-{
-  std::string text;
-  for (const char c : bytes) text += mrpt::format("%02x", static_cast<unsigned char>(c));
-  return text;
-}
 
 bool hasThree() { return std::filesystem::exists(std::string(kThreeFolder) + "/three.min.js"); }
 
@@ -65,19 +57,6 @@ TEST(Base64, WritesTheExamplesOfTheStandard)  // RFC 4648, section 10
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64("\xFF\xFE"), "//4=");
-}
-
-TEST(Sha256, GivesTheExamplesOfTheStandard)  // FIPS 180-4, examples of NIST
-{
-  EXPECT_EQ(
-      hexOf(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(hexOf(sha256("")), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(
-      hexOf(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq")),
-      "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(
-      hexOf(sha256(std::string(1000000, 'a'))),
-      "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
 TEST(PageData, HoldsNoCharacterThatMeansSomethingInHtml)

@@ -78,14 +78,17 @@ std::string Sha256::finish()
     const auto byte = static_cast<std::uint8_t>(bits >> shift);
     add(&byte, 1);
   }
-  std::string text;
+  std::string digest;
   for (const std::uint32_t word : state_)
-  {
-    char digits[9];
-    std::snprintf(digits, sizeof digits, "%08x", word);
-    text += digits;
-  }
-  return text;
+    for (int shift = 24; shift >= 0; shift -= 8) digest += static_cast<char>(word >> shift);
+  return digest;
+}
+
+std::string sha256(std::string_view bytes)
+{
+  Sha256 sum;
+  sum.add(bytes.data(), bytes.size());
+  return sum.finish();
 }
 
 std::string sha256OfFile(const std::string& path)
@@ -97,7 +100,14 @@ std::string sha256OfFile(const std::string& path)
   while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())), file.gcount() > 0)
     sum.add(buffer.data(), static_cast<std::size_t>(file.gcount()));
   if (file.bad()) throw std::runtime_error(path + ": read error");
-  return sum.finish();
+  std::string text;
+  for (const char byte : sum.finish())
+  {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", static_cast<unsigned char>(byte));
+    text += digits;
+  }
+  return text;
 }
 
 }  // namespace quadmap

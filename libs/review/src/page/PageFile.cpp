@@ -8,8 +8,8 @@
 
 #include "page/Base64.h"
 #include "page/PageData.h"
-#include "page/Sha256.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/base/Sha256.h"
 #include "quadmap/base/ShareFiles.h"
 
 namespace quadmap

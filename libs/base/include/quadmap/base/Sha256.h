@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace quadmap
 {
@@ -13,7 +14,7 @@ class Sha256
  public:
   void add(const void* bytes, std::size_t count);
 
-  /** Of all bytes so far, as 64 hexadecimal digits. Nothing can be added afterwards. */
+  /** Of all bytes so far: 32 bytes. Nothing can be added afterwards. */
   std::string finish();
 
  private:
@@ -25,7 +26,11 @@ class Sha256
   std::uint64_t count_ = 0;               //!< Of all bytes so far
 };
 
-/** SHA-256 of a file. \exception std::runtime_error If it cannot be read; names it. */
+/** SHA-256 of some bytes: 32 bytes. */
+std::string sha256(std::string_view bytes);
+
+/** SHA-256 of a file, as 64 hexadecimal digits. \exception std::runtime_error If it cannot be read;
+ * names it. */
 std::string sha256OfFile(const std::string& path);
 
 }  // namespace quadmap
