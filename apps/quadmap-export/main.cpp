@@ -6,7 +6,9 @@
 
 #include "ExportInput.h"
 #include "common/CommandLine.h"
+#include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/review/KeyframePictures.h"
 #include "quadmap/review/PageFile.h"
 #include "quadmap/review/PlyFile.h"
 #include "quadmap/review/SceneBuilder.h"
@@ -38,6 +40,16 @@ struct Cli
            "FILE", line.args()};
   Text json{"", "json", "The objects (form of objects.json).", false, "", "FILE", line.args()};
   Text html{"", "html", "Page for a browser, complete in itself.", false, "", "FILE", line.args()};
+  Text frames{
+      "",
+      "frames",
+      "Folder for a picture of each keyframe with its boxes, what was made of them, and the "
+      "objects "
+      "they were taken for; made when missing.",
+      false,
+      "",
+      "DIR",
+      line.args()};
   Text truth{"",         "truth", "True objects, drawn in black. Needs --trajectory or --in-place.",
              false,      "",      "gt.json",
              line.args()};
@@ -89,9 +101,11 @@ void checkUsage(Cli& cli)
     throw cli::UsageError("--trajectory and --in-place belong to --truth");
   if (cli.compare.isSet() && (cli.truth.isSet() || !cli.html.isSet()))
     throw cli::UsageError("--compare: belongs to --html, and goes without --truth");
-  for (const auto* output : {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.json})
+  for (const auto* output :
+       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.json, &cli.frames})
     if (output->isSet()) return;
-  throw cli::UsageError("nothing to write: give --html, --scene, --png, --top, --ply or --json");
+  throw cli::UsageError(
+      "nothing to write: give --html, --scene, --png, --top, --ply, --json or --frames");
 }
 
 /** Runs a writer if its file was asked for, and prints the name of the file. */
@@ -123,10 +137,24 @@ ExportInput inputOf(Cli& cli)
   return input;
 }
 
+void writeFrames(Cli& cli, const std::vector<ObjectRecord>& objects)
+{
+  if (!cli.frames.isSet()) return;
+  if (!std::filesystem::is_directory(cli.input.getValue()))
+    throw std::runtime_error(
+        cli.input.getValue() + ": --frames needs a folder that quadmap-slam wrote");
+  const std::string& folder = cli.frames.getValue();
+  cli::ProgressBar bar;
+  const auto count = writeKeyframePictures(
+      cli.input.getValue(), objects, folder, [&](double share) { bar(share); });
+  std::cout << "wrote " << count << " pictures into " << folder << "\n";
+}
+
 /** All that shows a scene. */
 void writeScenes(Cli& cli, const SceneContent& content)
 {
   const PictureSize size = pictureSizeFrom(cli.size.getValue());
+  writeFrames(cli, content.objects);
   const SceneBuilder builder;
   writeIfSet(cli.json, [&](const auto& path) { writeObjectsJson(path, content.objects); });
   writeIfSet(cli.ply, [&](const auto& path) { writePly(content, path); });

@@ -197,6 +197,40 @@ TEST_F(QuadmapExport, NeedsNothingButTheMap)
   EXPECT_TRUE(exists("p.png"));
 }
 
+TEST_F(QuadmapExport, DrawsThePicturesOfTheKeyframes)
+{
+  const auto recording = folder_.path("room");
+  ASSERT_EQ(
+      runProgram(
+          "quadmap-simulate", "home --resolution 160x120 --frames 12 -o " + recording + ".rawlog")
+          .status,
+      0);
+  ASSERT_EQ(runProgram("quadmap-slam", recording + ".rawlog --every 1 -o " + recording).status, 0);
+  const auto result = run("DIR/room --frames DIR/new/frames");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("wrote 12 pictures into "), kNotFound) << result.out;
+  for (const char* name : {"frame-000000.jpg", "frame-000011.jpg"})
+  {
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile(folder_.path(std::string("new/frames/") + name)));
+    EXPECT_GT(picture.getWidth(), 1000u);
+  }
+  EXPECT_FALSE(exists("new/frames/frame-000012.jpg"));
+
+  const auto expectError = [&](const std::string& arguments, const std::string& name)
+  {
+    const auto failed = run(arguments + " --frames DIR/none");
+    EXPECT_EQ(failed.status, 1) << arguments;
+    EXPECT_TRUE(isOneLine(failed.err)) << failed.err;
+    EXPECT_NE(failed.err.find(name), kNotFound) << failed.err;
+  };
+  expectError("DIR/room/objects.quadmap", "needs a folder");
+  folder_.write("room/report.json", "{\"associations\": [7]}");
+  expectError("DIR/room", "report.json");
+  std::filesystem::remove(folder_.path("room/objects.simplemap"));
+  expectError("DIR/room", "objects.simplemap");
+}
+
 TEST_F(QuadmapExport, NamesTheFileItCannotRead)
 {
   const auto expectError = [&](const std::string& arguments, const std::string& name)

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "BoxObjects.h"
 #include "SimpleMapReader.h"
-#include "quadmap/base/Json.h"
 #include "quadmap/obs/CObservationObjects.h"
 
 namespace quadmap
@@ -24,36 +22,6 @@ using ImageKey = std::pair<std::string, std::int64_t>;
 ImageKey keyOf(const std::string& sensor, double time)
 {
   return {sensor, std::llround(time * 1e6)};
-}
-
-using ObjectsOfBoxes = std::vector<std::optional<unsigned>>;
-
-/** Which object each box was taken for, from report.json. */
-std::map<ImageKey, ObjectsOfBoxes> readDecisions(const std::string& path)
-{
-  std::map<ImageKey, ObjectsOfBoxes> decisions;
-  if (!std::filesystem::exists(path)) return decisions;
-  try
-  {
-    const Json report = readJson(path);
-    for (const Json& line : report.at("associations"))
-    {
-      ObjectsOfBoxes objects;
-      for (const Json& box : line.at("boxes"))
-      {
-        const Json& object = box.at("object");
-        objects.push_back(
-            object.is_null() ? std::nullopt : std::optional<unsigned>(object.get<unsigned>()));
-      }
-      const double time = line.at("time").get<double>();
-      decisions[keyOf(line.at("sensor").get<std::string>(), time)] = std::move(objects);
-    }
-  }
-  catch (const nlohmann::json::exception&)
-  {
-    throw std::runtime_error(path + ": its \"associations\" are not those of quadmap-slam");
-  }
-  return decisions;
 }
 
 PageBox pageBoxOf(const DetectedObject& object)
@@ -114,7 +82,7 @@ void addPageBoxes(
     std::vector<PageKeyframe>& keyframes)
 {
   registerObsClasses();
-  const std::map<ImageKey, ObjectsOfBoxes> decisions = readDecisions(reportPath);
+  const BoxObjects decisions(reportPath);
   std::map<ImageKey, PageKeyframe*> keyframeOf;
   for (PageKeyframe& keyframe : keyframes)
     keyframeOf[keyOf(keyframe.sensor, keyframe.time)] = &keyframe;
@@ -125,14 +93,14 @@ void addPageBoxes(
     {
       const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(observation);
       if (!boxes) continue;
-      const ImageKey key = keyOf(boxes->sensorLabel, mrpt::Clock::toDouble(boxes->timestamp));
-      const auto keyframe = keyframeOf.find(key);
+      const double time = mrpt::Clock::toDouble(boxes->timestamp);
+      const auto keyframe = keyframeOf.find(keyOf(boxes->sensorLabel, time));
       if (keyframe == keyframeOf.end()) continue;
       std::vector<PageBox>& out = keyframe->second->boxes;
       for (const DetectedObject& object : boxes->objects) out.push_back(pageBoxOf(object));
-      const auto decided = decisions.find(key);
-      if (decided == decisions.end() || decided->second.size() != out.size()) continue;
-      for (std::size_t i = 0; i < out.size(); ++i) out[i].object = decided->second[i];
+      const auto objects = decisions.of(boxes->sensorLabel, time);
+      if (objects.size() != out.size()) continue;
+      for (std::size_t i = 0; i < out.size(); ++i) out[i].object = objects[i];
     }
 }
 
