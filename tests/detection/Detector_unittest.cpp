@@ -125,7 +125,9 @@ TEST(Detector, IsRefusedWithTheFileThatIsWrong)
           folder.path("tiny.names") + ")");
   folder.write("tiny.names", "chair\ncup\n");
   folder.write("tiny.cfg", "[net]\nnonsense\n");
-  EXPECT_TRUE(has(messageFor(tiny.model()), weights + ": OpenCV cannot load it: "));
+  EXPECT_TRUE(
+      has(messageFor(tiny.model()),
+          weights + ": OpenCV cannot load it with " + folder.path("tiny.cfg") + ": "));
 }
 
 TEST(Detector, IsRefusedWhenItIsNoNetwork)

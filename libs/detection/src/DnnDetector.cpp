@@ -60,7 +60,9 @@ cv::dnn::Net loadNet(const ModelFiles& files)
   }
   catch (const cv::Exception& e)
   {
-    throw std::runtime_error(files.weights + ": OpenCV cannot load it: " + rootMessage(e));
+    const std::string with = files.network.empty() ? "" : " with " + files.network;
+    throw std::runtime_error(
+        files.weights + ": OpenCV cannot load it" + with + ": " + rootMessage(e));
   }
   catch (const std::exception& e)
   {
