@@ -6,6 +6,7 @@
 
 #include "ObjectTable.h"
 #include "common/CommandLine.h"
+#include "quadmap/maps/MapEdits.h"
 
 namespace quadmap
 {
@@ -103,6 +104,26 @@ void mergeCommand(int argc, char** argv)
   requireObject(map, kept.getValue(), cli.file.getValue());
   requireObject(map, absorbed.getValue(), cli.file.getValue());
   map.merge(kept.getValue(), absorbed.getValue());
+  cli.write(map);
+}
+
+void applyCommand(int argc, char** argv)
+{
+  EditCli cli("apply", "Makes the changes of an edit list, as the page of a map saves it.");
+  TCLAP::UnlabeledValueArg<std::string> list(
+      "EDITS", "The list (.json).", true, "", "EDITS", cli.line.args());
+  if (!cli.line.parse(argc, argv)) return;
+  const std::vector<MapEdit> edits = readMapEdits(list.getValue());
+  CQuadricObjectMap map;
+  map.loadFromFile(cli.file.getValue());
+  try
+  {
+    applyEdits(edits, map);
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(list.getValue() + ": " + e.what());
+  }
   cli.write(map);
 }
 

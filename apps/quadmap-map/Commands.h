@@ -9,5 +9,6 @@ void queryCommand(int argc, char** argv);
 void relabelCommand(int argc, char** argv);
 void removeCommand(int argc, char** argv);
 void mergeCommand(int argc, char** argv);
+void applyCommand(int argc, char** argv);
 
 }  // namespace quadmap

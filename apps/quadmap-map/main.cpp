@@ -11,7 +11,8 @@ int main(int argc, char** argv)
           {  "query",   queryCommand},
           {"relabel", relabelCommand},
           { "remove",  removeCommand},
-          {  "merge",   mergeCommand}
+          {  "merge",   mergeCommand},
+          {  "apply",   applyCommand}
   },
       argc, argv);
 }

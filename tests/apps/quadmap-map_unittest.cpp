@@ -134,6 +134,46 @@ TEST_F(QuadmapMap, RelabelRemoveAndMergeWriteANewMap)
       << "the input is as it was";
 }
 
+TEST_F(QuadmapMap, AppliesAnEditList)
+{
+  const std::string chair = std::to_string(idOf("chair")), couch = std::to_string(idOf("couch"));
+  const std::string start = R"({"format": "quadmap-edits", "version": 1, "edits": [)";
+  folder_.write(
+      "edits.json", start + R"({"op": "place", "id": )" + chair +
+                        R"(, "center": [1, 2, 3], "size": [0.4, 0.6, 0.8], "yaw": 0.5},)" +
+                        R"({"op": "remove", "id": )" + couch + "}]}");
+  ASSERT_EQ(run("apply MAP DIR/edits.json -o DIR/a.quadmap").status, 0);
+  const auto edited = mapFrom(folder_.path("a.quadmap"));
+  EXPECT_TRUE(edited.withLabel("couch").empty());
+  const MapObject* placed = edited.find(idOf("chair"));
+  ASSERT_TRUE(placed);
+  EXPECT_LT((placed->object.center() - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+  EXPECT_LT((placed->object.semiAxes() - Eigen::Vector3d(0.2, 0.3, 0.4)).norm(), 1e-6);
+  EXPECT_NEAR(placed->object.pose().yaw(), 0.5, 1e-6);
+
+  const std::pair<std::string, std::string> wrong[] = {
+      {                                                                                     "[]","is no list of edits"                                                                                                 },
+      {                              R"({"format": "quadmap-edits", "version": 2, "edits": []})",              "is of another version"},
+      {                                                  start + R"({"op": "dance", "id": 1}]})",                     "edit 1: \"op\""},
+      {                                                start + R"({"op": "relabel", "id": 1}]})",                             "edit 1"},
+      {                                                start + R"({"op": "remove", "id": -1}]})",                             "edit 1"},
+      {                                              start + R"({"op": "remove", "id": 4711}]})", "edit 1: the map has no object 4711"},
+      {   start + R"({"op": "place", "id": 1, "center": [1, 2], "size": [1, 1, 1], "yaw": 0}]})",
+       "edit 1: \"center\" must have three numbers"                                                                                   },
+      {start + R"({"op": "place", "id": 1, "center": [1, 2, 3], "size": [1, 0, 1], "yaw": 0}]})",
+       "edit 1"                                                                                                                       }
+  };
+  for (const auto& [text, expected] : wrong)
+  {
+    folder_.write("wrong.json", text);
+    const auto result = run("apply MAP DIR/wrong.json -o DIR/x.quadmap");
+    EXPECT_EQ(result.status, 1) << text;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("wrong.json: " + expected), kNotFound) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("x.quadmap")));
+}
+
 TEST_F(QuadmapMap, ChangesAMapInPlace)
 {
   ASSERT_EQ(run("remove MAP" + option("id", "couch") + " -o MAP").status, 0);
@@ -215,7 +255,8 @@ TEST_F(QuadmapMap, AnswersWrongUsageWithStatus2AndOneLine)
 TEST_F(QuadmapMap, ShowsHelpAndVersion)
 {
   for (const char* arguments :
-       {"--help", "info --help", "query --help", "relabel --help", "remove --help", "merge --help"})
+       {"--help", "info --help", "query --help", "relabel --help", "remove --help", "merge --help",
+        "apply --help"})
   {
     const auto help = run(arguments);
     EXPECT_EQ(help.status, 0) << arguments;

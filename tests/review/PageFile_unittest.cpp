@@ -139,6 +139,7 @@ TEST_F(PageInBrowser, ShowsWhatBecameOfBoxes) { check("keyframes", samplePage())
 TEST_F(PageInBrowser, KeepsTheViewInItsLink) { check("link_keeps_the_view", samplePage()); }
 TEST_F(PageInBrowser, MeasuresDistances) { check("measures", samplePage()); }
 TEST_F(PageInBrowser, MarksWhatDiffersFromTheTruth) { check("compares", samplePage()); }
+TEST_F(PageInBrowser, EditsWithHandlesAndMerges) { check("handles", samplePage()); }
 TEST_F(PageInBrowser, FitsATelephone) { check("phone_and_themes", samplePage()); }
 TEST_F(PageInBrowser, DrawsOnlyWhenSomethingChanges) { check("rests", samplePage()); }
 TEST_F(PageInBrowser, IsFastEnoughWhenLarge) { check("speed", quadmap::testing::largePage()); }

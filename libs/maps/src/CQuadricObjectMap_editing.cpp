@@ -7,6 +7,16 @@
 
 namespace quadmap
 {
+namespace
+{
+void requireUpright(const Ellipsoid& object)
+{
+  constexpr double kMaxTilt = 1e-4;  // [rad]: rounding
+  if (object.rotation().col(2).head<2>().norm() > kMaxTilt)
+    throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
+}
+}  // namespace
+
 CQuadricObjectMap::Entry& CQuadricObjectMap::require(ObjectId id)
 {
   const auto it = objects_.find(id);
@@ -16,9 +26,7 @@ CQuadricObjectMap::Entry& CQuadricObjectMap::require(ObjectId id)
 
 ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
 {
-  constexpr double kMaxTilt = 1e-4;  // [rad]: rounding
-  if (estimated.object.rotation().col(2).head<2>().norm() > kMaxTilt)
-    throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
+  requireUpright(estimated.object);
   if (estimated.covariance.llt().info() != Eigen::Success)
     throw std::invalid_argument("the covariance of an object must be positive definite");
   if (estimated.labelCounts.empty() || estimated.observations() == 0)
@@ -84,6 +92,16 @@ void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
       {labels().canonical(label), std::max(1u, object.observations())}
   };
   estimate(object, true);  // the label says what sizes are likely, and whether there is a front
+}
+
+void CQuadricObjectMap::place(ObjectId id, const Ellipsoid& object)
+{
+  Entry& entry = require(id);
+  requireUpright(object);
+  entry.object = ellipsoidOf(uprightStateOf(object));
+  entry.estimator = ObjectEstimator::fromEstimate(
+      {uprightStateOf(entry.object), entry.covariance, 0, entry.orientationDefined},
+      labels().properties(entry.label()), insertionOptions.estimator);
 }
 
 void CQuadricObjectMap::remove(ObjectId id)

@@ -97,6 +97,8 @@
   Page.compare.rebuild();
   Page.table.rebuild();
   Page.details.rebuild();
+  Page.editing.rebuild();
+  Page.save.rebuild();
   Page.showTab("objects");
   Page.view.resize();
   Page.keyframes.show(0);

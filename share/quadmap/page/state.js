@@ -55,8 +55,13 @@ const Page = {
   // Less certain than nine to one, or not confirmed at all.
   isDoubtful(object) { return !object.confirmed || (object.existence !== null && object.existence < 0.9); },
 
+  // The objects as the map has them. The quaternions of the file are rounded.
   restore() {
-    this.objects = new Map(this.data.objects.map((o) => [o.id, JSON.parse(JSON.stringify(o))]));
+    this.objects = new Map(this.data.objects.map(function (original) {
+      const object = JSON.parse(JSON.stringify(original)), length = Math.hypot(...object.pose.slice(3));
+      for (let i = 3; i < 7; ++i) object.pose[i] /= length;
+      return [object.id, object];
+    }));
   },
 };
 Page.restore();

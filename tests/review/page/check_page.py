@@ -1,4 +1,5 @@
 """check_page.py CHECK PAGE: looks at a page in a browser as a person does. Says what is wrong; 77: no browser."""
+import os
 import sys
 import time
 
@@ -99,6 +100,74 @@ def check_phone_and_themes(path):
         before = page.evaluate("Page.themeColor('--back')")
         page.click_on("#theme")
         require(page.evaluate("Page.themeColor('--back')") != before, "the theme changes")
+
+
+def type_into(page, selector, text):
+    page.evaluate(f"(() => {{ const e = document.querySelector({selector!r}); e.value = {text!r};"
+                  "e.dispatchEvent(new Event('change')); })()")
+
+
+def saved_file(page, button, folder, name):
+    page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+    page.click_on(button)
+    path = os.path.join(folder, name)
+    deadline = time.monotonic() + 20
+    while not os.path.exists(path) or not os.path.getsize(path):
+        require(time.monotonic() < deadline, f"{name} is not saved")
+        time.sleep(0.05)
+    return path
+
+
+def check_edits(path):
+    """Relabels object 1, types a place for 2, drags 3, and saves both files beside the page."""
+    folder = os.path.dirname(path)
+    with Browser(address_of(path)) as page:
+        page.evaluate("Page.showTab('object')")
+        page.evaluate("Page.select('1')")
+        type_into(page, "#new-label", "bench")
+        page.click_on("#relabel")
+        require(page.evaluate("document.querySelector('tr[data-id=\"1\"]').textContent").find("bench") > 0, "the table follows")
+        page.evaluate("Page.select('2')")
+        type_into(page, "#edit input[type=number]", "-1.25")
+        require(page.evaluate("Page.objects.get('2').center[0]") == -1.25, "a typed number places the object")
+        page.evaluate("Page.select('3')")
+        page.click_on("#drag")
+        before = page.evaluate("Page.objects.get('3').center")
+        x, y = pixel_of(page, "3")
+        page.drag((x, y), (x + 40, y))
+        after = page.evaluate("Page.objects.get('3').center")
+        moved = [b - a for a, b in zip(before, after)]
+        require(abs(moved[0]) + abs(moved[1]) > 0.05 and abs(moved[2]) < 1e-9, f"dragged over the floor: {moved}")
+        require(page.evaluate("Page.selected") == "3", "a drag is no click")
+        page.evaluate("Page.editing.add({op: 'remove', id: '1'})")
+        require(page.evaluate("Page.objects.size") == 2, "removed")
+        page.click_on("#undo")
+        require(page.evaluate("Page.objects.get('1').label") == "bench", "taken back, and the rest is as it was")
+        saved_file(page, "#save-edits", folder, "edits.json")
+        saved_file(page, "#save-truth", folder, "objects.gt.json")
+
+
+def check_handles(path):
+    with Browser(address_of(path)) as page:
+        page.evaluate("Page.showTab('object')")
+        page.evaluate("Page.select('3')")
+        page.click_on("#drag")
+        size, yaw = page.evaluate("Page.objects.get('3').size"), page.evaluate("Page.objects.get('3').yaw")
+        top = page.evaluate("(() => { const o = Page.objects.get('3'), v = new THREE.Vector3().fromArray(o.center);"
+                            "v.z += o.size[2] / 2; const p = Page.view.pixelOf(v);"
+                            "const b = document.getElementById('view').getBoundingClientRect(); return [b.left + p.x, b.top + p.y]; })()")
+        low = page.evaluate("(() => { const o = Page.objects.get('3'); return o.center[2] - o.size[2] / 2; })()")
+        page.drag(top, (top[0], top[1] - 30))
+        now = page.evaluate("Page.objects.get('3').size")
+        require(now[2] > size[2] + 0.05 and now[:2] == size[:2], f"the top face was dragged: {size} to {now}")
+        again = page.evaluate("(() => { const o = Page.objects.get('3'); return o.center[2] - o.size[2] / 2; })()")
+        require(abs(low - again) < 1e-9, "the bottom stays")
+        require(page.evaluate("Page.objects.get('3').yaw") == yaw, "so does the heading")
+        page.evaluate("Page.select('2')")
+        page.evaluate("document.getElementById('absorbed').value = '3'")
+        page.click_on("#merge")
+        require(page.evaluate("Page.objects.size") == 2, "merged")
+        require(page.evaluate("JSON.parse(Page.save.editList()).edits.pop()") == {"op": "merge", "keep": 2, "absorb": 3}, "and listed")
 
 
 def check_rests(path):

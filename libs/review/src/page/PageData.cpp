@@ -76,10 +76,15 @@ Json numberOrNull(const std::optional<double>& value)
   return value ? rounded(*value, 6) : Json();
 }
 
+Json colorJson(const std::string& label)
+{
+  const mrpt::img::TColor color = labelColor(label);
+  return {color.R, color.G, color.B};
+}
+
 Json objectJson(const PageObject& object)
 {
   const ObjectRecord& r = object.record;
-  const mrpt::img::TColor color = labelColor(r.label);
   const Eigen::Vector3d size = 2 * r.object.semiAxes();
   Json json = {
       {       "id",                                            r.id},
@@ -89,7 +94,7 @@ Json objectJson(const PageObject& object)
       {     "pose",                       poseJson(r.object.pose())},
       {      "yaw",                   rounded(r.object.pose().yaw(),6)},
       { "oriented",                            r.orientationDefined                                               },
-      {    "color",                     {color.R, color.G, color.B}},
+      {    "color",                              colorJson(r.label)},
       {"confirmed",                                object.confirmed                                               },
       {   "misses",                                   object.misses},
       {    "first",                  numberOrNull(object.firstSeen)                                               },
@@ -107,6 +112,17 @@ Json objectsJson(const std::vector<PageObject>& objects)
 {
   Json json = Json::array();
   for (const PageObject& object : objects) json.push_back(objectJson(object));
+  return json;
+}
+
+Json labelsJson(const std::vector<std::string>& labels)
+{
+  Json json = Json::array();
+  for (const std::string& label : labels)
+    json.push_back({
+        { "name",            label},
+        {"color", colorJson(label)}
+    });
   return json;
 }
 
@@ -149,7 +165,7 @@ std::string pageJson(const PageContent& content)
       {          "title",                            content.title},
       {          "floor",      rounded(content.scene.floorHeight(),kMillimetres)},
       {        "objects",             objectsJson(content.objects)                                        },
-      {         "labels",                           content.labels},
+      {         "labels",               labelsJson(content.labels)},
       {     "trajectory", trajectoryJson(content.scene.trajectory)                                        },
       {       "odometry",   trajectoryJson(content.scene.odometry)},
       {          "cloud",                                       {}                                        },

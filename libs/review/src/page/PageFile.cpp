@@ -17,9 +17,9 @@ namespace quadmap
 namespace
 {
 /** In this order: each uses those before it. */
-constexpr std::array kOwnScripts = {"state.js",   "view.js",    "shapes.js", "cloud.js",
-                                    "compare.js", "overlay.js", "table.js",  "keyframes.js",
-                                    "details.js", "main.js"};
+constexpr std::array kOwnScripts = {
+    "state.js",     "view.js",    "shapes.js",  "cloud.js", "compare.js", "overlay.js", "table.js",
+    "keyframes.js", "details.js", "editing.js", "drag.js",  "save.js",    "main.js"};
 constexpr std::array kThreeScripts = {"three.min.js", "examples/js/controls/OrbitControls.js"};
 constexpr const char* kThreeNotice =
     "three.js, https://threejs.org, Copyright 2010-2019 three.js authors, MIT licence";

@@ -207,6 +207,12 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
    *  \exception std::out_of_range If there is no such object. */
   void relabel(ObjectId id, const std::string& label);
 
+  /** Says where an object is and how large, as a person knows it. What was measured before no
+   * longer counts, but for how uncertain it was; further observations join what is said. \param
+   * object In the map frame. \exception std::out_of_range If there is no such object. \exception
+   * std::invalid_argument If it is not upright. */
+  void place(ObjectId id, const Ellipsoid& object);
+
   /** Takes an object out. \exception std::out_of_range If there is no such object. */
   void remove(ObjectId id);
 

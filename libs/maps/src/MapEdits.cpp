@@ -1,0 +1,111 @@
+#include "quadmap/maps/MapEdits.h"
+
+#include <mrpt/core/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "quadmap/base/Json.h"
+
+namespace quadmap
+{
+namespace
+{
+ObjectId idFrom(const Json& edit, const char* key)
+{
+  const auto id = edit.at(key).get<std::int64_t>();
+  if (id < 0 || id > std::numeric_limits<ObjectId>::max())
+    throw std::runtime_error(mrpt::format("\"%s\" is no id of a map", key));
+  return static_cast<ObjectId>(id);
+}
+
+Eigen::Vector3d vectorFrom(const Json& edit, const char* key)
+{
+  const auto values = edit.at(key).get<std::vector<double>>();
+  if (values.size() != 3)
+    throw std::runtime_error(mrpt::format("\"%s\" must have three numbers", key));
+  return {values[0], values[1], values[2]};
+}
+
+MapEdit editFrom(const Json& json)
+{
+  MapEdit edit;
+  const auto op = json.at("op").get<std::string>();
+  edit.id = idFrom(json, op == "merge" ? "keep" : "id");
+  if (op == "relabel")
+  {
+    edit.kind = MapEdit::Kind::Relabel;
+    edit.label = json.at("label").get<std::string>();
+    if (edit.label.empty()) throw std::runtime_error("\"label\" is empty");
+  }
+  else if (op == "merge")
+  {
+    edit.kind = MapEdit::Kind::Merge;
+    edit.absorbed = idFrom(json, "absorb");
+  }
+  else if (op == "place")
+  {
+    edit.kind = MapEdit::Kind::Place;
+    const Eigen::Vector3d center = vectorFrom(json, "center");
+    const mrpt::poses::CPose3D T_map_obj(
+        center.x(), center.y(), center.z(), json.at("yaw").get<double>(), 0, 0);
+    edit.object = Ellipsoid(T_map_obj, 0.5 * vectorFrom(json, "size"));
+  }
+  else if (op != "remove")
+    throw std::runtime_error("\"op\" must be relabel, merge, remove or place");
+  return edit;
+}
+
+void apply(const MapEdit& edit, CQuadricObjectMap& map)
+{
+  switch (edit.kind)
+  {
+    case MapEdit::Kind::Relabel:
+      return map.relabel(edit.id, edit.label);
+    case MapEdit::Kind::Merge:
+      return map.merge(edit.id, edit.absorbed);
+    case MapEdit::Kind::Remove:
+      return map.remove(edit.id);
+    case MapEdit::Kind::Place:
+      return map.place(edit.id, edit.object);
+  }
+}
+
+}  // namespace
+
+std::vector<MapEdit> readMapEdits(const std::string& path)
+{
+  const Json json = readJson(path);
+  const auto fail = [&](const std::string& what) { throw std::runtime_error(path + ": " + what); };
+  if (!json.is_object() || json.value("format", Json()) != "quadmap-edits" ||
+      !json.contains("edits") || !json.at("edits").is_array())
+    fail("is no list of edits: expected \"format\": \"quadmap-edits\" and \"edits\"");
+  if (json.value("version", Json()) != 1) fail("is of another version than 1, which is known here");
+  std::vector<MapEdit> edits;
+  for (const Json& edit : json.at("edits")) try
+    {
+      edits.push_back(editFrom(edit));
+    }
+    catch (const std::exception& e)
+    {
+      fail(mrpt::format("edit %zu: %s", edits.size() + 1, e.what()));
+    }
+  return edits;
+}
+
+void applyEdits(const std::vector<MapEdit>& edits, CQuadricObjectMap& map)
+{
+  CQuadricObjectMap edited = map;
+  for (std::size_t i = 0; i < edits.size(); ++i) try
+    {
+      apply(edits[i], edited);
+    }
+    catch (const std::exception& e)
+    {
+      throw std::runtime_error(mrpt::format("edit %zu: %s", i + 1, e.what()));
+    }
+  map = std::move(edited);
+}
+
+}  // namespace quadmap
