@@ -8,6 +8,7 @@
 #include "common/CommandLine.h"
 #include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/review/GlbFile.h"
 #include "quadmap/review/KeyframePictures.h"
 #include "quadmap/review/PageFile.h"
 #include "quadmap/review/PlyFile.h"
@@ -37,6 +38,8 @@ struct Cli
   Text png{"", "png", "Picture at an angle from above.", false, "", "FILE", line.args()};
   Text top{"", "top", "Picture straight from above (.png).", false, "", "FILE", line.args()};
   Text ply{"",     "ply",      "Ellipsoids as triangles, and the point cloud.", false, "",
+           "FILE", line.args()};
+  Text glb{"",     "glb",      "Objects, trajectories and cloud as binary glTF.", false, "",
            "FILE", line.args()};
   Text json{"", "json", "The objects (form of objects.json).", false, "", "FILE", line.args()};
   Text html{"", "html", "Page for a browser, complete in itself.", false, "", "FILE", line.args()};
@@ -102,10 +105,10 @@ void checkUsage(Cli& cli)
   if (cli.compare.isSet() && (cli.truth.isSet() || !cli.html.isSet()))
     throw cli::UsageError("--compare: belongs to --html, and goes without --truth");
   for (const auto* output :
-       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.json, &cli.frames})
+       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.json, &cli.frames})
     if (output->isSet()) return;
   throw cli::UsageError(
-      "nothing to write: give --html, --scene, --png, --top, --ply, --json or --frames");
+      "nothing to write: give --html, --scene, --png, --top, --ply, --glb, --json or --frames");
 }
 
 /** Runs a writer if its file was asked for, and prints the name of the file. */
@@ -132,7 +135,7 @@ ExportInput inputOf(Cli& cli)
   input.trajectoryPath = given(cli.trajectory);
   input.inPlace = cli.inPlace.getValue();
   const bool showsCloud = cli.html.isSet() || cli.scene.isSet() || cli.png.isSet() ||
-                          cli.top.isSet() || cli.ply.isSet();
+                          cli.top.isSet() || cli.ply.isSet() || cli.glb.isSet();
   input.withCloud = showsCloud && !cli.noCloud.getValue();
   return input;
 }
@@ -158,6 +161,7 @@ void writeScenes(Cli& cli, const SceneContent& content)
   const SceneBuilder builder;
   writeIfSet(cli.json, [&](const auto& path) { writeObjectsJson(path, content.objects); });
   writeIfSet(cli.ply, [&](const auto& path) { writePly(content, path); });
+  writeIfSet(cli.glb, [&](const auto& path) { writeGlb(content, path); });
   writeIfSet(cli.scene, [&](const auto& path) { writeScene(*builder.scene(content), path); });
   if (!cli.png.isSet() && !cli.top.isSet()) return;
   SceneRenderer renderer(size);

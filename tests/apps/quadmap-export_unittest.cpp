@@ -82,11 +82,12 @@ std::size_t childrenOf(mrpt::opengl::COpenGLScene& scene, const std::string& gro
 
 TEST_F(QuadmapExport, WritesEverythingOfAFolder)
 {
-  const auto result = run(
-      "DIR --scene DIR/s.3Dscene --png DIR/p.png --top DIR/t.png --ply DIR/m.ply --json DIR/o.json "
-      "--size 320x200");
+  const auto result =
+      run("DIR --scene DIR/s.3Dscene --png DIR/p.png --top DIR/t.png --ply DIR/m.ply --glb "
+          "DIR/m.glb --json DIR/o.json "
+          "--size 320x200");
   ASSERT_EQ(result.status, 0) << result.err;
-  for (const char* file : {"s.3Dscene", "p.png", "t.png", "m.ply", "o.json"})
+  for (const char* file : {"s.3Dscene", "p.png", "t.png", "m.ply", "m.glb", "o.json"})
   {
     EXPECT_TRUE(exists(file)) << file;
     EXPECT_NE(result.out.find("wrote " + folder_.path(file)), kNotFound) << result.out;

@@ -13,7 +13,7 @@ using namespace quadmap::testing;
 
 namespace
 {
-constexpr std::size_t kVertexBytes = 15, kFaceBytes = 13;
+constexpr std::size_t kVertexBytes = 19, kFaceBytes = 13;
 
 struct PlyHeader
 {
@@ -52,12 +52,16 @@ TEST(PlyFile, HoldsTheSurfacesAndTheCloud)
   const PlyHeader header = headerOf(text);
   ASSERT_EQ(text.size(), header.bytes + header.vertices * kVertexBytes + header.faces * kFaceBytes);
   ASSERT_GT(header.faces, 500u);
+  EXPECT_NE(text.find("\ncomment object 1 chair\n"), std::string::npos);
 
   const Ellipsoid& object = content.objects[0].object;
   for (std::size_t i = 0; i < header.vertices; ++i)
   {
     float xyz[3];
     std::memcpy(xyz, &text[header.bytes + i * kVertexBytes], sizeof(xyz));
+    std::int32_t id = 0;
+    std::memcpy(&id, &text[header.bytes + i * kVertexBytes + 15], sizeof(id));
+    EXPECT_EQ(id, i < header.vertices - content.cloud.size() ? 1 : -1);
     const Eigen::Vector3d p(xyz[0], xyz[1], xyz[2]);
     const Eigen::Vector3d p_obj = object.rotation().transpose() * (p - object.center());
     if (i < header.vertices - content.cloud.size())
