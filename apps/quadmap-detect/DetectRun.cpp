@@ -97,8 +97,8 @@ class DetectRun
       return;
     }
     summary_.boxes += boxes->objects.size();
-    if (!request_.pictures.empty()) draw(frame, *boxes);
     if (frame.isTurned) turnUpsideDown(*boxes);  // the file speaks of the images as recorded
+    if (!request_.pictures.empty()) draw(frame, *boxes);
     mrpt::serialization::archiveFrom(output_) << *boxes;
     output_.requireWritten();
   }
@@ -117,8 +117,10 @@ class DetectRun
 
   void draw(const RgbdFrame& frame, const CObservationObjects& boxes) const
   {
+    const mrpt::img::CImage image = recordedImage(frame);
     FramePictureContent content;
     content.scan = frame.scan.get();
+    content.image = &image;
     content.boxes = &boxes;
     const std::string name = mrpt::format("frame-%06zu.jpg", summary_.frames - 1);
     writePicture(drawFrame(content), (std::filesystem::path(request_.pictures) / name).string());

@@ -84,12 +84,17 @@ TEST_F(QuadmapDetect, LooksAtImagesThatAreUpsideDown)
     scan->cameraParamsIntensity = scan->cameraParams;
   }
   const auto rawlog = writeScans(folder_.path("x.rawlog"), scans);
-  ASSERT_EQ(run(rawlog).status, 0);
+  ASSERT_EQ(run(rawlog + " --draw " + folder_.path("pictures")).status, 0);
   const auto frames = readAll(rawlog);  // which checks that boxes and scans agree
   ASSERT_EQ(frames.size(), 2u);
   ASSERT_TRUE(frames[1].isTurned);
   ASSERT_TRUE(frames[1].objects);
   EXPECT_NEAR(frames[1].objects->objects.at(0).box.y1, kRows - 1 - 9, 0.5);
+  mrpt::img::CImage picture;
+  ASSERT_TRUE(picture.loadFromFile(folder_.path("pictures/frame-000000.jpg")));
+  const auto scale = static_cast<unsigned>(picture.getWidth() / kColumns);
+  const auto* bgr = picture.ptr<std::uint8_t>(2 * scale, 4 * scale);
+  EXPECT_GT(bgr[2], bgr[1]) << "drawn as it was recorded, red at the upper left";
 }
 
 TEST_F(QuadmapDetect, DrawsPictures)

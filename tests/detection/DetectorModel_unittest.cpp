@@ -86,8 +86,8 @@ TEST(DetectorModel, FilesWithMistakesAreRefused)
         "[detector]\nweights = a\nfit = left\n", "[detector]\nweights = a\nchannels = gbr\n",
         "[detector]\nweights = a\nmean = 1 2\n", "[detector]\nweights = a\ndeviation = 1 0 1\n",
         "[detector]\nweights = a\nminScore = 2\n", "[detector]\nweights = a\nmaxOverlap = -1\n",
-        "[detector]\nweights = a\nweightsSha256 = 12\n",
-        "[detector]\nweights = a\n[more]\nx = 1\n"})
+        "[detector]\nweights = a\nweightsSha256 = 12\n", "[detector]\nweights = a\n[more]\nx = 1\n",
+        "[detector]\nweights = a\nnetwork = b\nhead = yolov8\n"})
     EXPECT_NE(messageFor(wrong), "no error") << wrong;
 }
 

@@ -4,10 +4,7 @@
 
 namespace quadmap
 {
-namespace
-{
-/** The colour image as it was recorded, in the size of the depth image. */
-mrpt::img::CImage imageOf(const RgbdFrame& frame)
+mrpt::img::CImage recordedImage(const RgbdFrame& frame)
 {
   const auto& scan = *frame.scan;
   cv::Mat image = scan.intensityImage.asCvMatRef();
@@ -28,8 +25,6 @@ mrpt::img::CImage imageOf(const RgbdFrame& frame)
   return {image, mrpt::img::SHALLOW_COPY};
 }
 
-}  // namespace
-
 CObservationObjects::Ptr detectObjects(const RgbdFrame& frame, Detector& detector)
 {
   const auto& scan = *frame.scan;
@@ -40,7 +35,7 @@ CObservationObjects::Ptr detectObjects(const RgbdFrame& frame, Detector& detecto
   boxes->sensorPose = scan.sensorPose;
   boxes->cameraParams = scan.cameraParams;
   if (frame.isTurned) turnUpsideDown(*boxes);
-  boxes->objects = detector.detect(imageOf(frame));
+  boxes->objects = detector.detect(recordedImage(frame));
   if (frame.isTurned) turnUpsideDown(*boxes);
   return boxes;
 }

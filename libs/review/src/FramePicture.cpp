@@ -41,10 +41,13 @@ cv::Mat greyDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 }
 
 /** Three channels of 8 bits, in the size of the calibration. */
-cv::Mat imageOf(const mrpt::obs::CObservation3DRangeScan& scan)
+cv::Mat imageOf(const FramePictureContent& content)
 {
+  const auto& scan = *content.scan;
   cv::Mat image;
-  if (scan.hasIntensityImage && !scan.intensityImage.isEmpty())
+  if (content.image)
+    image = content.image->asCvMatRef();
+  else if (scan.hasIntensityImage && !scan.intensityImage.isEmpty())
     image = scan.intensityImage.asCvMatRef();
   else
     image = greyDepth(scan);
@@ -69,7 +72,7 @@ class FramePainter
  public:
   explicit FramePainter(const FramePictureContent& content) :
       content_(content),
-      canvas_(imageOf(*content.scan), pinholeFrom(content.scan->cameraParams)),
+      canvas_(imageOf(content), pinholeFrom(content.scan->cameraParams)),
       T_optical_sensor_(-T_sensor_optical())
   {
   }

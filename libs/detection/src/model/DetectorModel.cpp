@@ -99,6 +99,9 @@ void DetectorModel::describe(OptionList& list)
       "maxOverlap", maxOverlap, {0, 1}, "",
       "Of two boxes of a label with a greater intersection over union the surer one stays.");
   addText(list, "licence", licence, "Of the weights.");
+  list.require(
+      [this] { return !isDarknet() || head == HeadKind::Auto || head == HeadKind::Darknet; },
+      "head must be darknet or auto when there is a network of Darknet");
 }
 
 DetectorModel DetectorModel::fromFile(const std::string& path)

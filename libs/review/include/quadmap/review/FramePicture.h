@@ -23,7 +23,8 @@ struct ObjectInFrame
 struct FramePictureContent
 {
   const mrpt::obs::CObservation3DRangeScan* scan = nullptr;  //!< Its colour image; else its depth
-  const CObservationObjects* boxes = nullptr;                //!< Null when no detector looked
+  const mrpt::img::CImage* image = nullptr;    //!< Shown instead of the scan's, when there is one
+  const CObservationObjects* boxes = nullptr;  //!< Null when no detector looked
   /** The object of the map that each box was taken for, "" for none; empty before there is a map.
    */
   std::vector<std::string> objectOfBox;
