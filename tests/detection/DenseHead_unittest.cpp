@@ -11,7 +11,7 @@ namespace
 {
 constexpr int kCells = 32 + 8 + 2;  // of an input of 64x32, at distances of 8, 16 and 32 pixels
 
-std::vector<Candidate> candidates(
+std::vector<RawBox> rawBoxes(
     HeadKind expected,
     const std::vector<HandMadeTensor>& outputs,
     std::size_t labels,
@@ -27,7 +27,7 @@ std::vector<Candidate> candidates(
   }
   const auto [kind, head] = chooseHead(request);
   EXPECT_EQ(kind, expected);
-  return head->candidates(tensors, minScore);
+  return head->rawBoxes(tensors, minScore);
 }
 
 void expectBox(const ImageBox& box, double x1, double y1, double x2, double y2)
@@ -52,7 +52,7 @@ TEST(YoloxOutputs, CountInCells)
   table.at(anchor, 5 + 2) = 0.5f;
   table.at(3, 4) = 0.3f;  // its class is as unsure
   table.at(3, 5) = 0.9f;
-  const auto found = candidates(HeadKind::Yolox, {table}, 3, 0.35f);
+  const auto found = rawBoxes(HeadKind::Yolox, {table}, 3, 0.35f);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].label, 2u);
   EXPECT_FLOAT_EQ(found[0].score, 0.4f);
@@ -69,7 +69,7 @@ TEST(YoloxOutputs, ReachIntoEachGrid)
   {
     HandMadeTensor table({kCells, 5 + 1});
     table.at(anchor, 4) = table.at(anchor, 5) = 1;
-    const auto found = candidates(HeadKind::Yolox, {table}, 1, 0.5f);
+    const auto found = rawBoxes(HeadKind::Yolox, {table}, 1, 0.5f);
     ASSERT_EQ(found.size(), 1u) << anchor;
     EXPECT_NEAR(found[0].box.centerX(), x, 1e-6) << anchor;
     EXPECT_NEAR(found[0].box.centerY(), y, 1e-6) << anchor;
@@ -81,7 +81,7 @@ TEST(Yolov5Outputs, CountInPixels)
   HandMadeTensor table({3 * kCells, 5 + 2});
   const float row[] = {30, 20, 10, 8, 0.9f, 0.1f, 0.8f};
   std::copy(std::begin(row), std::end(row), &table.at(100, 0));
-  const auto found = candidates(HeadKind::Yolov5, {table}, 2, 0.5f);
+  const auto found = rawBoxes(HeadKind::Yolov5, {table}, 2, 0.5f);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].label, 1u);
   EXPECT_FLOAT_EQ(found[0].score, 0.72f);
@@ -93,7 +93,7 @@ TEST(Yolov8Outputs, HaveABoxInEachColumn)
   HandMadeTensor table({4 + 3, kCells});
   const float column[] = {30, 20, 10, 8, 0.2f, 0.6f, 0.5f};
   for (int i = 0; i < 7; ++i) table.at(i, 17) = column[i];
-  const auto found = candidates(HeadKind::Yolov8, {table}, 3, 0.25f);
+  const auto found = rawBoxes(HeadKind::Yolov8, {table}, 3, 0.25f);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].label, 1u);
   EXPECT_FLOAT_EQ(found[0].score, 0.6f);
@@ -112,7 +112,7 @@ TEST(Yolov8Outputs, HaveCoefficientsOfMasks)
            std::vector{prototypes,      table}
   })
   {
-    const auto found = candidates(HeadKind::Yolov8, outputs, 3, 0.5f);
+    const auto found = rawBoxes(HeadKind::Yolov8, outputs, 3, 0.5f);
     ASSERT_EQ(found.size(), 1u) << "in whatever order the outputs come";
     EXPECT_EQ(found[0].label, 0u);
     EXPECT_EQ(found[0].maskCoefficients, (std::vector<float>{-3, 5}));
@@ -124,7 +124,7 @@ TEST(DarknetOutputs, AreSharesOfTheInput)
   HandMadeTensor coarse({6, 5 + 2}), fine({24, 5 + 2});
   const float row[] = {0.5f, 0.25f, 0.125f, 0.5f, 0.9f, 0.1f, 0.6f};
   std::copy(std::begin(row), std::end(row), &fine.at(7, 0));
-  const auto found = candidates(HeadKind::Darknet, {coarse, fine}, 2, 0.3f, HeadKind::Darknet);
+  const auto found = rawBoxes(HeadKind::Darknet, {coarse, fine}, 2, 0.3f, HeadKind::Darknet);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].label, 1u);
   EXPECT_FLOAT_EQ(found[0].score, 0.6f) << "objectness is in the score already";
@@ -134,8 +134,8 @@ TEST(DarknetOutputs, AreSharesOfTheInput)
 TEST(DenseOutputs, OfNoNumberGiveNoBox)
 {
   HandMadeTensor table({4 + 1, kCells}, std::numeric_limits<float>::quiet_NaN());
-  EXPECT_TRUE(candidates(HeadKind::Yolov8, {table}, 1, 0.25f).empty());
+  EXPECT_TRUE(rawBoxes(HeadKind::Yolov8, {table}, 1, 0.25f).empty());
   HandMadeTensor rows({kCells, 5 + 1}, std::numeric_limits<float>::quiet_NaN());
-  EXPECT_TRUE(candidates(HeadKind::Yolox, {rows}, 1, 0.25f).empty());
-  EXPECT_TRUE(candidates(HeadKind::Darknet, {rows}, 1, 0.25f, HeadKind::Darknet).empty());
+  EXPECT_TRUE(rawBoxes(HeadKind::Yolox, {rows}, 1, 0.25f).empty());
+  EXPECT_TRUE(rawBoxes(HeadKind::Darknet, {rows}, 1, 0.25f, HeadKind::Darknet).empty());
 }

@@ -29,13 +29,13 @@ class NanoDetOutputs : public testing::Test
   HandMadeTensor& sides() { return outputs_[4]; }
   HandMadeTensor& scores() { return outputs_[5]; }
 
-  std::vector<Candidate> candidates(float minScore) const
+  std::vector<RawBox> rawBoxes(float minScore) const
   {
     const auto [kind, head] = chooseHead(request_);
     EXPECT_EQ(kind, HeadKind::NanoDet);
     std::vector<Tensor> tensors;
     for (const auto& output : outputs_) tensors.push_back(output.tensor());
-    return head->candidates(tensors, minScore);
+    return head->rawBoxes(tensors, minScore);
   }
 
   std::vector<HandMadeTensor> outputs_;
@@ -50,7 +50,7 @@ TEST_F(NanoDetOutputs, GiveBoxesAroundTheCentresOfCells)
   scores().at(cell, 1) = 0.6f;
   for (int side = 0; side < 4; ++side)
     sides().at(cell, side * kBins + side) = 50;  // all in one bin: 0, 1, 2, 3 cells
-  const auto found = candidates(0.5f);
+  const auto found = rawBoxes(0.5f);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].label, 3u);
   EXPECT_FLOAT_EQ(found[0].score, 0.7f);
@@ -63,7 +63,7 @@ TEST_F(NanoDetOutputs, GiveBoxesAroundTheCentresOfCells)
 TEST_F(NanoDetOutputs, TakeTheMeanOfTheBins)
 {
   scores().at(0, 0) = 0.9f;  // all bins are equal: (0 + ... + 7) / 8 = 3.5 cells
-  const auto found = candidates(0.5f);
+  const auto found = rawBoxes(0.5f);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].box.x1, 3.5 - 28, 1e-9);
   EXPECT_NEAR(found[0].box.y2, 3.5 + 28, 1e-9);
@@ -73,7 +73,7 @@ TEST_F(NanoDetOutputs, HaveTheSizeOfTheirGrid)
 {
   outputs_[3].at(1, 2) = 0.9f;  // stride 32, column 1: centre (47.5, 15.5)
   for (int side = 0; side < 4; ++side) outputs_[2].at(1, side * kBins + 1) = 50;
-  const auto found = candidates(0.5f);
+  const auto found = rawBoxes(0.5f);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].box.x1, 15.5, 1e-9);
   EXPECT_NEAR(found[0].box.x2, 79.5, 1e-9);

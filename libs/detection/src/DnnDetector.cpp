@@ -151,34 +151,34 @@ std::vector<DetectedObject> DnnDetector::detect(const mrpt::img::CImage& image)
   const cv::Mat bgr = bgrOf(image.asCvMatRef());
   const Placement place = input_.fill(bgr);
   const std::vector<Tensor> outputs = run();
-  const auto candidates = suppressOverlaps(
-      head_->candidates(outputs, static_cast<float>(model_.minScore)), model_.maxOverlap,
+  const auto rawBoxes = suppressOverlaps(
+      head_->rawBoxes(outputs, static_cast<float>(model_.minScore)), model_.maxOverlap,
       CObservationObjects::kMostObjects);
   std::vector<DetectedObject> objects;
-  for (const Candidate& candidate : candidates)
+  for (const RawBox& rawBox : rawBoxes)
   {
     const ImageBox box =
-        place.toImage(candidate.box)
+        place.toImage(rawBox.box)
             .clipped(static_cast<unsigned>(bgr.cols), static_cast<unsigned>(bgr.rows));
-    if (box.isValid()) objects.push_back(objectOf(candidate, box, place, outputs));
+    if (box.isValid()) objects.push_back(objectOf(rawBox, box, place, outputs));
   }
   return objects;
 }
 
 DetectedObject DnnDetector::objectOf(
-    const Candidate& candidate,
+    const RawBox& rawBox,
     const ImageBox& box,
     const Placement& place,
     const std::vector<Tensor>& outputs) const
 {
   DetectedObject object;
-  object.label = labels_[candidate.label];
-  object.score = std::min(1.0, static_cast<double>(candidate.score));
+  object.label = labels_[rawBox.label];
+  object.score = std::min(1.0, static_cast<double>(rawBox.score));
   object.box = box;
   const int masks = head_->maskOutput();
   if (masks >= 0)
     object.mask = objectMask(
-        outputs[static_cast<std::size_t>(masks)], candidate, box, place,
+        outputs[static_cast<std::size_t>(masks)], rawBox, box, place,
         {model_.width, model_.height});
   return object;
 }

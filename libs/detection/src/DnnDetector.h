@@ -33,7 +33,7 @@ class DnnDetector : public Detector
  private:
   std::vector<Tensor> run();
   DetectedObject objectOf(
-      const Candidate& candidate,
+      const RawBox& rawBox,
       const ImageBox& box,
       const Placement& place,
       const std::vector<Tensor>& outputs) const;

@@ -21,12 +21,12 @@ cv::Mat sumOf(const Tensor& prototypes, const std::vector<float>& coefficients)
 
 std::optional<ObjectMask> objectMask(
     const Tensor& prototypes,
-    const Candidate& candidate,
+    const RawBox& rawBox,
     const ImageBox& box,
     const Placement& place,
     cv::Size input)
 {
-  const cv::Mat sum = sumOf(prototypes, candidate.maskCoefficients);
+  const cv::Mat sum = sumOf(prototypes, rawBox.maskCoefficients);
   ObjectMask mask;
   mask.x0 = static_cast<unsigned>(std::ceil(box.x1));
   mask.y0 = static_cast<unsigned>(std::ceil(box.y1));

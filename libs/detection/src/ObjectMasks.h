@@ -8,15 +8,13 @@
 
 namespace quadmap
 {
-/** The pixels of an object, from the prototypes of a network's masks: those within the box where
- * the sum of the prototypes times the candidate's coefficients is positive (the sigmoid is above
- * one half). Between the prototypes' pixels the sum is interpolated.
- * \param prototypes coefficients x height x width, over the whole input.
- * \param box The object's box in pixels of the image, within it.
- * \return Nothing when no pixel is. */
+/** The pixels of an object, from the prototypes of a network's masks and the coefficients of its
+ * raw box: doc/mathematics.md, (21.3). \param prototypes coefficients x height x width, over the
+ * whole input. \param box The object's box in pixels of the image, within it. \return Nothing when
+ * no pixel is. */
 std::optional<ObjectMask> objectMask(
     const Tensor& prototypes,
-    const Candidate& candidate,
+    const RawBox& rawBox,
     const ImageBox& box,
     const Placement& place,
     cv::Size input);

@@ -4,20 +4,19 @@
 
 namespace quadmap
 {
-std::vector<Candidate> suppressOverlaps(
-    std::vector<Candidate> candidates, double maxOverlap, std::size_t most)
+std::vector<RawBox> suppressOverlaps(
+    std::vector<RawBox> rawBoxes, double maxOverlap, std::size_t most)
 {
   std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  std::vector<Candidate> kept;
-  for (Candidate& candidate : candidates)
+      rawBoxes.begin(), rawBoxes.end(),
+      [](const RawBox& a, const RawBox& b) { return a.score > b.score; });
+  std::vector<RawBox> kept;
+  for (RawBox& rawBox : rawBoxes)
   {
     if (kept.size() == most) break;
-    const auto removes = [&](const Candidate& surer) {
-      return surer.label == candidate.label && imageBoxIoU(surer.box, candidate.box) > maxOverlap;
-    };
-    if (std::none_of(kept.begin(), kept.end(), removes)) kept.push_back(std::move(candidate));
+    const auto removes = [&](const RawBox& surer)
+    { return surer.label == rawBox.label && imageBoxIoU(surer.box, rawBox.box) > maxOverlap; };
+    if (std::none_of(kept.begin(), kept.end(), removes)) kept.push_back(std::move(rawBox));
   }
   return kept;
 }

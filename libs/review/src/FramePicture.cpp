@@ -128,7 +128,7 @@ class FramePainter
       if (edges && (*edges)[edge].state != EdgeState::Usable)
         canvas_.text(
             (from + to) / 2, 0,
-            (*edges)[edge].state == EdgeState::Occluded ? "hidden" : "image border", kGrey);
+            (*edges)[edge].state == EdgeState::Occluded ? "occluded" : "cut by the image", kGrey);
     }
   }
 

@@ -4,11 +4,10 @@
 
 namespace quadmap
 {
-std::vector<Candidate> DarknetHead::candidates(
-    const std::vector<Tensor>& outputs, float minScore) const
+std::vector<RawBox> DarknetHead::rawBoxes(const std::vector<Tensor>& outputs, float minScore) const
 {
   const auto columns = labels_ + kBeforeScores;
-  std::vector<Candidate> found;
+  std::vector<RawBox> found;
   for (const Tensor& output : outputs)
     for (const float* row = output.data; row != output.data + output.size(); row += columns)
     {

@@ -17,8 +17,7 @@ class DarknetHead : public Head
   static constexpr int kBeforeScores = 5;  //!< Columns: x, y, width, height, objectness
 
   std::size_t labels() const override { return labels_; }
-  std::vector<Candidate> candidates(
-      const std::vector<Tensor>& outputs, float minScore) const override;
+  std::vector<RawBox> rawBoxes(const std::vector<Tensor>& outputs, float minScore) const override;
 
  private:
   double width_, height_;  //!< Of the input [px]

@@ -35,11 +35,10 @@ float DenseHead::value(const float* table, std::size_t anchor, std::size_t colum
                                           : table[anchor * columns + column];
 }
 
-std::vector<Candidate> DenseHead::candidates(
-    const std::vector<Tensor>& outputs, float minScore) const
+std::vector<RawBox> DenseHead::rawBoxes(const std::vector<Tensor>& outputs, float minScore) const
 {
   const float* table = outputs[static_cast<std::size_t>(layout_.table)].data;
-  std::vector<Candidate> found;
+  std::vector<RawBox> found;
   // Most anchors see nothing. Which do is found in the order of memory.
   std::vector<bool> isSeen(layout_.anchors, hasObjectness());
   for (std::size_t c = 0; c < layout_.labels && !hasObjectness(); ++c)
@@ -51,27 +50,27 @@ std::vector<Candidate> DenseHead::candidates(
   for (std::size_t a = 0; a < layout_.anchors; ++a)
   {
     if (!isSeen[a] || (hasObjectness() && !(value(table, a, 4) >= minScore))) continue;
-    Candidate candidate = candidateOf(table, a);
-    if (candidate.score >= minScore) found.push_back(std::move(candidate));
+    RawBox rawBox = rawBoxOf(table, a);
+    if (rawBox.score >= minScore) found.push_back(std::move(rawBox));
   }
   return found;
 }
 
-Candidate DenseHead::candidateOf(const float* table, std::size_t anchor) const
+RawBox DenseHead::rawBoxOf(const float* table, std::size_t anchor) const
 {
-  Candidate candidate;
-  candidate.box = boxOf(table, anchor);
+  RawBox rawBox;
+  rawBox.box = boxOf(table, anchor);
   for (std::size_t c = 0; c < layout_.labels; ++c)
   {
     const float score = value(table, anchor, firstScore() + c);
-    if (c > 0 && !(score > candidate.score)) continue;
-    candidate.score = score;
-    candidate.label = c;
+    if (c > 0 && !(score > rawBox.score)) continue;
+    rawBox.score = score;
+    rawBox.label = c;
   }
-  if (hasObjectness()) candidate.score *= value(table, anchor, 4);
+  if (hasObjectness()) rawBox.score *= value(table, anchor, 4);
   for (std::size_t k = 0; k < layout_.coefficients; ++k)
-    candidate.maskCoefficients.push_back(value(table, anchor, firstScore() + layout_.labels + k));
-  return candidate;
+    rawBox.maskCoefficients.push_back(value(table, anchor, firstScore() + layout_.labels + k));
+  return rawBox;
 }
 
 ImageBox DenseHead::boxOf(const float* table, std::size_t anchor) const

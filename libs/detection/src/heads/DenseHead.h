@@ -7,8 +7,8 @@ namespace quadmap
 {
 /** Reads the networks that give one table with a box per anchor: YOLOX, YOLOv5, YOLOv8 and YOLO11.
  *
- *   YOLOX   anchors x (x y w h, objectness, scores), where x and y count cells and w and h are
- *           logarithms of cells: centre = (xy + cell) stride, size = exp(wh) stride
+ *   YOLOX   anchors x (x y w h, objectness, scores), where x y w h are in cells: (21.2) of
+ *           doc/mathematics.md
  *   YOLOv5  anchors x (x y w h [px of the input], objectness, scores)
  *   YOLOv8  (x y w h [px of the input], scores, coefficients of the mask) x anchors
  *
@@ -27,15 +27,14 @@ class DenseHead : public Head
   explicit DenseHead(const Layout& layout) : layout_(layout) {}
 
   std::size_t labels() const override { return layout_.labels; }
-  std::vector<Candidate> candidates(
-      const std::vector<Tensor>& outputs, float minScore) const override;
+  std::vector<RawBox> rawBoxes(const std::vector<Tensor>& outputs, float minScore) const override;
   int maskOutput() const override { return layout_.masks; }
 
  private:
   bool hasObjectness() const { return layout_.kind != HeadKind::Yolov8; }
   std::size_t firstScore() const { return hasObjectness() ? 5 : 4; }
   float value(const float* table, std::size_t anchor, std::size_t column) const;
-  Candidate candidateOf(const float* table, std::size_t anchor) const;
+  RawBox rawBoxOf(const float* table, std::size_t anchor) const;
   ImageBox boxOf(const float* table, std::size_t anchor) const;
 
   Layout layout_;

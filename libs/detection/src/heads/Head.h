@@ -33,7 +33,7 @@ struct Tensor
 };
 
 /** A box before overlapping ones are removed. */
-struct Candidate
+struct RawBox
 {
   ImageBox box;           //!< In pixels of the network's input
   std::size_t label = 0;  //!< Number of the class
@@ -51,7 +51,7 @@ class Head
 
   /** The boxes with at least this score, in the order of the outputs. Shapes are those that the
    *  head was made for. */
-  virtual std::vector<Candidate> candidates(
+  virtual std::vector<RawBox> rawBoxes(
       const std::vector<Tensor>& outputs, float minScore) const = 0;
 
   /** Index of the output with the prototypes of masks, -1 when there is none. Its shape is

@@ -33,28 +33,28 @@ HeadPtr darknetHead(const HeadRequest& request)
 HeadPtr nanoDetHead(const HeadRequest& request)
 {
   const auto& shapes = request.shapes;
-  std::array<NanoDetHead::Level, 3> levels;
-  if (shapes.size() != 2 * levels.size()) return nullptr;
+  std::array<NanoDetHead::GridOutputs, 3> grids;
+  if (shapes.size() != 2 * grids.size()) return nullptr;
   const auto labels = static_cast<int>(request.labels);
   int bins = 0;
-  for (std::size_t l = 0; l < levels.size(); ++l)
+  for (std::size_t l = 0; l < grids.size(); ++l)
   {
-    NanoDetHead::Level& level = levels[l];
-    level.grid = Grid::of(request.width, request.height, kStrides[l]);
+    NanoDetHead::GridOutputs& part = grids[l];
+    part.grid = Grid::of(request.width, request.height, kStrides[l]);
     std::vector<std::size_t> own;
     for (std::size_t i = 0; i < shapes.size(); ++i)
-      if (shapes[i].size() == 2 && shapes[i][0] == level.grid.cells()) own.push_back(i);
+      if (shapes[i].size() == 2 && shapes[i][0] == part.grid.cells()) own.push_back(i);
     if (own.size() != 2) return nullptr;
     const bool scoresFirst = shapes[own[0]][1] == labels;
-    level.scores = own[scoresFirst ? 0 : 1];
-    level.sides = own[scoresFirst ? 1 : 0];
-    const int sides = shapes[level.sides][1];
+    part.scores = own[scoresFirst ? 0 : 1];
+    part.sides = own[scoresFirst ? 1 : 0];
+    const int sides = shapes[part.sides][1];
     if (sides < 8 || sides % 4 != 0 || (l > 0 && sides != 4 * bins)) return nullptr;
     bins = sides / 4;
-    if (shapes[level.scores][1] != shapes[levels[0].scores][1] || sides == labels) return nullptr;
+    if (shapes[part.scores][1] != shapes[grids[0].scores][1] || sides == labels) return nullptr;
   }
-  const auto classes = static_cast<std::size_t>(shapes[levels[0].scores][1]);
-  return std::make_unique<NanoDetHead>(levels, classes, bins);
+  const auto classes = static_cast<std::size_t>(shapes[grids[0].scores][1]);
+  return std::make_unique<NanoDetHead>(grids, classes, bins);
 }
 
 /** The index of the table and, with masks, of their prototypes. */

@@ -5,20 +5,19 @@
 
 namespace quadmap
 {
-std::vector<Candidate> NanoDetHead::candidates(
-    const std::vector<Tensor>& outputs, float minScore) const
+std::vector<RawBox> NanoDetHead::rawBoxes(const std::vector<Tensor>& outputs, float minScore) const
 {
-  std::vector<Candidate> found;
-  for (const Level& level : levels_)
+  std::vector<RawBox> found;
+  for (const GridOutputs& part : grids_)
   {
-    const float* scores = outputs[level.scores].data;
-    const float* sides = outputs[level.sides].data;
-    for (int cell = 0; cell < level.grid.cells(); ++cell, scores += labels_, sides += 4 * bins_)
+    const float* scores = outputs[part.scores].data;
+    const float* sides = outputs[part.sides].data;
+    for (int cell = 0; cell < part.grid.cells(); ++cell, scores += labels_, sides += 4 * bins_)
     {
       const float* best = std::max_element(scores, scores + labels_);
       if (*best >= minScore)
         found.push_back(
-            {boxOf(level.grid, cell, sides), static_cast<std::size_t>(best - scores), *best, {}});
+            {boxOf(part.grid, cell, sides), static_cast<std::size_t>(best - scores), *best, {}});
     }
   }
   return found;

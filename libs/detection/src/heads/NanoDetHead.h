@@ -11,31 +11,29 @@ namespace quadmap
  * side of the box, the probabilities of its distance from the cell in a number of bins, as
  * logarithms (cells x 4 bins).
  *
- * The distance of a side is stride * sum(k * softmax_k) ["Generalized Focal Loss", Li et al.,
- * 2020]; the centre of cell i is at (i + 0.5) stride - 0.5. */
+ * Distances and centres: doc/mathematics.md, (21.1). */
 class NanoDetHead : public Head
 {
  public:
-  struct Level
+  struct GridOutputs
   {
     Grid grid;
     std::size_t scores = 0, sides = 0;  //!< Indices of its two outputs
   };
 
-  NanoDetHead(const std::array<Level, 3>& levels, std::size_t labels, int bins) :
-      levels_(levels), labels_(labels), bins_(bins)
+  NanoDetHead(const std::array<GridOutputs, 3>& grids, std::size_t labels, int bins) :
+      grids_(grids), labels_(labels), bins_(bins)
   {
   }
 
   std::size_t labels() const override { return labels_; }
-  std::vector<Candidate> candidates(
-      const std::vector<Tensor>& outputs, float minScore) const override;
+  std::vector<RawBox> rawBoxes(const std::vector<Tensor>& outputs, float minScore) const override;
 
  private:
   ImageBox boxOf(const Grid& grid, int cell, const float* logits) const;
   double distance(const float* logits) const;
 
-  std::array<Level, 3> levels_;
+  std::array<GridOutputs, 3> grids_;
   std::size_t labels_;
   int bins_;
 };
