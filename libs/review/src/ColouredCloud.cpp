@@ -3,6 +3,7 @@
 #include <mrpt/maps/CColouredPointsMap.h>
 #include <mrpt/obs/T3DPointsProjectionParams.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -69,11 +70,36 @@ CloudCollector::CloudCollector(double cellSize, std::size_t maxPoints) :
     throw std::invalid_argument("point cloud: cell size and number of points must be positive");
 }
 
-std::size_t CloudCollector::KeyHash::operator()(const Eigen::Vector3i& k) const
+/** The slot of a key, or the free one where it belongs: the next free one after that of its hash.
+ */
+std::size_t CloudCollector::Cells::slotOf(const Eigen::Vector3i& key) const
 {
-  const auto mix = [](int v, std::uint64_t prime) { return static_cast<std::uint64_t>(v) * prime; };
-  const std::uint64_t h = mix(k.x(), 73856093) ^ mix(k.y(), 19349663) ^ mix(k.z(), 83492791);
-  return h ^ (h >> 21);
+  const auto part = [&](int axis) { return static_cast<std::uint64_t>(key[axis]) & 0x1FFFFF; };
+  std::uint64_t h = part(0) | part(1) << 21 | part(2) << 42;
+  h = (h ^ (h >> 31)) * 0x9E3779B97F4A7C15;  // multiplication by the golden ratio mixes upwards
+  std::size_t slot = (h >> 32) & (slots_.size() - 1);
+  while (slots_[slot] != 0 && entries_[slots_[slot] - 1].key != key)
+    slot = (slot + 1) & (slots_.size() - 1);
+  return slot;
+}
+
+void CloudCollector::Cells::enlarge()
+{
+  slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), 0);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    slots_[slotOf(entries_[i].key)] = static_cast<std::uint32_t>(i + 1);
+}
+
+CloudCollector::Cell& CloudCollector::Cells::operator[](const Eigen::Vector3i& key)
+{
+  if (2 * entries_.size() >= slots_.size()) enlarge();
+  std::uint32_t& slot = slots_[slotOf(key)];
+  if (slot == 0)
+  {
+    entries_.push_back({key, {}});
+    slot = static_cast<std::uint32_t>(entries_.size());
+  }
+  return entries_[slot - 1].cell;
 }
 
 Eigen::Vector3i CloudCollector::keyOf(const Eigen::Vector3f& p_map) const
@@ -125,7 +151,7 @@ void CloudCollector::closeGaps(double largest)
 {
   constexpr double kSeveral = 8;  // mean number of points per cell
   double hits = 0;
-  for (const auto& entry : cells_) hits += static_cast<double>(entry.second.count);
+  for (const auto& entry : cells_.entries()) hits += static_cast<double>(entry.cell.count);
   while (hits < kSeveral * static_cast<double>(cells_.size()) && cellSize_ * kGrowth <= largest)
     growCells();
 }
@@ -134,16 +160,16 @@ void CloudCollector::growCells()
 {
   cellSize_ *= kGrowth;
   Cells coarse;
-  for (const auto& entry : cells_)
+  for (const auto& entry : cells_.entries())
   {
-    const Cell& from = entry.second;
+    const Cell& from = entry.cell;
     Cell& to = coarse[keyOf(from.positionSum / from.count)];
     to.positionSum += from.positionSum;
     to.normalSum += from.normalSum;
     to.rgbSum += from.rgbSum;
     to.count += from.count;
   }
-  cells_.swap(coarse);
+  cells_ = std::move(coarse);
 }
 
 Cloud CloudCollector::points() const
@@ -153,9 +179,9 @@ Cloud CloudCollector::points() const
   const float fewestHits = frames_ < 10 ? 1.0F : 2.0F;
   Cloud out;
   out.reserve(cells_.size());
-  for (const auto& entry : cells_)
+  for (const auto& entry : cells_.entries())
   {
-    const Cell& cell = entry.second;
+    const Cell& cell = entry.cell;
     if (cell.count < fewestHits) continue;
     CloudPoint p;
     p.position = cell.positionSum / cell.count;

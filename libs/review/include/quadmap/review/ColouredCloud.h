@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace quadmap
@@ -57,11 +56,27 @@ class CloudCollector
     Eigen::Vector3f rgbSum = Eigen::Vector3f::Zero();
     float count = 0;
   };
-  struct KeyHash
+  /** The cells by their keys, one after the other in memory, in the order in which they were hit.
+   */
+  class Cells
   {
-    std::size_t operator()(const Eigen::Vector3i& k) const;
+   public:
+    struct Entry
+    {
+      Eigen::Vector3i key;
+      Cell cell;
+    };
+    Cell& operator[](const Eigen::Vector3i& key);  //!< It is made when there is none
+    std::size_t size() const { return entries_.size(); }
+    const std::vector<Entry>& entries() const { return entries_; }
+
+   private:
+    std::size_t slotOf(const Eigen::Vector3i& key) const;
+    void enlarge();
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> slots_;  //!< 1 + index of an entry, 0 where none is; a power of two
   };
-  using Cells = std::unordered_map<Eigen::Vector3i, Cell, KeyHash>;
 
   Eigen::Vector3i keyOf(const Eigen::Vector3f& p_map) const;
   void growCells();
