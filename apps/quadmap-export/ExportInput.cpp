@@ -38,7 +38,6 @@ CQuadricObjectMap readMap(const std::string& input)
 /** The true objects in the frame of the map. */
 std::vector<ObjectRecord> readTruth(const ExportInput& input)
 {
-  if (!input.truthPath) return {};
   std::vector<ObjectRecord> truth = readObjectsJson(*input.truthPath);
   if (input.inPlace) return truth;
   if (!fs::is_directory(input.path))
@@ -57,7 +56,13 @@ SceneContent readScene(
 {
   SceneContent content;
   content.objects = map.toRecords();
-  content.truth = readTruth(input);
+  if (input.truthPath)
+  {
+    content.truth = readTruth(input);
+    const ObjectEvaluation comparison = evaluateObjects(content.truth, content.objects, {});
+    for (const ObjectRecord& record : comparison.spurious) content.phantoms.insert(record.id);
+    for (const ObjectRecord& record : comparison.missed) content.missed.insert(record.id);
+  }
   const fs::path path = input.path;
   if (!fs::is_directory(path)) return content;
   content.trajectory = posesOf(path / "trajectory.tum");

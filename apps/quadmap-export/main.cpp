@@ -8,9 +8,11 @@
 #include "common/CommandLine.h"
 #include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/review/ContactSheet.h"
 #include "quadmap/review/GlbFile.h"
 #include "quadmap/review/KeyframePictures.h"
 #include "quadmap/review/PageFile.h"
+#include "quadmap/review/PictureAnnotation.h"
 #include "quadmap/review/PlyFile.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/review/SceneRenderer.h"
@@ -39,6 +41,8 @@ struct Cli
   Text top{"", "top", "Picture straight from above (.png).", false, "", "FILE", line.args()};
   Text ply{"",     "ply",      "Ellipsoids as triangles, and the point cloud.", false, "",
            "FILE", line.args()};
+  Text sheet{"",     "sheet",    "Contact sheet: each object in its best image (.png).", false, "",
+             "FILE", line.args()};
   Text glb{"",     "glb",      "Objects, trajectories and cloud as binary glTF.", false, "",
            "FILE", line.args()};
   Text json{"", "json", "The objects (form of objects.json).", false, "", "FILE", line.args()};
@@ -96,6 +100,7 @@ void checkUsage(Cli& cli)
   pictureSizeFrom(cli.size.getValue());
   requirePngName(cli.png);
   requirePngName(cli.top);
+  requirePngName(cli.sheet);
   if (cli.truth.isSet() && cli.trajectory.isSet() == cli.inPlace.getValue())
     throw cli::UsageError(
         "--truth: give either --trajectory, the true trajectory that aligns it with the map, or "
@@ -105,10 +110,12 @@ void checkUsage(Cli& cli)
   if (cli.compare.isSet() && (cli.truth.isSet() || !cli.html.isSet()))
     throw cli::UsageError("--compare: belongs to --html, and goes without --truth");
   for (const auto* output :
-       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.json, &cli.frames})
+       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
+        &cli.frames})
     if (output->isSet()) return;
   throw cli::UsageError(
-      "nothing to write: give --html, --scene, --png, --top, --ply, --glb, --json or --frames");
+      "nothing to write: give --html, --scene, --png, --top, --ply, --glb, --sheet, --json or "
+      "--frames");
 }
 
 /** Runs a writer if its file was asked for, and prints the name of the file. */
@@ -135,7 +142,8 @@ ExportInput inputOf(Cli& cli)
   input.trajectoryPath = given(cli.trajectory);
   input.inPlace = cli.inPlace.getValue();
   const bool showsCloud = cli.html.isSet() || cli.scene.isSet() || cli.png.isSet() ||
-                          cli.top.isSet() || cli.ply.isSet() || cli.glb.isSet();
+                          cli.top.isSet() || cli.ply.isSet() || cli.glb.isSet() ||
+                          cli.sheet.isSet();
   input.withCloud = showsCloud && !cli.noCloud.getValue();
   return input;
 }
@@ -166,7 +174,11 @@ void writeScenes(Cli& cli, const SceneContent& content)
   if (!cli.png.isSet() && !cli.top.isSet()) return;
   SceneRenderer renderer(size);
   const auto picture = [&](const std::string& path, const RenderCamera& camera)
-  { writePicture(renderer.render(*builder.picture(content, camera, size), camera), path); };
+  {
+    mrpt::img::CImage drawn = renderer.render(*builder.picture(content, camera, size), camera);
+    annotatePicture(content, camera, drawn);
+    writePicture(drawn, path);
+  };
   writeIfSet(cli.png, [&](const auto& p) { picture(p, obliqueCamera(content, size.aspect())); });
   writeIfSet(cli.top, [&](const auto& p) { picture(p, cameraFromAbove(content, size.aspect())); });
 }
@@ -175,9 +187,10 @@ void run(Cli& cli)
 {
   checkUsage(cli);
   const ExportInput input = inputOf(cli);
-  if (!cli.html.isSet()) return writeScenes(cli, readExportInput(input));
+  if (!cli.html.isSet() && !cli.sheet.isSet()) return writeScenes(cli, readExportInput(input));
   PageContent page = readPageInput(input, given(cli.compare));
   writeIfSet(cli.html, [&](const auto& path) { writePage(page, path, cli.three.getValue()); });
+  writeIfSet(cli.sheet, [&](const auto& path) { writeContactSheet(page, path); });
   writeScenes(cli, page.scene);
 }
 }  // namespace

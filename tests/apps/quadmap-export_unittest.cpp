@@ -84,10 +84,9 @@ TEST_F(QuadmapExport, WritesEverythingOfAFolder)
 {
   const auto result =
       run("DIR --scene DIR/s.3Dscene --png DIR/p.png --top DIR/t.png --ply DIR/m.ply --glb "
-          "DIR/m.glb --json DIR/o.json "
-          "--size 320x200");
+          "DIR/m.glb --sheet DIR/c.png --json DIR/o.json --size 320x200");
   ASSERT_EQ(result.status, 0) << result.err;
-  for (const char* file : {"s.3Dscene", "p.png", "t.png", "m.ply", "m.glb", "o.json"})
+  for (const char* file : {"s.3Dscene", "p.png", "t.png", "m.ply", "m.glb", "c.png", "o.json"})
   {
     EXPECT_TRUE(exists(file)) << file;
     EXPECT_NE(result.out.find("wrote " + folder_.path(file)), kNotFound) << result.out;
@@ -298,7 +297,8 @@ TEST_F(QuadmapExport, AnswersWrongUsageWithStatus2AndOneLine)
         "DIR --png DIR/p.png --size 5000x100", "DIR DIR --png DIR/p.png", "DIR --no-cloud",
         "DIR --png DIR/p.png --truth DIR/gt.json", "DIR --png DIR/p.png --in-place",
         "DIR --png DIR/p.png --truth DIR/gt.json --in-place --trajectory DIR/trajectory.tum",
-        "DIR --png DIR/p.png --compare DIR", "DIR --html DIR/p.htm --size 1x1"})
+        "DIR --png DIR/p.png --compare DIR", "DIR --sheet DIR/c.jpg",
+        "DIR --html DIR/p.htm --size 1x1"})
   {
     const auto result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;

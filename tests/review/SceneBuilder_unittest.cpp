@@ -87,6 +87,16 @@ TEST(SceneBuilder, PicturesHideTheCeilingScenesDoNot)
   EXPECT_EQ(pointsOf(*SceneBuilder().picture(content, cameraFromAbove(content, 1.6))), 1u);
 }
 
+TEST(SceneBuilder, LeavesOutWallsFromAbove)
+{
+  SceneContent content = sampleContent();
+  content.cloud = floorAndCeiling();
+  CloudPoint wall = content.cloud[0];
+  wall.normal = Eigen::Vector3f(0.95F, 0, 0.3F);  // it leans to the eyes that saw it from above
+  content.cloud = {wall};
+  EXPECT_EQ(pointsOf(*SceneBuilder().picture(content, cameraFromAbove(content, 1.6))), 0u);
+}
+
 TEST(SceneBuilder, KeepsFarPointsOut)
 {
   SceneContent content = sampleContent();

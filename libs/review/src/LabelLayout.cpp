@@ -3,12 +3,9 @@
 #include <mrpt/opengl/CText3D.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "LabelColor.h"
 #include "Mesh.h"
-#include "quadmap/geometry/ImageBox.h"
 
 namespace quadmap
 {
@@ -51,20 +48,21 @@ double textWidth(const std::string& text) { return MeasuredText(text).width(); }
 CSetOfObjects::Ptr plate(
     const ObjectRecord& record, const RenderCamera& camera, const Eigen::Vector3d& p, double height)
 {
-  const double width = textWidth(record.label) * height;
+  const std::string name = record.label + " " + record.id;
+  const double width = textWidth(name) * height;
   const double x = 0.5 * width + 0.35 * height, y = 0.75 * height;
   FlatMesh background("plate", mrpt::img::TColor(255, 255, 255, 215), FlatMesh::Order::OnTop);
   background.addTriangle({-x, -y, 0}, {x, -y, 0}, {x, y, 0});
   background.addTriangle({-x, -y, 0}, {x, y, 0}, {-x, y, 0});
 
   auto text = mrpt::opengl::CText3D::Create(
-      record.label, "sans", static_cast<float>(height), mrpt::opengl::FILL, kLineSpacing, kKerning);
+      name, "sans", static_cast<float>(height), mrpt::opengl::FILL, kLineSpacing, kKerning);
   text->setColor_u8(labelColor(record.label));
   text->setLocation(-0.5 * width, -0.45 * height, 0.05 * height);
 
   auto group = CSetOfObjects::Create();
   group->setPose(facing(camera, p));
-  group->setName(record.label + " " + record.id);
+  group->setName(name);
   group->insert(background.mesh());
   group->insert(text);
   return group;
@@ -78,47 +76,6 @@ Eigen::Vector3d topOf(const ObjectRecord& record)
   return top;
 }
 
-/** A label and its place in the picture. The unit of length is the height of the picture, the
- * origin its middle, and y points up. */
-struct Placed
-{
-  const ObjectRecord* record;
-  Eigen::Vector2d anchor;  // top of the object
-  ImageBox box;
-
-  void moveTo(double x, double y)
-  {
-    const double w = box.width(), h = box.height();
-    box = {x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h};
-  }
-};
-
-std::optional<Eigen::Vector2d> inPicture(const RenderCamera& camera, const Eigen::Vector3d& p_map)
-{
-  const Eigen::Vector3d p = camera.axes().transpose() * (p_map - camera.eye());
-  if (p.z() >= 0) return std::nullopt;
-  return Eigen::Vector2d(p.head<2>() / (-p.z() * 2 * std::tan(0.5 * camera.verticalFov)));
-}
-
-/** Finds a place that no other label takes: above the object, or else higher or lower. */
-void findFreePlace(Placed& label, const std::vector<Placed>& others, double aspect)
-{
-  const double h = label.box.height(), w = label.box.width();
-  const double x = std::clamp(label.anchor.x(), -0.5 * aspect + 0.5 * w, 0.5 * aspect - 0.5 * w);
-  constexpr int kPlaces = 24;
-  for (int i = 0; i < kPlaces; ++i)
-  {
-    const int step = (i + 1) / 2 * (i % 2 == 1 ? 1 : -1);
-    const double y = label.anchor.y() + (0.75 + 0.6 * step) * h;
-    label.moveTo(x, std::clamp(y, -0.5 + 0.5 * h, 0.5 - 0.5 * h));
-    const bool isFree = std::none_of(
-        others.begin(), others.end(),
-        [&](const Placed& other) { return imageBoxIoU(label.box, other.box) > 0; });
-    if (isFree) return;
-  }
-  label.moveTo(x, label.anchor.y() + 0.75 * h);
-}
-
 }  // namespace
 
 CSetOfObjects::Ptr standingLabels(
@@ -129,42 +86,6 @@ CSetOfObjects::Ptr standingLabels(
   for (const ObjectRecord& record : objects)
     group->insert(
         plate(record, camera, topOf(record) + Eigen::Vector3d(0, 0, 1.2 * height), height));
-  return group;
-}
-
-CSetOfObjects::Ptr pictureLabels(
-    const std::vector<ObjectRecord>& objects,
-    const RenderCamera& camera,
-    const PictureLabels& style)
-{
-  std::vector<Placed> placed;
-  for (const ObjectRecord& record : objects)
-  {
-    const auto anchor = inPicture(camera, topOf(record));
-    if (!anchor) continue;
-    const double width = (textWidth(record.label) + 0.7) * style.height;
-    Placed label{
-        &record, *anchor, ImageBox{0, 0, width, 1.5 * style.height}
-    };
-    findFreePlace(label, placed, style.aspect);
-    placed.push_back(label);
-  }
-
-  // The labels are drawn on a plane near the eye, so that nothing hides them.
-  const double nearDistance = 0.05 * camera.distance;
-  const double metresPerHeight = 2 * std::tan(0.5 * camera.verticalFov) * nearDistance;
-  const auto onPlane = [&](double x, double y) -> Eigen::Vector3d
-  {
-    return camera.eye() +
-           camera.axes() * Eigen::Vector3d(x * metresPerHeight, y * metresPerHeight, -nearDistance);
-  };
-  auto group = CSetOfObjects::Create();
-  group->setName("labels");
-  for (const Placed& label : placed)
-  {
-    const Eigen::Vector3d p = onPlane(label.box.centerX(), label.box.centerY());
-    group->insert(plate(*label.record, camera, p, style.height * metresPerHeight));
-  }
   return group;
 }
 

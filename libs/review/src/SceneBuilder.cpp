@@ -13,6 +13,7 @@
 #include "LabelColor.h"
 #include "LabelLayout.h"
 #include "Mesh.h"
+#include "SceneColors.h"
 #include "quadmap/base/GzipStream.h"
 
 namespace quadmap
@@ -29,9 +30,6 @@ const mrpt::img::TColorf kAmbientLight(0.65F, 0.65F, 0.65F);
 const mrpt::img::TColorf kDiffuseLight(0.45F, 0.45F, 0.45F);
 const mrpt::img::TColorf kSpecularLight(0.1F, 0.1F, 0.1F);
 const TColor kGridColor(0, 0, 0, 40);
-const TColor kTruthColor(20, 20, 20);
-const TColor kTrajectoryColor(20, 60, 160);
-const TColor kOdometryColor(230, 120, 20, 200);
 
 std::string nameOf(const ObjectRecord& record) { return record.label + " " + record.id; }
 
@@ -172,12 +170,14 @@ bool isInside(const Eigen::Vector3d& p_map, const std::vector<ObjectRecord>& obj
       });
 }
 
-/** Whether a surface faces the eye. At a grazing angle it does not, because normals are noisy. */
+/** Whether a surface faces the eye. At a grazing angle it does not, because normals are noisy. From
+ * straight above walls are left out altogether: they would cover what stands along them. */
 bool facesEye(const CloudPoint& p, const RenderCamera& camera)
 {
-  constexpr double kGrazing = 0.15;  // cosine of the angle to the normal
+  constexpr double kGrazing = 0.15, kLevel = 0.6;  // cosines of the angle to the normal
+  constexpr double kAbove = 1.4;                   // elevation of a camera straight above [rad]
   const Eigen::Vector3d toEye = (camera.eye() - p.position.cast<double>()).normalized();
-  return p.normal.cast<double>().dot(toEye) > kGrazing;
+  return p.normal.cast<double>().dot(toEye) > (camera.elevation > kAbove ? kLevel : kGrazing);
 }
 
 /** The points around the objects, and those that belong to objects. The latter are few and small,
@@ -215,16 +215,6 @@ CloudParts cloudOf(
   return parts;
 }
 
-/** Whether two trajectories differ visibly. Equal lines on top of each other would flicker. */
-bool differVisibly(const std::vector<CPose3D>& a, const std::vector<CPose3D>& b)
-{
-  constexpr double kVisible = 0.01;  // least distance that can be seen [m]
-  if (a.size() != b.size()) return true;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if ((a[i].translation() - b[i].translation()).norm() > kVisible) return true;
-  return false;
-}
-
 /** The parts that scenes and pictures have in common: all but cloud and labels.
  * \param lineRadius Half the width of the thickest lines [m]. */
 mrpt::opengl::COpenGLScene::Ptr commonParts(
@@ -237,7 +227,7 @@ mrpt::opengl::COpenGLScene::Ptr commonParts(
   light.diffuse = kDiffuseLight;
   light.specular = kSpecularLight;
   scene->insert(floorGrid(content));
-  if (differVisibly(content.odometry, content.trajectory))
+  if (content.odometryDiffers())
     scene->insert(
         lineThrough(content.odometry, FlatMesh("odometry", kOdometryColor), 0.6 * lineRadius));
   scene->insert(
@@ -279,8 +269,6 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::picture(
   scene->insert(cloud.around);
   scene->insert(cloud.inside);
 
-  const PictureLabels style{size.aspect(), options_.pictureLabelHeight};
-  scene->insert(pictureLabels(content.objects, camera, style));
   camera.applyTo(scene->getViewport()->getCamera());
   return scene;
 }

@@ -52,12 +52,22 @@ double visiblePart(const SceneContent& content, const RenderCamera& camera)
              : static_cast<double>(facing) / static_cast<double>(content.cloud.size());
 }
 
+/** What decides from which side a map is looked at. */
+SceneContent deciding(const SceneContent& content)
+{
+  if (content.objects.empty()) return content;
+  SceneContent objects;
+  objects.objects = content.objects;
+  return objects;
+}
+
 }  // namespace
 
 RenderCamera obliqueCamera(const SceneContent& content, double aspect)
 {
   constexpr int kDirections = 24;
-  const std::vector<Eigen::Vector3d> extent = content.extent();
+  const SceneContent parts = deciding(content);
+  const std::vector<Eigen::Vector3d> extent = parts.extent();
   RenderCamera best;
   double leastCost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDirections; ++i)
@@ -69,11 +79,11 @@ RenderCamera obliqueCamera(const SceneContent& content, double aspect)
     camera = framed(camera, extent, aspect, kMargin);
     // Distance, overlap and visible share weigh about equally over their usual ranges.
     const double cost =
-        std::log(camera.distance) + 2 * overlap(content, camera) - 2 * visiblePart(content, camera);
+        std::log(camera.distance) + 2 * overlap(parts, camera) - 2 * visiblePart(parts, camera);
     if (cost < leastCost) best = camera;
     leastCost = std::min(cost, leastCost);
   }
-  return best;
+  return framed(best, content.extent(), aspect, kMargin);
 }
 
 RenderCamera cameraFromAbove(const SceneContent& content, double aspect)
@@ -82,12 +92,12 @@ RenderCamera cameraFromAbove(const SceneContent& content, double aspect)
   camera.verticalFov = 12 * kDegree;  // rays are nearly parallel, so that walls hide little
   camera.elevation = 89.9 * kDegree;  // not 90, so that the azimuth says what is up in the picture
   camera.azimuth = -90 * kDegree;     // y of the map is up
-  const std::vector<Eigen::Vector3d> extent = content.extent();
+  const std::vector<Eigen::Vector3d> extent = deciding(content).extent();
   RenderCamera turned = camera;
   turned.azimuth = 180 * kDegree;  // x of the map is up
-  const RenderCamera yUp = framed(camera, extent, aspect, kMargin);
-  const RenderCamera xUp = framed(turned, extent, aspect, kMargin);
-  return xUp.distance < yUp.distance ? xUp : yUp;
+  const bool xIsUp = framed(turned, extent, aspect, kMargin).distance <
+                     framed(camera, extent, aspect, kMargin).distance;
+  return framed(xIsUp ? turned : camera, content.extent(), aspect, kMargin);
 }
 
 }  // namespace quadmap

@@ -45,6 +45,15 @@ double SceneContent::floorHeight() const
   return heights.empty() ? 0.0 : quantile(std::move(heights), kLow);
 }
 
+bool SceneContent::odometryDiffers() const
+{
+  constexpr double kVisible = 0.01;  // least distance that can be seen [m]
+  if (odometry.size() != trajectory.size()) return true;
+  for (std::size_t i = 0; i < odometry.size(); ++i)
+    if ((positionOf(odometry[i]) - positionOf(trajectory[i])).norm() > kVisible) return true;
+  return false;
+}
+
 std::vector<Eigen::Vector3d> SceneContent::extent() const
 {
   std::vector<Eigen::Vector3d> points;

@@ -62,15 +62,29 @@ void PageImages::add(const mrpt::obs::CObservation3DRangeScan& scan, const Camer
 std::string PageImages::jpegOf(const mrpt::img::CImage& image) const
 {
   // From the best to one that is still worth looking at.
-  constexpr std::array kQualities = {80, 65, 50, 35, 20};
-  const cv::Mat& full = image.asCvMatRef();
-  const double scale = std::min(1.0, double(options_.longerSide) / std::max(full.cols, full.rows));
-  cv::Mat reduced;
-  cv::resize(full, reduced, {}, scale, scale, cv::INTER_AREA);
-  std::vector<std::uint8_t> jpeg;
-  for (const int quality : kQualities)
+  struct Grade
   {
-    cv::imencode(".jpg", reduced, jpeg, {cv::IMWRITE_JPEG_QUALITY, quality});
+    double size;
+    int quality;
+  };
+  constexpr std::array kGrades = {
+      Grade{1.0, 80},
+      Grade{1.0, 65},
+      Grade{0.5, 80},
+      Grade{0.5, 65},
+      Grade{0.5, 50},
+      Grade{0.5, 35},
+      Grade{0.5, 20}
+  };
+  const cv::Mat& full = image.asCvMatRef();
+  const int longerSide = std::max(full.cols, full.rows);
+  std::vector<std::uint8_t> jpeg;
+  for (const Grade& grade : kGrades)
+  {
+    const double scale = std::min(1.0, grade.size * options_.longerSide / longerSide);
+    cv::Mat reduced;
+    cv::resize(full, reduced, {}, scale, scale, cv::INTER_AREA);
+    cv::imencode(".jpg", reduced, jpeg, {cv::IMWRITE_JPEG_QUALITY, grade.quality});
     if (jpeg.size() <= bytesPerImage_) break;
   }
   return {jpeg.begin(), jpeg.end()};

@@ -13,7 +13,7 @@ namespace quadmap
 /** How large the images of a page are. */
 struct PageImageOptions
 {
-  unsigned longerSide = 320;            //!< Images are reduced to this [px], > 0
+  unsigned longerSide = 640;            //!< Images are reduced to this, or to half of it [px], > 0
   std::size_t totalBytes = 14'000'000;  //!< Of all JPEGs: with more images each is coarser, > 0
 };
 

@@ -13,7 +13,6 @@ namespace quadmap
 struct SceneOptions
 {
   double labelHeight = 0.12;          //!< Height of letters for a viewer [m], > 0
-  double pictureLabelHeight = 0.022;  //!< Height of letters / height of the picture, > 0
   double lineRadius = 0.008;          //!< Half the width of a scene's lines [m], > 0
   double pictureLineRadius = 0.0018;  //!< The same / height of the picture, > 0
   double cloudMargin = 1.0;           //!< Margin of the cloud around all else [m], >= 0
@@ -35,8 +34,8 @@ class SceneBuilder
   mrpt::opengl::COpenGLScene::Ptr scene(const SceneContent& content) const;
 
   /** A scene for one picture. It has only those points of the cloud that face the eye, so that near
-   *  walls and the ceiling do not hide the room. The labels face the eye, are in front of
-   * everything and do not overlap. */
+   *  walls and the ceiling do not hide the room. Labels are written on the picture
+   * (annotatePicture). */
   mrpt::opengl::COpenGLScene::Ptr picture(
       const SceneContent& content, const RenderCamera& camera, const PictureSize& size = {}) const;
 
@@ -44,10 +43,13 @@ class SceneBuilder
   SceneOptions options_;
 };
 
-/** A camera that looks down at an angle, from the side from which least is hidden. */
+/** A camera that looks down at an angle, from the side from which least is hidden. Where there are
+ * objects, they alone say which side that is: a map is seen alike with its trajectory and without.
+ */
 RenderCamera obliqueCamera(const SceneContent& content, double aspect);
 
-/** A camera that looks straight down, with the longer side of the map along that of the picture. */
+/** A camera that looks straight down, with the longer side of the map along that of the picture;
+ * which it is, is again for the objects to say. */
 RenderCamera cameraFromAbove(const SceneContent& content, double aspect);
 
 /** Writes a .3Dscene file. It appears complete or not at all.

@@ -3,6 +3,8 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <Eigen/Dense>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "quadmap/obs/ObjectList.h"
@@ -23,6 +25,8 @@ struct SceneContent
 {
   std::vector<ObjectRecord> objects;
   std::vector<ObjectRecord> truth;
+  std::set<std::string> phantoms;                //!< Ids of objects that the truth does not have
+  std::set<std::string> missed;                  //!< Ids of true objects that the map does not have
   std::vector<mrpt::poses::CPose3D> trajectory;  //!< Corrected poses in the order of time
   std::vector<mrpt::poses::CPose3D> odometry;    //!< Poses of the odometry in the order of time
   std::vector<CameraPose> cameras;
@@ -32,6 +36,10 @@ struct SceneContent
   /** Height of the floor [m]. It is guessed from the lowest objects or, without objects, from the
    *  cloud or, without a cloud, from the trajectory. */
   double floorHeight() const;
+
+  /** Whether the odometry differs visibly from the trajectory. Equal lines on top of each other
+   * would flicker. */
+  bool odometryDiffers() const;
 
   /** Points that a picture must show: the corners of the objects, the trajectories and the cameras,
    *  or those of the cloud when there is nothing else. It is empty in an empty scene. */

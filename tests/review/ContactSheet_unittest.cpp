@@ -1,0 +1,33 @@
+#include "quadmap/review/ContactSheet.h"
+
+#include <gtest/gtest.h>
+
+#include "../obs/TemporaryFolder.h"
+#include "SamplePage.h"
+
+using namespace quadmap;
+
+TEST(ContactSheet, ShowsConfirmedObjectsInTheirLargestBox)
+{
+  PageContent page = quadmap::testing::samplePage();  // objects 2 and 3 are confirmed, 3 has no box
+  PageKeyframe& best = page.keyframes[1];
+  best.jpeg = quadmap::testing::jpegOf(cv::Mat(60, 80, CV_8UC3, cv::Scalar(200, 30, 20)));
+  best.boxes[0].box = {10, 10, 140, 100};  // the blue image has the largest box of object 2
+  const TemporaryFolder folder;
+  writeContactSheet(page, folder.path("sheet.png"));
+  const cv::Mat sheet = cv::imread(folder.path("sheet.png"));
+  ASSERT_FALSE(sheet.empty());
+  const cv::Vec3b first = sheet.at<cv::Vec3b>(108, 108), second = sheet.at<cv::Vec3b>(108, 316);
+  EXPECT_GT(first[0], 150) << "blue";
+  EXPECT_LT(first[2], 60);
+  EXPECT_EQ(second, cv::Vec3b(200, 200, 200)) << "no image of it";
+  EXPECT_EQ(sheet.cols, 2 * 208 + 8);
+  EXPECT_EQ(sheet.rows, 232 + 8) << "the first object is not confirmed";
+}
+
+TEST(ContactSheet, MayBeEmpty)
+{
+  const TemporaryFolder folder;
+  writeContactSheet({}, folder.path("sheet.png"));
+  EXPECT_FALSE(cv::imread(folder.path("sheet.png")).empty());
+}
