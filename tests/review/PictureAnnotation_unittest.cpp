@@ -115,7 +115,7 @@ TEST(PictureAnnotation, MayBeTooSmallForAnything)
   EXPECT_NO_THROW(annotatePicture(content, obliqueCamera(content, 1), picture));
 }
 
-TEST(SceneCameras, LookAtAMapAlikeWithAndWithoutItsTrajectory)
+TEST(SceneCameras, LookFromAboveAlikeWithAndWithoutATrajectory)
 {
   SceneContent folder;
   folder.objects = {
@@ -123,10 +123,7 @@ TEST(SceneCameras, LookAtAMapAlikeWithAndWithoutItsTrajectory)
       recordOf("2", "couch", {3, 0.5, 0.4, 0, 0, 0}, {0.3, 0.9, 0.4})};
   SceneContent file = folder;
   for (int i = 0; i < 20; ++i) folder.trajectory.emplace_back(0, i - 10.0, 1, 0, 0, 0);
-  folder.cloud.resize(1000);
-  for (CloudPoint& p : folder.cloud) p.normal = {0, 0.8F, 0.6F};
   EXPECT_EQ(cameraFromAbove(folder, 1.6).azimuth, cameraFromAbove(file, 1.6).azimuth);
-  EXPECT_EQ(obliqueCamera(folder, 1.6).azimuth, obliqueCamera(file, 1.6).azimuth);
   EXPECT_GT(cameraFromAbove(folder, 1.6).distance, cameraFromAbove(file, 1.6).distance)
       << "all of it is in the picture";
 }

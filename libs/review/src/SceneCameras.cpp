@@ -79,7 +79,7 @@ RenderCamera obliqueCamera(const SceneContent& content, double aspect)
     camera = framed(camera, extent, aspect, kMargin);
     // Distance, overlap and visible share weigh about equally over their usual ranges.
     const double cost =
-        std::log(camera.distance) + 2 * overlap(parts, camera) - 2 * visiblePart(parts, camera);
+        std::log(camera.distance) + 2 * overlap(parts, camera) - 2 * visiblePart(content, camera);
     if (cost < leastCost) best = camera;
     leastCost = std::min(cost, leastCost);
   }

@@ -43,13 +43,13 @@ class SceneBuilder
   SceneOptions options_;
 };
 
-/** A camera that looks down at an angle, from the side from which least is hidden. Where there are
- * objects, they alone say which side that is: a map is seen alike with its trajectory and without.
- */
+/** A camera that looks down at an angle, from the side from which least of the objects and of the
+ * cloud is hidden. */
 RenderCamera obliqueCamera(const SceneContent& content, double aspect);
 
 /** A camera that looks straight down, with the longer side of the map along that of the picture;
- * which it is, is again for the objects to say. */
+ * where there are objects, they alone say which that is, so that a map is seen alike with its
+ * trajectory and without. */
 RenderCamera cameraFromAbove(const SceneContent& content, double aspect);
 
 /** Writes a .3Dscene file. It appears complete or not at all.
