@@ -25,6 +25,7 @@ class GraphWorld
     double maxRange = 4;  // an object is seen up to here [m]
     double faceSigma = 0.02, yawSigma = 0.03, tiltSigma = 0.01;
     double stepSigma = 0.01, stepAngle = 0.005;  // of the odometry, per step [m], [rad]
+    double claim = 1;                            // of it, as a share of these
   };
 
   explicit GraphWorld(unsigned seed) : GraphWorld(seed, Size()) {}
@@ -75,7 +76,12 @@ class GraphWorld
   std::size_t add(FactorGraph& g, std::size_t k, const mrpt::poses::CPose3D& guess)
   {
     g.addPose(guess);
-    if (k > 0) g.addStep(k - 1, k, stepDistribution(odometry[k] - odometry[k - 1]));
+    if (k > 0)
+    {
+      auto step = stepDistribution(odometry[k] - odometry[k - 1]);
+      step.cov *= size_.claim * size_.claim;
+      g.addStep(k - 1, k, step);
+    }
     return addViews(g, k);
   }
 

@@ -32,10 +32,12 @@ HeightDrift GraphProblem::heightDrift() const
   HeightDrift drift;
   for (std::size_t k = firstView_; k < graph_.poses_.size(); ++k)
   {
-    const mrpt::poses::CPose3DPDFGaussian* fromLast = nullptr;
+    std::optional<mrpt::poses::CPose3DPDFGaussian> fromLast;
     for (const auto& step : graph_.stepsByPose_[k])
-      if (k > 0 && step.from == k - 1) fromLast = &step.T_from_to;
-    drift.add(Eigen::Map<const Eigen::Vector2d>(graph_.poses_[k].data() + 4), fromLast);
+      if (k > 0 && step.from == k - 1) fromLast = enlarged(step.T_from_to, graph_.stepNoise_);
+    drift.add(
+        Eigen::Map<const Eigen::Vector2d>(graph_.poses_[k].data() + 4),
+        fromLast ? &*fromLast : nullptr);
   }
   return drift;
 }

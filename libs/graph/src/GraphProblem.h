@@ -31,6 +31,7 @@ class GraphProblem
   FactorGraph::Marginals marginals(bool withObjects);
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
+  StepFit stepFit(std::pair<std::size_t, std::size_t> steps);
 
  private:
   using SparseMatrix = Eigen::SparseMatrix<double>;

@@ -54,9 +54,14 @@ double SparseInverse::at(Index row, Index column) const
 
 Eigen::MatrixXd SparseInverse::block(Index first, Index size) const
 {
+  return block(first, first, size);
+}
+
+Eigen::MatrixXd SparseInverse::block(Index row, Index column, Index size) const
+{
   Eigen::MatrixXd result(size, size);
   for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j) result(i, j) = at(order_[first + i], order_[first + j]);
+    for (Index j = 0; j < size; ++j) result(i, j) = at(order_[row + i], order_[column + j]);
   return result;
 }
 

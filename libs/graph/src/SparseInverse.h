@@ -20,6 +20,8 @@ class SparseInverse
 
   /** Rows and columns [first, first + size) of H^-1; H has entries all over this block. */
   Eigen::MatrixXd block(Eigen::Index first, Eigen::Index size) const;
+  /** Rows [row, row + size) and columns [column, column + size) of H^-1, likewise. */
+  Eigen::MatrixXd block(Eigen::Index row, Eigen::Index column, Eigen::Index size) const;
 
  private:
   double at(Eigen::Index row, Eigen::Index column) const;

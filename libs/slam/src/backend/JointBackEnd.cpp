@@ -140,6 +140,7 @@ CPose3D JointBackEnd::addKeyframe(
   const auto poseError = [&] { return noiseOf(graph_.marginals(firstFree, false).lastPose); };
   addViews(*boxes, map.match(*boxes, UncertainPose(predicted, poseError())), pose, map);
   graph_.optimiseWindow(firstFree);
+  learnStepNoise(firstFree);
 
   insertIntoMap(*boxes, pose, graph_.pose(pose), result, poseError());
   followMerged(map, graph_, cameras_);
@@ -149,6 +150,14 @@ CPose3D JointBackEnd::addKeyframe(
   for (const auto& decision : map.lastDecisions())
     if (decision.object) rememberCamera(camera, cameras_[*decision.object]);
   return graph_.pose(pose);
+}
+
+/** The step that is about to leave the window is known best: it is judged then, once. */
+void JointBackEnd::learnStepNoise(std::size_t firstFree)
+{
+  if (graph_.poses() <= static_cast<std::size_t>(options_.window)) return;
+  stepFit_ += graph_.stepFit(firstFree, {firstFree + 1, firstFree + 2});
+  graph_.setStepNoise(stepNoiseOf(stepFit_, options_.claimWeight));
 }
 
 FactorGraph JointBackEnd::globalGraph(
@@ -226,11 +235,14 @@ void JointBackEnd::estimate(
     const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) const
 {
   CorrectionSummary summary;
+  summary.stepNoise = stepNoiseOf(stepFit_, options_.claimWeight);
   for (; summary.rounds < options_.rounds && !summary.converged; ++summary.rounds)
   {
     const Priors priors = knownObjects(result.map);
     FactorGraph graph = globalGraph(boxesOf, result, priors, FirstPose::FreeToTilt);
+    graph.setStepNoise(summary.stepNoise);
     graph.optimise();
+    summary.stepNoise = stepNoiseOf(graph.stepFit(), options_.claimWeight);
     summary.lastMove = takePoses(graph, priors, result);
     rebuildMap(boxesOf, result);
     summary.converged = summary.lastMove < options_.smallMove;
@@ -239,6 +251,7 @@ void JointBackEnd::estimate(
   const Priors priors = knownObjects(result.map);
   // With the objects of the final map, and covariances relative to the first pose.
   FactorGraph graph = globalGraph(boxesOf, result, priors, FirstPose::Fixed);
+  graph.setStepNoise(summary.stepNoise);
   result.edges = graph.graphEdges();
   for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);

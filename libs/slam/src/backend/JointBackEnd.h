@@ -59,6 +59,7 @@ class JointBackEnd : public BackEnd
       const Decisions& decisions,
       std::size_t pose,
       const CQuadricObjectMap& map);
+  void learnStepNoise(std::size_t firstFree);
   using Priors = std::map<ObjectId, ObjectPrior>;
 
   enum class FirstPose
@@ -84,6 +85,7 @@ class JointBackEnd : public BackEnd
   ExistenceOptions existence_;
   const LabelTable& labels_;
   FactorGraph graph_;
+  StepFit stepFit_;                    //!< Of the steps that have left the window
   mrpt::poses::CPose3D lastOdometry_;  //!< Of the last keyframe
   CamerasOf cameras_;
 };

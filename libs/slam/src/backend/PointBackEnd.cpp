@@ -125,7 +125,7 @@ void PointBackEnd::finish(const BoxesOf&, SlamResult& result)
         [&](std::size_t k) { return mrptPose(found.poses[k]); }, result.keyframes);
     for (std::size_t k = 0; k < result.keyframes.size(); ++k)
       result.keyframes[k].T_map_robot = T_map_graph + mrptPose(found.poses[k]);
-    result.correction = CorrectionSummary{found.rounds, found.lastMove, found.converged};
+    result.correction = CorrectionSummary{found.rounds, found.lastMove, found.converged, {}};
   }
   noteDecisions(found, result);
   fillMap(found, T_map_graph, result);

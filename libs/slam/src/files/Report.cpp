@@ -116,10 +116,13 @@ Json boxesJson(const SlamResult& result)
 Json correctionJson(const std::optional<CorrectionSummary>& correction)
 {
   if (!correction) return nullptr;
+  const StepNoise& noise = correction->stepNoise;
   return {
-      {     "rounds",           correction->rounds},
-      {"last_move_m", rounded(correction->lastMove,6)},
-      {  "converged",        correction->converged                            }
+      {        "rounds",                   correction->rounds                        },
+      {   "last_move_m",                                 rounded(correction->lastMove,6)},
+      {     "converged",                                        correction->converged                                                            },
+      {"odometry_noise",
+       {{"position", rounded(noise.position, 3)}, {"angle", rounded(noise.angle, 3)}}}
   };
 }
 

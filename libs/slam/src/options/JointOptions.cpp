@@ -17,6 +17,11 @@ void JointOptions::describe(OptionList& list)
   list.number(
       "smallMove", smallMove, {1e-6, 10}, "m",
       "The rounds end when no keyframe moved farther than this.");
+  list.number(
+      "claimWeight", claimWeight, {1e-3, 1e12}, "",
+      "The noise that odometry claims counts as much as this number of residuals of its steps, "
+      "which "
+      "tell in the run whether it is more. 1e12 believes the claim.");
   list.integer(
       "maxIterations", maxIterations, {1, 1000}, "", "Most iterations of one optimisation.");
   list.angle(

@@ -152,6 +152,7 @@ void ObjectSlam::finish()
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
   const auto scope = times_.measure("consolidation");
   backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
+  warnOfNoisyOdometry();
 }
 
 void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
@@ -230,6 +231,18 @@ void ObjectSlam::lookThrough(const CObservationObjects& boxes)
 {
   warnOfUnknownLabels(boxes);
   for (const auto& object : boxes.objects) anyInstanceId_ |= object.instanceId.has_value();
+}
+
+void ObjectSlam::warnOfNoisyOdometry()
+{
+  constexpr double kNotable = 1.5;  // less is said in report.json alone
+  if (!result_.correction) return;
+  const StepNoise& noise = result_.correction->stepNoise;
+  if (std::max(noise.position, noise.angle) >= kNotable)
+    warn(mrpt::format(
+        "the odometry errs by more than it claims: positions by %.1f and angles by %.1f times as "
+        "much; it was trusted so much less",
+        noise.position, noise.angle));
 }
 
 void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)

@@ -94,6 +94,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void placeFramesWithoutPose();
   void warnOfMissingDepth();
   void warnOfDroppedFloors();
+  void warnOfNoisyOdometry();
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;
   void lookThrough(const CObservationObjects& boxes);

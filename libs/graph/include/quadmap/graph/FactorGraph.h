@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "quadmap/estimation/BoxMeasurement.h"
@@ -14,6 +15,7 @@
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/graph/GraphFactors.h"
 #include "quadmap/graph/GraphState.h"
+#include "quadmap/graph/StepNoise.h"
 #include "quadmap/obs/LabelTable.h"
 
 namespace quadmap
@@ -48,6 +50,9 @@ class FactorGraph
   mrpt::poses::CPose3D pose(std::size_t index) const { return poseOf(poses_.at(index)); }
   void setPose(std::size_t index, const mrpt::poses::CPose3D& T_map_robot);
   void addStep(std::size_t from, std::size_t to, const mrpt::poses::CPose3DPDFGaussian& T_from_to);
+  /** By how much the steps err more than they claim, for all of them; at first they are believed.
+   */
+  void setStepNoise(const StepNoise& noise) { stepNoise_ = noise; }
   void addPosePrior(std::size_t index, const mrpt::poses::CPose3DPDFGaussian& T_map_robot);
 
   /** A new object, or another first guess or label for a known one. */
@@ -109,6 +114,13 @@ class FactorGraph
    * \return Nothing when something is not determined at all. */
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
 
+  /** How the steps agree with all else at the present estimate, (16.21) of doc/mathematics.md.
+   * \param firstFree As in optimiseWindow(). \param steps The first and one past the last pose of
+   * those that steps lead to. \return Zeros when something is not determined at all. */
+  StepFit stepFit(std::size_t firstFree, std::pair<std::size_t, std::size_t> steps);
+  /** The same of all steps, with all poses free. */
+  StepFit stepFit();
+
   /** How much the views of one pose know of the relative pose of one object. */
   struct GraphEdge
   {
@@ -151,6 +163,7 @@ class FactorGraph
   void fold(const View& view, const PoseBlock& pose);
 
   FactorGraphOptions options_;
+  StepNoise stepNoise_;
   std::vector<PoseBlock> poses_;
   std::vector<std::vector<Step>> stepsByPose_;  //!< At the later of their two poses
   std::vector<std::vector<View>> viewsByPose_;

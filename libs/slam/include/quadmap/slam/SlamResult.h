@@ -72,6 +72,7 @@ struct CorrectionSummary
   int rounds = 0;          //!< Rounds of association and optimisation
   double lastMove = 0;     //!< Largest move of a keyframe in the last round [m]
   bool converged = false;  //!< The last round moved hardly anything
+  StepNoise stepNoise;     //!< What the odometry was found to err by
 };
 
 /** Where the poses came from. */

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+namespace quadmap
+{
+/** By how much the standard deviations of steps of odometry are larger than the odometry claims
+ * (doc/mathematics.md, "What odometry errs by"). */
+struct StepNoise
+{
+  double position = 1, angle = 1;
+};
+
+/** The step with its covariance enlarged. */
+mrpt::poses::CPose3DPDFGaussian enlarged(
+    mrpt::poses::CPose3DPDFGaussian step, const StepNoise& noise);
+
+/** How the residuals of steps compare with what is to be expected of them. Both in claimed standard
+ * deviations, squared. */
+struct StepFit
+{
+  struct Sums
+  {
+    double squares = 0;     //!< Of the residuals
+    double redundancy = 0;  //!< Their expected sum if the claims are right
+  };
+  Sums position, angle;
+
+  StepFit& operator+=(const StepFit& other);
+};
+
+/** The noise that explains the residuals, doc/mathematics.md, (16.22). It is never less than what
+ * the odometry claims: views whose errors are alike would make it look better than it is.
+ * \param claimWeight As how many residuals the claim itself counts, > 0. */
+StepNoise stepNoiseOf(const StepFit& fit, double claimWeight);
+
+}  // namespace quadmap

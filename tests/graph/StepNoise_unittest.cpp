@@ -1,0 +1,119 @@
+#include "quadmap/graph/StepNoise.h"
+
+#include <gtest/gtest.h>
+
+#include "GraphWorld.h"
+
+using namespace quadmap;
+using namespace quadmap::testing;
+
+namespace
+{
+/** Odometry that claims a share of what it errs by, in a world where all else is as the factors
+ * say. */
+GraphWorld worldOf(unsigned seed, double claim)
+{
+  GraphWorld::Size size;
+  size.poses = 80;
+  size.faceSigma = 0.005;  // the steps show
+  size.yawSigma = 0.01;
+  size.claim = claim;
+  return GraphWorld(seed, size);
+}
+
+FactorGraphOptions gaussian()
+{
+  FactorGraphOptions options;
+  options.floorSigma = 0;
+  options.estimator.huber = 1e6;
+  return options;
+}
+
+/** As a run does: each round believes what the round before found. */
+StepNoise foundIn(GraphWorld& world)
+{
+  FactorGraph graph = world.graph(gaussian());
+  StepNoise noise;
+  for (int round = 0; round < 6; ++round)
+  {
+    graph.setStepNoise(noise);
+    graph.optimise();
+    noise = stepNoiseOf(graph.stepFit(), 1.0);
+  }
+  return noise;
+}
+
+}  // namespace
+
+TEST(StepNoise, RightClaimsHaveResidualsAsExpected)
+{
+  StepFit sum;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    GraphWorld world = worldOf(300 + seed, 1.0);
+    FactorGraph graph = world.graph(gaussian());
+    graph.optimise();
+    sum += graph.stepFit();
+  }
+  // Over a thousand degrees of freedom: 0.15 are more than three standard deviations of the ratio.
+  EXPECT_GT(sum.position.redundancy, 1000);
+  EXPECT_GT(sum.angle.redundancy, 1000);
+  EXPECT_NEAR(sum.position.squares / sum.position.redundancy, 1, 0.15);
+  EXPECT_NEAR(sum.angle.squares / sum.angle.redundancy, 1, 0.15);
+}
+
+TEST(StepNoise, OdometryThatClaimsTooMuchIsFoundOut)
+{
+  double position = 0, angle = 0;
+  constexpr int kWorlds = 12;
+  for (unsigned seed = 0; seed < kWorlds; ++seed)
+  {
+    GraphWorld world = worldOf(400 + seed, 1.0 / 3);
+    const StepNoise noise = foundIn(world);
+    position += noise.position / kWorlds;
+    angle += noise.angle / kWorlds;
+  }
+  EXPECT_NEAR(position, 3, 0.3);
+  EXPECT_NEAR(angle, 3, 0.3);
+}
+
+TEST(StepNoise, OdometryThatIsBetterThanItClaimsKeepsItsClaim)
+{
+  GraphWorld world = worldOf(500, 3.0);
+  const StepNoise noise = foundIn(world);
+  EXPECT_EQ(noise.position, 1);
+  EXPECT_EQ(noise.angle, 1);
+}
+
+TEST(StepNoise, AWindowTellsTheSameOfItsSteps)
+{
+  StepFit sum;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    GraphWorld world = worldOf(600 + seed, 1.0);
+    FactorGraph graph(gaussian());
+    constexpr std::size_t kWindow = 20;
+    for (std::size_t k = 0; k < world.truth.size(); ++k)
+    {
+      const auto guess = k == 0 ? world.odometry[0]
+                                : graph.pose(k - 1) + (world.odometry[k] - world.odometry[k - 1]);
+      world.add(graph, k, guess);
+      const std::size_t firstFree = k < kWindow ? 1 : k + 1 - kWindow;
+      graph.optimiseWindow(firstFree);
+      if (k >= kWindow) sum += graph.stepFit(firstFree, {firstFree + 1, firstFree + 2});
+    }
+  }
+  EXPECT_GT(sum.position.redundancy, 1000);
+  EXPECT_NEAR(sum.position.squares / sum.position.redundancy, 1, 0.2);
+  EXPECT_NEAR(sum.angle.squares / sum.angle.redundancy, 1, 0.2);
+}
+
+TEST(StepNoise, FewResidualsDoNotOutweighTheClaim)
+{
+  StepFit fit;
+  fit.position = {9, 1};  // three times the claim, but from one residual
+  EXPECT_LT(stepNoiseOf(fit, 20).position, 1.2);
+  EXPECT_EQ(stepNoiseOf(fit, 20).angle, 1);
+  fit.position = {900, 100};
+  EXPECT_GT(stepNoiseOf(fit, 20).position, 2.7);
+}
