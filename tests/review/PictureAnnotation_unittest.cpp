@@ -1,10 +1,10 @@
+#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/PictureAnnotation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "LabelColor.h"
 #include "SampleScene.h"
 #include "quadmap/review/SceneBuilder.h"
 

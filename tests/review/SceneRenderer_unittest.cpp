@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "../obs/TemporaryFolder.h"
-#include "LabelColor.h"
 #include "SampleScene.h"
+#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/SceneBuilder.h"
 
 using namespace quadmap;

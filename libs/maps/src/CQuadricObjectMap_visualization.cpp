@@ -10,26 +10,13 @@
 #include "quadmap/base/GzipStream.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {
 namespace
 {
 mrpt::math::TPoint3D asPoint(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-/** The same colour for the same label in every program and run (FNV-1a of its name). */
-mrpt::img::TColorf colorOf(const std::string& label, double opacity)
-{
-  std::uint32_t hash = 2166136261u;
-  for (const char c : label) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  const float hue = static_cast<float>(hash % 360u) / 60.0f;  // six sextants
-  const auto channel = [hue](float offset)
-  {
-    const float k = std::fmod(offset + hue, 6.0f);
-    return 0.95f - 0.75f * std::max(0.0f, std::min({k, 4.0f - k, 1.0f}));
-  };
-  return {channel(5), channel(3), channel(1), static_cast<float>(opacity)};
-}
 
 void drawCuboid(
     const MapObject& object, const mrpt::img::TColorf& color, mrpt::opengl::CSetOfObjects& out)
@@ -82,7 +69,8 @@ void CQuadricObjectMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& out) c
   for (const auto& [id, object] : objects_)
   {
     if (!object.confirmed && !renderOptions.unconfirmed) continue;
-    mrpt::img::TColorf color = colorOf(object.label(), renderOptions.opacity);
+    mrpt::img::TColorf color(labelColor(object.label()));
+    color.A = static_cast<float>(renderOptions.opacity);
     if (!object.confirmed) color = {0.6f, 0.6f, 0.6f, color.A};
     if (renderOptions.cuboids) drawCuboid(object, color, out);
     if (renderOptions.ellipsoids) drawEllipsoid(object, color, out);

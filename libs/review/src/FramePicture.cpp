@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "FrameCanvas.h"
-#include "LabelColor.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

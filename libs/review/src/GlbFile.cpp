@@ -1,10 +1,10 @@
+#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/GlbFile.h"
 
 #include <cmath>
 #include <map>
 
 #include "GlbBody.h"
-#include "LabelColor.h"
 #include "quadmap/base/OutputFile.h"
 
 namespace quadmap

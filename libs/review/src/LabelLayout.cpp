@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "LabelColor.h"
 #include "Mesh.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

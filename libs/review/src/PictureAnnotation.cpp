@@ -1,3 +1,4 @@
+#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/PictureAnnotation.h"
 
 #include <mrpt/core/format.h>
@@ -8,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "LabelColor.h"
 #include "SceneColors.h"
 
 namespace quadmap

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "LabelColor.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

@@ -10,11 +10,11 @@
 #include <array>
 #include <cmath>
 
-#include "LabelColor.h"
 #include "LabelLayout.h"
 #include "Mesh.h"
 #include "SceneColors.h"
 #include "quadmap/base/GzipStream.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

@@ -10,7 +10,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "LabelColor.h"
 #include "page/Base64.h"
 #include "quadmap/base/Json.h"
 

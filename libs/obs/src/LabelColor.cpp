@@ -1,4 +1,4 @@
-#include "LabelColor.h"
+#include "quadmap/obs/LabelColor.h"
 
 #include <array>
 #include <cstdint>
