@@ -63,8 +63,7 @@ bool CQuadricObjectMap::insertFrame(FramePairing::Frame frame)
   const mrpt::poses::CPose3D T_map_sensor = frame.robotPose.mean + frame.boxes.sensorPose;
   // The options may have changed since the last frame; the room has not.
   const FramePerception perception(perceptionOptions, labels());
-  const auto surfaces = measureInRoom(perception, *frame.scan, frame.boxes, T_map_sensor, room_);
-  room_.add(surfaces, T_map_sensor);
+  measureAndRemember(perception, *frame.scan, frame.boxes, T_map_sensor, room_);
   return insertObjects(frame.boxes, frame.robotPose);
 }
 

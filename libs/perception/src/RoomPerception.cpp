@@ -14,4 +14,14 @@ FrameSurfaces measureInRoom(
   return perception.measure(scan, boxes, up_sensor, room.around(T_map_sensor));
 }
 
+void measureAndRemember(
+    const FramePerception& perception,
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    CObservationObjects& boxes,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    RoomPlanes& room)
+{
+  room.add(measureInRoom(perception, scan, boxes, T_map_sensor, room), T_map_sensor);
+}
+
 }  // namespace quadmap

@@ -21,6 +21,14 @@ FrameSurfaces measureInRoom(
     const mrpt::poses::CPose3D& T_map_sensor,
     const RoomPlanes& room);
 
+/** The same, and the room remembers the surfaces that the frame shows. */
+void measureAndRemember(
+    const FramePerception& perception,
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    CObservationObjects& boxes,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    RoomPlanes& room);
+
 /** Measures frame after frame of one room, and remembers the surfaces of the room. */
 class RoomPerception
 {
@@ -36,7 +44,7 @@ class RoomPerception
       CObservationObjects& boxes,
       const mrpt::poses::CPose3D& T_map_sensor)
   {
-    room_.add(measureInRoom(perception_, scan, boxes, T_map_sensor, room_), T_map_sensor);
+    measureAndRemember(perception_, scan, boxes, T_map_sensor, room_);
   }
 
   const RoomPlanes& room() const { return room_; }  //!< Surfaces known so far
