@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "GraphOptions.h"
 #include "MergedObjects.h"
 #include "OdometryChain.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ViewRedundancy.h"
 #include "quadmap/estimation/ViewResiduals.h"
+#include "quadmap/geometry/PosePosition.h"
 
 namespace quadmap
 {
@@ -16,23 +18,6 @@ using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
-FactorGraphOptions graphOptions(const JointOptions& options, const EstimatorOptions& estimator)
-{
-  FactorGraphOptions graph;
-  graph.estimator = estimator;
-  graph.maxIterations = options.maxIterations;
-  graph.floorSigma = options.floorSigma;
-  return graph;
-}
-
-/** Of the graph while running: it looks at its window alone. */
-FactorGraphOptions windowOptions(const JointOptions& options, const EstimatorOptions& estimator)
-{
-  FactorGraphOptions graph = graphOptions(options, estimator);
-  graph.keepsFolded = false;
-  return graph;
-}
-
 /** Standard deviations of a pose from the covariance of its steps (turn, move). */
 PoseNoise noiseOf(const Eigen::Matrix<double, 6, 6>& covariance)
 {
@@ -60,8 +45,6 @@ CPose3DPDFGaussian tiltOf(const CPose3D& pose, double sigma)
   return step;
 }
 
-Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
-
 }  // namespace
 
 JointBackEnd::JointBackEnd(
@@ -73,7 +56,7 @@ JointBackEnd::JointBackEnd(
     estimator_(mapOptions.estimator),
     existence_(mapOptions.existence),
     labels_(labels),
-    graph_(windowOptions(options, mapOptions.estimator))
+    graph_(graphOptions(options, mapOptions.estimator, GraphScope::Window))
 {
 }
 
@@ -172,7 +155,7 @@ FactorGraph JointBackEnd::globalGraph(
     Eigen::Vector3d camera;
     BoxMeasurement view;
   };
-  FactorGraph graph(graphOptions(options_, estimator_));
+  FactorGraph graph(graphOptions(options_, estimator_, GraphScope::WholeRun));
   const bool mayTilt = priors.empty() && firstPose == FirstPose::FreeToTilt &&
                        options_.upSigma > 0 && result.odometry.source == PoseSource::Visual &&
                        !result.keyframes.empty();
@@ -220,15 +203,7 @@ double JointBackEnd::takePoses(const FactorGraph& graph, const Priors& priors, S
   const auto poseOf = [&](std::size_t k) { return graph.pose(first + k); };
   const CPose3D T_map_graph =
       priors.empty() ? alignmentWithOdometry(poseOf, result.keyframes) : CPose3D();
-  double farthest = 0;
-  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
-  {
-    CPose3D& pose = result.keyframes[k].T_map_robot;
-    const CPose3D corrected = T_map_graph + poseOf(k);
-    farthest = std::max(farthest, pose.distanceTo(corrected));
-    pose = corrected;
-  }
-  return farthest;
+  return movePoses(T_map_graph, poseOf, result.keyframes);
 }
 
 void JointBackEnd::estimate(

@@ -60,4 +60,20 @@ CPose3D alignmentWithOdometry(
   return mrpt::poses::Lie::SE<3>::exp(mean);
 }
 
+double movePoses(
+    const CPose3D& T_map_graph,
+    const std::function<CPose3D(std::size_t)>& poseOf,
+    std::vector<Keyframe>& keyframes)
+{
+  double farthest = 0;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    CPose3D& pose = keyframes[k].T_map_robot;
+    const CPose3D moved = T_map_graph + poseOf(k);
+    farthest = std::max(farthest, pose.distanceTo(moved));
+    pose = moved;
+  }
+  return farthest;
+}
+
 }  // namespace quadmap

@@ -20,4 +20,10 @@ mrpt::poses::CPose3D alignmentWithOdometry(
     const std::function<mrpt::poses::CPose3D(std::size_t)>& poseOf,
     const std::vector<Keyframe>& keyframes);
 
+/** Gives the keyframes the poses of a graph. \return The farthest that one of them moved [m]. */
+double movePoses(
+    const mrpt::poses::CPose3D& T_map_graph,
+    const std::function<mrpt::poses::CPose3D(std::size_t)>& poseOf,
+    std::vector<Keyframe>& keyframes);
+
 }  // namespace quadmap

@@ -121,10 +121,9 @@ void PointBackEnd::finish(const BoxesOf&, SlamResult& result)
   CPose3D T_map_graph;
   if (correctPoses_)
   {
-    T_map_graph = alignmentWithOdometry(
-        [&](std::size_t k) { return mrptPose(found.poses[k]); }, result.keyframes);
-    for (std::size_t k = 0; k < result.keyframes.size(); ++k)
-      result.keyframes[k].T_map_robot = T_map_graph + mrptPose(found.poses[k]);
+    const auto poseInGraph = [&](std::size_t k) { return mrptPose(found.poses[k]); };
+    T_map_graph = alignmentWithOdometry(poseInGraph, result.keyframes);
+    movePoses(T_map_graph, poseInGraph, result.keyframes);
     result.correction = CorrectionSummary{found.rounds, found.lastMove, found.converged, {}};
   }
   noteDecisions(found, result);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "GraphOptions.h"
 #include "OdometryChain.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ViewRedundancy.h"
@@ -14,21 +15,11 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 namespace
 {
-FactorGraphOptions graphOptions(const JointOptions& options, const EstimatorOptions& estimator)
+FactorGraphOptions graphWithoutFloor(
+    JointOptions options, const EstimatorOptions& estimator, GraphScope scope)
 {
-  FactorGraphOptions graph;
-  graph.estimator = estimator;
-  graph.maxIterations = options.maxIterations;
-  graph.floorSigma = 0;  // whatever an ellipsoid that touches boxes stands on, it is no floor
-  return graph;
-}
-
-/** Of the graph while running: it looks at its window alone. */
-FactorGraphOptions windowOptions(const JointOptions& options, const EstimatorOptions& estimator)
-{
-  FactorGraphOptions graph = graphOptions(options, estimator);
-  graph.keepsFolded = false;
-  return graph;
+  options.floorSigma = 0;  // whatever an ellipsoid that touches boxes stands on, it is no floor
+  return graphOptions(options, estimator, scope);
 }
 
 bool isSame(const std::vector<BoxDecision>& a, const std::vector<BoxDecision>& b)
@@ -62,7 +53,7 @@ QuadricBackEnd::QuadricBackEnd(
     mapOptions_(mapOptions),
     correctPoses_(correctPoses),
     labels_(labels),
-    graph_(windowOptions(options, mapOptions.estimator)),
+    graph_(graphWithoutFloor(options, mapOptions.estimator, GraphScope::Window)),
     objects_(mapOptions, labels)
 {
 }
@@ -147,7 +138,7 @@ void QuadricBackEnd::addToWindow(ObjectId id, std::size_t keyframe, bool isNew)
 
 FactorGraph QuadricBackEnd::globalGraph(const SlamResult& result) const
 {
-  FactorGraph graph(graphOptions(options_, mapOptions_.estimator));
+  FactorGraph graph(graphWithoutFloor(options_, mapOptions_.estimator, GraphScope::WholeRun));
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
     const Keyframe& keyframe = result.keyframes[k];
@@ -190,23 +181,16 @@ double QuadricBackEnd::round(const BoxesOf& boxesOf, SlamResult& result)
   objects_.endRound();
 
   FactorGraph graph = globalGraph(result);
+  const auto poseInGraph = [&](std::size_t k) { return graph.pose(k); };
   CPose3D T_map_graph;
   if (correctPoses_)
   {
     graph.optimise();
-    T_map_graph =
-        alignmentWithOdometry([&](std::size_t k) { return graph.pose(k); }, result.keyframes);
+    T_map_graph = alignmentWithOdometry(poseInGraph, result.keyframes);
   }
   else
     graph.optimiseObjects();
-  double farthest = 0;
-  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
-  {
-    CPose3D& pose = result.keyframes[k].T_map_robot;
-    const CPose3D corrected = T_map_graph + graph.pose(k);
-    farthest = std::max(farthest, pose.distanceTo(corrected));
-    pose = corrected;
-  }
+  const double farthest = movePoses(T_map_graph, poseInGraph, result.keyframes);
   const auto marginals = correctPoses_ ? graph.marginals(0, true).objects : graph.objectMarginals();
   for (const auto& [id, covariance] : marginals)
     objects_.settle(id, graph.object(id).transformed(T_map_graph), covariance);
