@@ -98,6 +98,13 @@ TEST(Median, IsTheMiddleOfOddAndTheMeanOfTheMiddleTwoOfEvenCounts)
   EXPECT_DOUBLE_EQ(median({3, 1, 100, 5}), 4);
 }
 
+TEST(MedianElement, IsTheUpperOneOfTheMiddleTwo)
+{
+  std::vector<float> odd{3, 1, 100}, even{3, 1, 100, 5};
+  EXPECT_EQ(medianElement(odd), 3);
+  EXPECT_EQ(medianElement(even), 5);
+}
+
 TEST(MadSigma, EstimatesTheSpreadOfNormalDataInSpiteOfOutliers)
 {
   std::mt19937 engine(4);

@@ -92,3 +92,15 @@ TEST(NearestEquivalentYaw, StaysEquivalentAndNear)
       EXPECT_NEAR(turns, std::round(turns), 1e-12);
     }
 }
+
+TEST(QuarterTurns, LeadToTheNearestEquivalentYaw)
+{
+  RandomGeometry random(24);
+  for (int i = 0; i < 50; ++i)
+  {
+    const double yaw = random.uniform(-10, 10), reference = random.uniform(-10, 10);
+    EXPECT_NEAR(
+        yaw + quarterTurnsTo(yaw, reference) * M_PI / 2, nearestEquivalentYaw(yaw, reference),
+        1e-12);
+  }
+}

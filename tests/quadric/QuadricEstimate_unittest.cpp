@@ -7,9 +7,9 @@
 
 #include "BoxScene.h"
 #include "quadmap/estimation/Association.h"
+#include "quadmap/estimation/ResidualRow.h"
 #include "quadmap/geometry/RotationDistance.h"
 #include "quadmap/geometry/RotationVector.h"
-#include "quadmap/geometry/Support.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;

@@ -5,6 +5,7 @@
 #include "BoxScene.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/geometry/RotationDistance.h"
+#include "quadmap/geometry/ViewAngles.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -100,7 +101,7 @@ TEST(QuadricInitialisation, RefusesViewsFromOnePlace)
     }
     EXPECT_FALSE(triangulatedCenter(boxes)) << sigma_px;
     EXPECT_FALSE(ellipsoidTouching(boxes)) << sigma_px;
-    EXPECT_NEAR(parallaxAt(object.center(), boxes), 0, 1e-6);
+    EXPECT_NEAR(parallax(object.center(), camerasOf(boxes)), 0, 1e-6);
   }
 }
 
@@ -139,7 +140,7 @@ TEST(QuadricInitialisation, CentreIsWhereTheBoxesPoint)
   ASSERT_TRUE(center);
   EXPECT_LT((*center - tilted().center()).norm(), 0.03)
       << "[m]: the middle of an outline is not the centre's image, by a few per cent of the size";
-  EXPECT_NEAR(parallaxAt(tilted().center(), boxes), 1.9, 0.15)
+  EXPECT_NEAR(parallax(tilted().center(), camerasOf(boxes)), 1.9, 0.15)
       << "[rad], an arc of 2 seen from above";
 }
 

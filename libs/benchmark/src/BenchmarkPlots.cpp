@@ -7,6 +7,7 @@
 
 #include "MeanAndSpread.h"
 #include "SvgPlot.h"
+#include "quadmap/geometry/ConvexHull.h"
 
 namespace quadmap
 {
@@ -29,37 +30,13 @@ Points thinned(const Points& points)
   return out;
 }
 
-/** Outline of a cuboid from above: the hull of its corners, by Andrew's monotone chain. */
+/** Outline of a cuboid from above. */
 Points footprint(const Ellipsoid& object)
 {
-  Points corners;
-  for (int i = 0; i < 8; ++i)
-  {
-    const Eigen::Vector3d signs(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    corners.push_back(
-        (object.center() + object.rotation() * signs.cwiseProduct(object.semiAxes())).head<2>());
-  }
-  const auto byX = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-  { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); };
-  std::sort(corners.begin(), corners.end(), byX);
-  const auto turnsRight = [](const Points& hull, const Eigen::Vector2d& p)
-  {
-    const Eigen::Vector2d a = hull[hull.size() - 1] - hull[hull.size() - 2], b = p - hull.back();
-    return a.x() * b.y() - a.y() * b.x() <= 1e-9;
-  };
-  Points hull;
-  for (const bool lower : {true, false})
-  {
-    Points half;
-    for (const auto& p : corners)
-    {
-      while (half.size() > 1 && turnsRight(half, p)) half.pop_back();
-      half.push_back(p);
-    }
-    hull.insert(hull.end(), half.begin(), half.end() - 1);
-    if (lower) std::reverse(corners.begin(), corners.end());
-  }
-  return hull;
+  const Eigen::Matrix<double, 3, 8> corners = object.cuboidCorners();
+  Points flat;
+  for (int i = 0; i < 8; ++i) flat.emplace_back(corners.col(i).head<2>());
+  return convexHull(std::move(flat));
 }
 
 std::string titleOf(const BenchmarkJob& job)

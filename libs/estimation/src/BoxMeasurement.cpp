@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadmap/geometry/PosePosition.h"
+
 namespace quadmap
 {
 namespace
@@ -41,8 +43,7 @@ BoxMeasurement measurementFromRobot(
     double tiltSigma)
 {
   const Eigen::Matrix3d R_robot_map = T_map_robot.getRotationMatrix().asEigen().transpose();
-  const Eigen::Vector3d robot(T_map_robot.x(), T_map_robot.y(), T_map_robot.z());
-  BoxMeasurement m = measurementIn(R_robot_map, robot, view, options);
+  BoxMeasurement m = measurementIn(R_robot_map, positionOf(T_map_robot), view, options);
   if (!view.complete) return m;
   const auto& measured = detected.measurement.complete->object_sensor;
   m.axes = T_robot_sensor.getRotationMatrix().asEigen() * measured.rotation();

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "quadmap/estimation/Existence.h"
+#include "quadmap/estimation/ViewRedundancy.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr double kMinRange = 0.1;        // [m]
 constexpr double kSamePlace = 0.1;       // looks nearer than this share of the reach are one visit
 constexpr std::size_t kMaxVisits = 200;  // kept, so that the cost does not grow with the run
 }  // namespace
@@ -28,15 +28,14 @@ double ExistenceLooks::correlation(
     const Visit& of, const Visit& with, const ExistenceOptions& options)
 {
   const double gap = std::max({0.0, of.first - with.last, with.first - of.last});
-  return std::max(0.0, 1 - (of.camera - with.camera).norm() / of.reach) *
+  return sharedMistakes(of.camera, with.camera, of.reach) *
          std::max(0.0, 1 - gap / options.independentViewTime);
 }
 
 void ExistenceLooks::add(
     const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options)
 {
-  const double range = std::max(kMinRange, (center - look.camera).norm());
-  const double reach = options.independentViewAngle * range;
+  const double reach = independentReach(look.camera, center, options);
   const auto isOf = [&](const Visit& v)
   {
     return (v.camera - look.camera).norm() <= kSamePlace * reach &&
@@ -63,7 +62,7 @@ void ExistenceLooks::add(
 /** (13.1): the looks of a visit times the share of each. */
 LookCounts ExistenceLooks::independent(const Visit& visit, const ExistenceOptions& options)
 {
-  const double share = 1 / (1 + (1 - options.repeatedViewWeight) * (visit.crowd - 1));
+  const double share = independentShare(visit.crowd - 1, options);
   return {share * visit.seen, share * visit.missed};
 }
 

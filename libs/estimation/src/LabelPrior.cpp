@@ -1,5 +1,6 @@
 #include "quadmap/estimation/LabelPrior.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,6 +27,17 @@ std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
   rows[3].d_logSizes[0] = 1.0 / options.roundnessSigma;
   rows[3].d_logSizes[1] = -1.0 / options.roundnessSigma;
   return rows;
+}
+
+double sizeDeviation(const Ellipsoid& object, const LabelProperties& label, ObjectFreedom freedom)
+{
+  Eigen::Vector3d sizes = 2 * object.semiAxes(), typical = label.typicalSize;
+  const int unordered = freedom == ObjectFreedom::Upright ? 2 : 3;
+  for (Eigen::Vector3d* all : {&sizes, &typical}) std::sort(all->data(), all->data() + unordered);
+  double largest = 0;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    largest = std::max(largest, std::abs(label.spreadsBetween(sizes[i], typical[i])));
+  return largest;
 }
 
 }  // namespace quadmap

@@ -46,11 +46,11 @@ UprightCovariance withoutNegative(const UprightCovariance& symmetric)
          eigen.eigenvectors().transpose();
 }
 
-std::string MapObject::label() const
+std::string mostFrequentLabel(const std::map<std::string, unsigned>& counts)
 {
   std::string best;
   unsigned bestCount = 0;
-  for (const auto& [name, count] : labelCounts)
+  for (const auto& [name, count] : counts)
   {
     if (count <= bestCount) continue;
     best = name;

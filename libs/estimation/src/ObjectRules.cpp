@@ -18,9 +18,8 @@ double sizeTerm(const ObjectView& view, const MapObject& object, const Agreement
 {
   if (!view.complete || object.completeCount == 0) return 0;
   const UprightState x = uprightStateOf(object.object);
-  const double turned = view.yaw - nearestEquivalentYaw(view.yaw, x[3]);
   Eigen::Vector3d expected = x.tail<3>();
-  if (std::lround(turned / (M_PI / 2)) % 2 != 0) std::swap(expected[0], expected[1]);
+  if (quarterTurnsTo(view.yaw, x[3]) % 2 != 0) std::swap(expected[0], expected[1]);
 
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -155,10 +154,9 @@ double positionLogLikelihood(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options)
 {
   const Eigen::Vector3d off = view.center - object.object.center();
-  const Eigen::Matrix3d R = object.object.rotation();
-  const Eigen::Vector3d extent = options.extentShare * object.object.semiAxes();
   const Eigen::Matrix3d S_object =
-      object.covariance.topLeftCorner<3, 3>() + R * extent.cwiseAbs2().asDiagonal() * R.transpose();
+      object.covariance.topLeftCorner<3, 3>() +
+      options.extentShare * options.extentShare * object.object.shapeMatrix();
   // (12.3)
   if (!view.complete) return logGaussian(off, S_object + view.centerCovariance);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "quadmap/geometry/ViewAngles.h"
+
 namespace quadmap
 {
 namespace
@@ -132,13 +134,9 @@ BlindPosition blindPosition(
   Eigen::Vector3d direction = (left - right).cross(top - bottom).normalized();
   if (direction.dot(left + top + right + bottom) < 0) direction = -direction;
   if (!properties.known) return {direction, kBlindRange, kBlindRangeSigma};
-  const auto angle = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-  { return std::acos(std::clamp(-a.dot(b), -1.0, 1.0)); };
-  const auto rangeOf = [](double size, double seen)
-  { return 0.5 * size / std::tan(0.5 * std::max(seen, 1e-3)); };
   const double width = std::sqrt(properties.typicalSize.x() * properties.typicalSize.y());
   const double range = std::sqrt(
-      rangeOf(width, angle(left, right)) * rangeOf(properties.typicalSize.z(), angle(top, bottom)));
+      rangeThatFills(width, left, right) * rangeThatFills(properties.typicalSize.z(), top, bottom));
   return {direction, range, range * std::hypot(properties.sizeSpread, kAspectSpread)};
 }
 
@@ -185,6 +183,20 @@ std::array<Eigen::Vector3d, kFaces> ObjectView::faceNormals() const
   return {x, -x, y, -y, z, -z};
 }
 
+std::vector<ObjectView::Edge> usableEdges(
+    const ObjectMeasurement& measurement,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    const PoseNoise& noise)
+{
+  std::vector<ObjectView::Edge> usable;
+  if (!measurement.edges) return usable;
+  for (const EdgeMeasurement& edge : *measurement.edges)
+    if (edge.state == EdgeState::Usable)
+      usable.push_back(
+          {edge.plane_sensor.transformed(T_map_sensor), std::hypot(edge.sigmaAngle, noise.angle)});
+  return usable;
+}
+
 std::optional<ObjectView> viewOf(
     const DetectedObject& detected,
     const mrpt::poses::CPose3D& T_map_sensor,
@@ -198,12 +210,7 @@ std::optional<ObjectView> viewOf(
   view.label = properties.name;
   view.camera = composed(T_map_sensor, Eigen::Vector3d::Zero());
   view.positionSigma = noise.position;
-  if (m.edges)
-    for (const auto& edge : *m.edges)
-      if (edge.state == EdgeState::Usable)
-        view.edges.push_back(
-            {edge.plane_sensor.transformed(T_map_sensor),
-             std::hypot(edge.sigmaAngle, noise.angle)});
+  view.edges = usableEdges(m, T_map_sensor, noise);
 
   if (m.kind == MeasurementKind::Complete && m.complete &&
       setCuboid(*m.complete, T_map_sensor, properties.support, noise, view))

@@ -18,6 +18,22 @@ TangencyRow tangencyRow(
   return row;
 }
 
+double tangencyResidual(const Plane& plane, const Ellipsoid& object, double q)
+{
+  const ObjectShape shape(object.center(), object.rotation(), object.semiAxes());
+  return tangencyRow(plane.n, plane.signedDistance(shape.t), shape, q).r;
+}
+
+TangencyRow faceRow(
+    const Eigen::Vector3d& inward,
+    const Eigen::Vector3d& fromCenter,
+    double half,
+    const ObjectShape& object,
+    double q)
+{
+  return tangencyRow(inward, inward.dot(fromCenter) + half, object, q);  // (11.2)
+}
+
 void addPoseDerivatives(const Eigen::Vector3d& n, const Eigen::Vector3d& toObject, TangencyRow& row)
 {
   row.d_poseMove = -n;  // (16.3)

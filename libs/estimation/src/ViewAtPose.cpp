@@ -50,7 +50,7 @@ ResidualRow ViewAtPose::face(std::size_t f, const ObjectShape& object) const
   const Vector3d n = (f % 2 == 0 ? -1.0 : 1.0) * axes_.col(axis);
   const Vector3d toObject = object.t - pose_.t;
   const Vector3d fromCenter = toObject - fromRobot_;
-  TangencyRow row = tangencyRow(n, n.dot(fromCenter) + m_.halfSizes[axis], object, m_.faceExponent);
+  TangencyRow row = faceRow(n, fromCenter, m_.halfSizes[axis], object, m_.faceExponent);
   if (!withPose_) return row;
   if (freedom_ == ObjectFreedom::Free)
   {

@@ -11,21 +11,35 @@ constexpr std::size_t kRememberedCameras = 200;
 
 /** Sum of k_ij over some places, doc/mathematics.md, (16.20). */
 template <typename Places>
-double neighbours(
+double crowdOf(
     const Eigen::Vector3d& camera,
     const Eigen::Vector3d& center,
     const Places& places,
     const ExistenceOptions& options)
 {
-  const double range = std::max(kMinRange, (center - camera).norm());
-  const double reach = options.independentViewAngle * range;
+  const double reach = independentReach(camera, center, options);
   double sum = 0;
-  for (const Eigen::Vector3d& place : places)
-    sum += std::max(0.0, 1 - (place - camera).norm() / reach);
+  for (const Eigen::Vector3d& place : places) sum += sharedMistakes(place, camera, reach);
   return sum;
 }
 
 }  // namespace
+
+double independentReach(
+    const Eigen::Vector3d& camera, const Eigen::Vector3d& center, const ExistenceOptions& options)
+{
+  return options.independentViewAngle * std::max(kMinRange, (center - camera).norm());
+}
+
+double sharedMistakes(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double reach)
+{
+  return std::max(0.0, 1 - (a - b).norm() / reach);
+}
+
+double independentShare(double crowd, const ExistenceOptions& options)
+{
+  return 1 / (1 + (1 - options.repeatedViewWeight) * crowd);
+}
 
 std::vector<double> independentShares(
     const std::vector<Eigen::Vector3d>& cameras,
@@ -33,9 +47,8 @@ std::vector<double> independentShares(
     const ExistenceOptions& options)
 {
   std::vector<double> shares;
-  const double rho = 1 - options.repeatedViewWeight;
   for (const auto& camera : cameras)  // each camera is among its own neighbours, with k = 1
-    shares.push_back(1 / (1 + rho * (neighbours(camera, center, cameras, options) - 1)));
+    shares.push_back(independentShare(crowdOf(camera, center, cameras, options) - 1, options));
   return shares;
 }
 
@@ -45,8 +58,7 @@ double independentShare(
     const std::deque<Eigen::Vector3d>& earlier,
     const ExistenceOptions& options)
 {
-  const double rho = 1 - options.repeatedViewWeight;
-  return 1 / (1 + rho * neighbours(camera, center, earlier, options));
+  return independentShare(crowdOf(camera, center, earlier, options), options);
 }
 
 void rememberCamera(const Eigen::Vector3d& camera, std::deque<Eigen::Vector3d>& cameras)

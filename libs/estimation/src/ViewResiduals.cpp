@@ -46,8 +46,7 @@ double viewWeight(const ObjectView& view, const UprightState& reference)
       if (view.faces[f].kind == FaceKind::Unknown) continue;
       const Eigen::Vector3d inward = -normals[f];
       const double half = view.halfSizes[static_cast<Eigen::Index>(f / 2)];
-      const double distance = inward.dot(object.t - view.center) + half;
-      const double gap = tangencyRow(inward, distance, object, view.faceExponent).r;
+      const double gap = faceRow(inward, object.t - view.center, half, object, view.faceExponent).r;
       if (view.faces[f].kind == FaceKind::AtLeast && gap <= 0) continue;
       squares += gap * gap;
       count += 1;

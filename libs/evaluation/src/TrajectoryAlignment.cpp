@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "quadmap/geometry/PinholeCamera.h"
+#include "quadmap/geometry/PosePosition.h"
 
 namespace quadmap
 {
@@ -17,7 +18,6 @@ constexpr double kOrientationWeight = 1.0;
 /** The truth's axes are taken as optical only when the disagreement is less than this share. */
 constexpr double kClearlyBetter = 0.25;
 
-Eigen::Vector3d position(const mrpt::poses::CPose3D& T) { return {T.x(), T.y(), T.z()}; }
 Eigen::Matrix3d rotation(const mrpt::poses::CPose3D& T) { return T.getRotationMatrix().asEigen(); }
 
 struct Centroids
@@ -30,8 +30,8 @@ Centroids centroidsOf(const std::vector<PosePair>& pairs)
   Centroids mean;
   for (const auto& pair : pairs)
   {
-    mean.truth += position(pair.T_truth_body);
-    mean.estimated += position(pair.T_estimated_body);
+    mean.truth += positionOf(pair.T_truth_body);
+    mean.estimated += positionOf(pair.T_estimated_body);
   }
   mean.truth /= static_cast<double>(pairs.size());
   mean.estimated /= static_cast<double>(pairs.size());
@@ -43,8 +43,8 @@ Eigen::Matrix3d crossCovariance(const std::vector<PosePair>& pairs, const Centro
 {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& pair : pairs)
-    sum += (position(pair.T_truth_body) - mean.truth) *
-           (position(pair.T_estimated_body) - mean.estimated).transpose();
+    sum += (positionOf(pair.T_truth_body) - mean.truth) *
+           (positionOf(pair.T_estimated_body) - mean.estimated).transpose();
   return sum / static_cast<double>(pairs.size());
 }
 
@@ -176,7 +176,7 @@ double ateRmse(const std::vector<PosePair>& pairs, const mrpt::poses::CPose3D& T
   requirePairs(pairs);
   double sum = 0;
   for (const auto& pair : pairs)
-    sum += (position(pair.T_truth_body) - position(T_truth_estimated + pair.T_estimated_body))
+    sum += (positionOf(pair.T_truth_body) - positionOf(T_truth_estimated + pair.T_estimated_body))
                .squaredNorm();
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "quadmap/geometry/PosePosition.h"
+
 namespace quadmap
 {
 namespace
@@ -31,7 +33,7 @@ Ellipsoid::Ellipsoid(const mrpt::poses::CPose3D& T_ref_obj, const Eigen::Vector3
   pose_.yaw();
 }
 
-Eigen::Vector3d Ellipsoid::center() const { return {pose_.x(), pose_.y(), pose_.z()}; }
+Eigen::Vector3d Ellipsoid::center() const { return positionOf(pose_); }
 
 Eigen::Matrix3d Ellipsoid::rotation() const { return pose_.getRotationMatrix().asEigen(); }
 
@@ -48,13 +50,17 @@ Eigen::Matrix<double, 3, 8> Ellipsoid::cuboidCorners() const
   return corners;
 }
 
-Eigen::Matrix4d Ellipsoid::dualQuadric() const
+Eigen::Matrix3d Ellipsoid::shapeMatrix() const
 {
   const Eigen::Matrix3d R = rotation();
+  return R * semiAxes_.cwiseAbs2().asDiagonal() * R.transpose();
+}
+
+Eigen::Matrix4d Ellipsoid::dualQuadric() const
+{
   const Eigen::Vector3d t = center();
   Eigen::Matrix4d Q;
-  Q.topLeftCorner<3, 3>() =
-      R * semiAxes_.cwiseAbs2().asDiagonal() * R.transpose() - t * t.transpose();
+  Q.topLeftCorner<3, 3>() = shapeMatrix() - t * t.transpose();
   Q.topRightCorner<3, 1>() = -t;
   Q.bottomLeftCorner<1, 3>() = -t.transpose();
   Q(3, 3) = -1;

@@ -28,13 +28,6 @@ struct Bounds
   }
 };
 
-/** D = R diag(s^2) R^t of an ellipsoid: doc/mathematics.md, (1.2). */
-Eigen::Matrix3d shapeMatrix(const Ellipsoid& object)
-{
-  const Eigen::Matrix3d R = object.rotation();
-  return R * object.semiAxes().cwiseAbs2().asDiagonal() * R.transpose();
-}
-
 /** Both ends of the outline along one axis of the plane z = 1: doc/mathematics.md, (2.2). They are
  * the roots u of
  *
@@ -53,16 +46,10 @@ std::array<double, 2> outlineRange(
 }
 }  // namespace
 
-Eigen::Matrix3d projectDualConic(const PinholeCamera& camera, const Ellipsoid& object_optical)
-{
-  const Eigen::Matrix3d K = camera.matrix();
-  return K * object_optical.dualQuadric().topLeftCorner<3, 3>() * K.transpose();
-}
-
 std::optional<ImageBox> projectEllipsoidBox(
     const PinholeCamera& camera, const Ellipsoid& object_optical)
 {
-  const Eigen::Matrix3d D = shapeMatrix(object_optical);
+  const Eigen::Matrix3d D = object_optical.shapeMatrix();
   const Eigen::Vector3d t = object_optical.center();
   const double depthHalfWidth = std::sqrt(D(2, 2));  // h_2 along the optical axis
   if (!(t.z() - depthHalfWidth > kMinimumGap)) return std::nullopt;

@@ -51,6 +51,11 @@ double yawDistance(double yawA, double yawB, double period)
   return std::abs(std::remainder(yawA - yawB, period));
 }
 
+int quarterTurnsTo(double yaw, double reference)
+{
+  return static_cast<int>(std::lround((nearestEquivalentYaw(yaw, reference) - yaw) / (M_PI / 2)));
+}
+
 double nearestEquivalentYaw(double yaw, double reference, double period)
 {
   return reference + std::remainder(yaw - reference, period);

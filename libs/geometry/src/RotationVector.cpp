@@ -21,14 +21,6 @@ Eigen::Quaterniond rotationOf(const Eigen::Vector3d& v)
   return {std::cos(0.5 * angle), axis.x(), axis.y(), axis.z()};
 }
 
-Eigen::Vector3d rotationVectorOf(const Eigen::Quaterniond& q)
-{
-  const double sign = q.w() < 0 ? -1 : 1;
-  const double sine = q.vec().norm();
-  if (sine < 1e-9) return 2 * sign * q.vec() / q.norm();
-  return (2 * sign * std::atan2(sine, sign * q.w()) / sine) * q.vec();
-}
-
 Eigen::Matrix3d inverseLeftJacobian(const Eigen::Vector3d& v)
 {
   const double angle = v.norm();

@@ -3,27 +3,12 @@
 
 #include "InsertionFrame.h"
 #include "quadmap/estimation/Existence.h"
+#include "quadmap/estimation/LabelPrior.h"
+#include "quadmap/geometry/PosePosition.h"
 
 // Whether an object exists: section 13 of doc/mathematics.md.
 namespace quadmap
 {
-namespace
-{
-/** Largest deviation of a size from the label's typical one, in spreads; x and y are unordered. */
-double sizeDeviation(const Ellipsoid& object, const LabelProperties& label)
-{
-  const auto ordered = [](Eigen::Vector3d size)
-  {
-    if (size.x() > size.y()) std::swap(size.x(), size.y());
-    return size;
-  };
-  const Eigen::Array3d ratio =
-      ordered(2 * object.semiAxes()).array() / ordered(label.typicalSize).array();
-  return ratio.log().abs().maxCoeff() / label.sizeSpread;
-}
-
-}  // namespace
-
 /** Notes each object that the frame should have shown and did not. \return Their ids. */
 std::set<ObjectId> CQuadricObjectMap::countMisses(
     const Frame& frame, const std::set<ObjectId>& touched)
@@ -38,11 +23,8 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
     if (isShownByAFreeBox(object, frame)) continue;
     ++object.missCount;
     object.looks.add(
-        {
-            {camera.x(), camera.y(), camera.z()},
-            mrpt::Clock::toDouble(frame.time), false
-    },
-        object.object.center(), existence);
+        {positionOf(camera), mrpt::Clock::toDouble(frame.time), false}, object.object.center(),
+        existence);
     missed.insert(id);
   }
   return missed;
@@ -103,9 +85,10 @@ bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
 {
   const auto& existence = insertionOptions.existence;
   const bool manyComplete = object.completeCount >= static_cast<unsigned>(existence.minComplete);
-  const bool manyPartial = object.observations() >= static_cast<unsigned>(existence.minPartial) &&
-                           sizeDeviation(object.object, labels().properties(object.label())) <=
-                               existence.maxSizeDeviation;
+  const bool manyPartial =
+      object.observations() >= static_cast<unsigned>(existence.minPartial) &&
+      sizeDeviation(object.object, labels().properties(object.label()), ObjectFreedom::Upright) <=
+          existence.maxSizeDeviation;
   const double centerSigma = std::sqrt(object.covariance.diagonal().head<3>().maxCoeff());
   const double sizeSigma = object.covariance.diagonal()
                                .tail<3>()

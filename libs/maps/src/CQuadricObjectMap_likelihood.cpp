@@ -2,8 +2,9 @@
 #include <cmath>
 
 #include "InsertionFrame.h"
+#include "quadmap/estimation/ResidualRow.h"
+#include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/RotationDistance.h"
-#include "quadmap/geometry/Support.h"
 #include "quadmap/perception/BoxEdges.h"
 #include "quadmap/perception/RoomPerception.h"
 
@@ -64,16 +65,12 @@ std::optional<ObjectView> edgeView(
     const std::string& label,
     const PoseNoise& noise)
 {
-  if (detected.measurement.kind != MeasurementKind::Partial || !detected.measurement.edges)
-    return {};
+  if (detected.measurement.kind != MeasurementKind::Partial) return {};
   ObjectView view;
   view.label = label;
-  view.camera = {T_map_sensor.x(), T_map_sensor.y(), T_map_sensor.z()};
+  view.camera = positionOf(T_map_sensor);
   view.positionSigma = noise.position;
-  for (const auto& edge : *detected.measurement.edges)
-    if (edge.state == EdgeState::Usable)
-      view.edges.push_back(
-          {edge.plane_sensor.transformed(T_map_sensor), std::hypot(edge.sigmaAngle, noise.angle)});
+  view.edges = usableEdges(detected.measurement, T_map_sensor, noise);
   if (view.edges.empty()) return {};
   return view;
 }

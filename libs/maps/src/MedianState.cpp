@@ -47,8 +47,7 @@ std::array<Side, kFaces> collectSides(
   {
     if (!v.complete) continue;
     // The measured face f is side `turned` of a cuboid at `yaw`.
-    const int quarter =
-        static_cast<int>(std::lround((v.yaw - nearestEquivalentYaw(v.yaw, yaw)) / (M_PI / 2)));
+    const int quarter = -quarterTurnsTo(v.yaw, yaw);
     static constexpr std::array<std::size_t, 4> kAround{0, 2, 1, 3};  // +x, +y, -x, -y
     for (std::size_t f = 0; f < kFaces; ++f)
     {

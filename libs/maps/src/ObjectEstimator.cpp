@@ -15,11 +15,6 @@ namespace quadmap
 {
 namespace
 {
-/** What is known of an undefined yaw: it is somewhere within 45 degrees [rad]. */
-constexpr double kFreeYawSigma = M_PI / 4;
-/** What is known of a position that only inequalities bound: it is within this part of a room [m].
- */
-constexpr double kFreePositionSigma = 2.0;
 /** Share of the complete measurements that must show a direction. */
 constexpr double kYawShare = 0.25;
 
@@ -93,7 +88,7 @@ UprightCovariance freeInformation()
 {
   UprightCovariance information = UprightCovariance::Zero();
   information.diagonal().head<3>().setConstant(1.0 / (kFreePositionSigma * kFreePositionSigma));
-  information(3, 3) = 1.0 / (kFreeYawSigma * kFreeYawSigma);
+  information(3, 3) = 1.0 / (kFreeAngleSigma * kFreeAngleSigma);
   return information;
 }
 
@@ -214,12 +209,12 @@ void ObjectEstimator::absorb(
 {
   views_.insert(views_.begin(), other.views_.begin(), other.views_.end());
   const AxisRenaming r = axisRenaming(there, here);
-  const UprightCovariance L = r.P * other.prior_.L * r.P.transpose();
+  const UprightCovariance L = r.matrix(other.prior_.L);
   prior_.L += L;
   prior_.xi += r.P * other.prior_.xi + L * r.c;
   prior_.complete += other.prior_.complete;
   prior_.yawDefined += other.prior_.yawDefined;
-  const UprightCovariance error = r.P * other.sharedError_ * r.P.transpose();
+  const UprightCovariance error = r.matrix(other.sharedError_);
   const auto ofCenter = [](const UprightCovariance& P) { return P.topLeftCorner<3, 3>().trace(); };
   if (ofCenter(error) > ofCenter(sharedError_)) sharedError_ = error;
 }

@@ -1,26 +1,24 @@
 #include "quadmap/maps/WaitingList.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "quadmap/geometry/ViewAngles.h"
 
 namespace quadmap
 {
 namespace
 {
-/** Largest angle between the rays from the cameras to their common centre [rad]. */
-double parallax(const std::vector<WaitingList::Entry>& entries)
+/** The parallax of their common centre [rad]. */
+double parallaxOf(const std::vector<WaitingList::Entry>& entries)
 {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const auto& e : entries) center += e.view.center / static_cast<double>(entries.size());
-  double smallestCosine = 1;
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      const Eigen::Vector3d a = (center - entries[i].view.camera).normalized();
-      const Eigen::Vector3d b = (center - entries[j].view.camera).normalized();
-      smallestCosine = std::min(smallestCosine, a.dot(b));
-    }
-  return std::acos(std::clamp(smallestCosine, -1.0, 1.0));
+  std::vector<Eigen::Vector3d> cameras;
+  for (const auto& e : entries)
+  {
+    center += e.view.center / static_cast<double>(entries.size());
+    cameras.push_back(e.view.camera);
+  }
+  return parallax(center, cameras);
 }
 
 /** Two boxes of one image are two things, or one thing twice. They are not two views of it. */
@@ -57,7 +55,7 @@ std::vector<WaitingList::Entry> WaitingList::add(
   group.push_back(entry);
 
   if (group.size() >= static_cast<std::size_t>(options.minViews) &&
-      parallax(group) >= options.minParallax)
+      parallaxOf(group) >= options.minParallax)
   {
     entries_.erase(std::remove_if(entries_.begin(), entries_.end(), agrees), entries_.end());
     return group;

@@ -14,6 +14,7 @@
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputSet.h"
+#include "quadmap/geometry/PosePosition.h"
 
 namespace quadmap
 {
@@ -36,8 +37,6 @@ Eigen::Quaterniond quaternionOf(const mrpt::poses::CPose3D& T)
 {
   return Eigen::Quaterniond(Eigen::Matrix3d(T.getRotationMatrix().asEigen()));
 }
-
-Eigen::Vector3d translationOf(const mrpt::poses::CPose3D& T) { return {T.x(), T.y(), T.z()}; }
 
 /** Reads a finite number. \param place "file:line" for messages. */
 double parseNumber(const std::string& word, const std::string& place)
@@ -112,7 +111,7 @@ std::optional<mrpt::poses::CPose3D> poseAt(const Trajectory& trajectory, double 
   if (gap > maxGap) return std::nullopt;
   const double share = (time - before->time) / gap;
   const Eigen::Vector3d t =
-      (1 - share) * translationOf(before->pose) + share * translationOf(after->pose);
+      (1 - share) * positionOf(before->pose) + share * positionOf(after->pose);
   return poseFrom(quaternionOf(before->pose).slerp(share, quaternionOf(after->pose)), t);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadmap/geometry/RobustStatistics.h"
+
 namespace quadmap
 {
 namespace
@@ -64,9 +66,7 @@ LookedAtRegion<D>::LookedAtRegion(const std::vector<PointVector<D>>& measured)
     }
   std::vector<std::size_t> counts;
   for (const auto& position : measured) counts.push_back(near(position));
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  usual_ = *middle;
+  usual_ = medianElement(counts);
 }
 
 template <int D>

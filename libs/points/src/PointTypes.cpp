@@ -42,21 +42,4 @@ Eigen::Matrix<double, 3, 3> movedByTurn<3>(const PointVector<3>& v)
   return -crossMatrix(v);
 }
 
-template <int D>
-std::string PointObject<D>::label() const
-{
-  std::string best;
-  unsigned most = 0;
-  for (const auto& [label, count] : labelCounts)
-    if (count > most)
-    {
-      best = label;
-      most = count;
-    }
-  return best;
-}
-
-template struct PointObject<2>;
-template struct PointObject<3>;
-
 }  // namespace quadmap

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "quadmap/estimation/ObjectRules.h"
+#include "quadmap/geometry/PosePosition.h"
 
 namespace quadmap
 {
@@ -14,8 +15,6 @@ namespace
 /** Factor on the outline's sigma, doc/mathematics.md, (17.2). Neighbouring views share what the
  * outline has over an ellipsoid's: four of them know as much as one that erred independently. */
 constexpr double kSharedOutline = 2;
-
-Eigen::Vector3d positionOf(const CPose3D& pose) { return {pose.x(), pose.y(), pose.z()}; }
 
 /** Width and height of the image as angles, their geometric mean [rad]. */
 double fieldOfViewOf(const PinholeCamera& camera)

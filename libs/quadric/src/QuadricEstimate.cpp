@@ -7,6 +7,8 @@
 #include "quadmap/estimation/Association.h"
 #include "quadmap/estimation/ResidualRow.h"
 #include "quadmap/estimation/ViewRedundancy.h"
+#include "quadmap/geometry/PosePosition.h"
+#include "quadmap/geometry/ViewAngles.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap
@@ -18,12 +20,12 @@ using Eigen::Vector3d;
 /** Bounds of the distance of a thing: it is looked for in a room [m]. */
 constexpr double kNearest = 0.3, kFarthest = 8.0;
 
-/** Distance at which a size fills the angle between two planes that face each other [m],
- * doc/mathematics.md, (17.6). */
+/** Distance at which a size fills a box from edge to edge, in a room [m]: doc/mathematics.md,
+ * (17.6).
+ */
 double rangeOf(double size, const Plane& a, const Plane& b)
 {
-  const double angle = std::acos(std::clamp(-a.n.dot(b.n), -1.0, 1.0));
-  return std::clamp(0.5 * size / std::tan(0.5 * angle), kNearest, kFarthest);
+  return std::clamp(rangeThatFills(size, a.n, b.n), kNearest, kFarthest);
 }
 
 /** Residual of an edge with its derivatives by object and pose, doc/mathematics.md, (3.5), (3.6)
@@ -99,7 +101,7 @@ double boxLogLikelihoodRatio(
     const InsertionOptions& options)
 {
   const PlacedBox box = seen.view->placedAt(seen.T_map_robot);
-  const Vector3d robot(seen.T_map_robot.x(), seen.T_map_robot.y(), seen.T_map_robot.z());
+  const Vector3d robot = positionOf(seen.T_map_robot);
   const double range = box.forward().dot(object.center() - box.camera);
   if (range < object.semiAxes().minCoeff()) return -std::numeric_limits<double>::infinity();
   const ObjectShape shape(object.center(), object.rotation(), object.semiAxes());

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quadmap/geometry/Support.h"
+#include "quadmap/estimation/LabelPrior.h"
+#include "quadmap/estimation/ResidualRow.h"
 
 namespace quadmap
 {
@@ -82,6 +83,13 @@ Vector3d PlacedBox::forward() const
   return sum.normalized();
 }
 
+std::vector<Vector3d> camerasOf(const std::vector<PlacedBox>& boxes)
+{
+  std::vector<Vector3d> cameras;
+  for (const auto& box : boxes) cameras.push_back(box.camera);
+  return cameras;
+}
+
 /** The least-squares solution is (17.7) of doc/mathematics.md. */
 std::optional<Vector3d> triangulatedCenter(const std::vector<PlacedBox>& boxes)
 {
@@ -99,18 +107,6 @@ std::optional<Vector3d> triangulatedCenter(const std::vector<PlacedBox>& boxes)
   constexpr double kMinShare = 1e-5;  // of the eigenvalues: rays within 0.2 degrees are parallel
   if (!(eigen.eigenvalues()[0] > kMinShare * eigen.eigenvalues()[2])) return std::nullopt;
   return Vector3d(H.ldlt().solve(g));
-}
-
-double parallaxAt(const Vector3d& center, const std::vector<PlacedBox>& boxes)
-{
-  double smallestCosine = 1;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      const Vector3d a = center - boxes[i].camera, b = center - boxes[j].camera;
-      smallestCosine = std::min(smallestCosine, a.normalized().dot(b.normalized()));
-    }
-  return std::acos(std::clamp(smallestCosine, -1.0, 1.0));
 }
 
 std::optional<Ellipsoid> ellipsoidTouching(const std::vector<PlacedBox>& boxes)
@@ -165,11 +161,7 @@ bool isPlausible(
     const LabelProperties& label,
     double maxSizeDeviation)
 {
-  Vector3d sizes = 2 * object.semiAxes(), typical = label.typicalSize;
-  std::sort(sizes.data(), sizes.data() + 3);
-  std::sort(typical.data(), typical.data() + 3);
-  const double deviation = (sizes.array() / typical.array()).log().abs().maxCoeff();
-  if (deviation > maxSizeDeviation * label.sizeSpread) return false;
+  if (sizeDeviation(object, label, ObjectFreedom::Free) > maxSizeDeviation) return false;
   return std::all_of(
       boxes.begin(), boxes.end(),
       [&](const PlacedBox& box)

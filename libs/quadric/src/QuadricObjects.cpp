@@ -9,6 +9,7 @@
 #include "quadmap/estimation/Existence.h"
 #include "quadmap/estimation/ObjectRules.h"
 #include "quadmap/estimation/ViewRedundancy.h"
+#include "quadmap/geometry/ViewAngles.h"
 
 namespace quadmap
 {
@@ -200,7 +201,7 @@ bool QuadricObjects::promote(QuadricObject& track, const PoseOf& poseOf)
   if (track.views.size() < static_cast<std::size_t>(options_.waiting.minViews)) return false;
   const auto boxes = placed(track.views, poseOf);
   const auto center = triangulatedCenter(boxes);
-  if (!center || parallaxAt(*center, boxes) < options_.waiting.minParallax) return false;
+  if (!center || parallax(*center, camerasOf(boxes)) < options_.waiting.minParallax) return false;
 
   const auto label = labels_.properties(track.record.label());
   const auto plausible = [&](const Ellipsoid& object)
@@ -311,8 +312,7 @@ MapObject QuadricObjects::finished(const QuadricObject& object, const PoseOf& po
   out.orientationDefined = labels_.properties(out.label()).dominantDirection;
 
   const auto& existence = options_.existence;
-  std::vector<Eigen::Vector3d> cameras;
-  for (const auto& box : placed(object.views, poseOf)) cameras.push_back(box.camera);
+  const auto cameras = camerasOf(placed(object.views, poseOf));
   double independent = 0;
   for (const double share : independentShares(cameras, out.object.center(), existence))
     independent += share;

@@ -2,24 +2,13 @@
 
 #include <algorithm>
 
+#include "quadmap/geometry/PosePosition.h"
+#include "quadmap/geometry/RobustStatistics.h"
+
 namespace quadmap
 {
 namespace
 {
-/** The value below which a fraction of the values lies. */
-double quantile(std::vector<double> values, double fraction)
-{
-  const auto last = static_cast<double>(values.size() - 1);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(fraction * last);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
-Eigen::Vector3d positionOf(const mrpt::poses::CPose3D& pose)
-{
-  return {pose.x(), pose.y(), pose.z()};
-}
-
 void addCorners(const std::vector<ObjectRecord>& objects, std::vector<Eigen::Vector3d>& out)
 {
   for (const ObjectRecord& record : objects)

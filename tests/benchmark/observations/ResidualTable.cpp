@@ -7,10 +7,10 @@
 #include <limits>
 #include <map>
 
+#include "quadmap/estimation/ResidualRow.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/geometry/RotationDistance.h"
-#include "quadmap/geometry/Support.h"
 #include "quadmap/maps/ObjectEstimator.h"
 
 namespace quadmap::observations

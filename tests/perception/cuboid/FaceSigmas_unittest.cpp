@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../../surfaces/SyntheticFrame.h"
-#include "quadmap/geometry/Support.h"
+#include "quadmap/geometry/Plane.h"
 #include "quadmap/perception/FramePerception.h"
 
 namespace quadmap
@@ -33,7 +33,9 @@ struct Residuals
       const auto axis = static_cast<Eigen::Index>(f / 2);
       const Eigen::Vector3d n = (f % 2 == 0 ? 1.0 : -1.0) * R.col(axis);
       const Plane inwards{-n, n.dot(m.object_sensor.center()) + m.object_sensor.semiAxes()[axis]};
-      const double r = tangencyResidual(inwards, truth_sensor) / m.faces[f].sigma;
+      const double half = std::sqrt(n.dot(truth_sensor.shapeMatrix() * n));
+      const double gap = inwards.signedDistance(truth_sensor.center()) - half;
+      const double r = gap / m.faces[f].sigma;
       if (m.faces[f].kind == FaceKind::AtLeast)
       {
         ++inequalities;

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
+#include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/RotationVector.h"
 
 namespace quadmap
@@ -42,7 +43,7 @@ inline Eigen::Isometry3d isometryOf(const mrpt::poses::CPose3D& pose)
 {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = pose.getRotationMatrix().asEigen();
-  T.translation() = Eigen::Vector3d(pose.x(), pose.y(), pose.z());
+  T.translation() = positionOf(pose);
   return T;
 }
 

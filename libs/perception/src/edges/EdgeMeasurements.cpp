@@ -236,12 +236,12 @@ class EdgeJudge
     double width = box_.width() * context_.depth / std::abs(camera.fx);  // [m]
     double height = box_.height() * context_.depth / std::abs(camera.fy);
     if (std::abs(context_.up.x()) > std::abs(context_.up.y())) std::swap(width, height);
-    const double lower = std::log(label.typicalSize.z() / height) / label.sizeSpread;
-    e.tooLow = std::max(0.0, lower);
-    e.tooNarrow =
-        std::max(0.0, std::log(label.typicalSize.head<2>().maxCoeff() / width) / label.sizeSpread);
+    const auto tooSmall = [&](double seen, double typical)
+    { return std::max(0.0, label.spreadsBetween(seen, typical)); };
+    e.tooLow = tooSmall(height, label.typicalSize.z());
+    e.tooNarrow = tooSmall(width, label.typicalSize.head<2>().maxCoeff());
     if (const double top = heightOf(edge); top > 0)
-      e.topTooLow = std::max(0.0, std::log(label.typicalSize.z() / top) / label.sizeSpread);
+      e.topTooLow = tooSmall(top, label.typicalSize.z());
   }
 
   /** Of the middle of an edge, at the object's depth, above the support [m]; 0 when unknown. */

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "quadmap/geometry/RobustStatistics.h"
 #include "support/SupportEvidence.h"
 #include "support/SupportRing.h"
 
@@ -178,9 +179,8 @@ class SupportJudge
     {
       std::vector<double> distances;
       for (const auto& p : object_.points) distances.push_back(wall.signedDistance(p));
-      const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
-      std::nth_element(distances.begin(), middle, distances.end());
-      if (*middle > kThickest || *middle < kBehind) return 0;
+      const double distance = median(std::move(distances));
+      if (distance > kThickest || distance < kBehind) return 0;
     }
     const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
     return kOnWall * ringOn(ring_, wall, Ring::All).share + near + usualWall;

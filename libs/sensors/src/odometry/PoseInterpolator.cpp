@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/StepCovariance.h"
 #include "quadmap/obs/Trajectory.h"
 
@@ -26,9 +27,8 @@ mrpt::poses::CPose3D interpolate(
                         R_b = b.getRotationMatrix().asEigen();
   const Eigen::Matrix3d R =
       Eigen::Quaterniond(R_a).slerp(share, Eigen::Quaterniond(R_b)).toRotationMatrix();
-  const Eigen::Vector3d t_a(a.x(), a.y(), a.z()), t_b(b.x(), b.y(), b.z());
   return mrpt::poses::CPose3D::FromRotationAndTranslation(
-      R, ((1 - share) * t_a + share * t_b).eval());
+      R, ((1 - share) * positionOf(a) + share * positionOf(b)).eval());
 }
 
 CPose3DPDFGaussian interpolate(

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
@@ -22,13 +23,8 @@ constexpr double kGapFactor = 5;  // default gap / median interval
 constexpr double kNearShare = 0.01,
                  kFarShare = 0.99;  // percentiles of depth, as some pixels are wrong
 
-double medianOf(std::vector<double> values)
-{
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+/** 0 when there are no values: nothing is known of what is usual. */
+double usualOf(const std::vector<double>& values) { return values.empty() ? 0 : median(values); }
 
 /** How often each value of the depth images occurs. The value is the index. */
 using DepthCounts = std::vector<std::size_t>;
@@ -121,7 +117,7 @@ void checkTimes(const TumDataset& dataset, const TumCheckOptions& options, TumPr
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (frames[i].time > frames[i - 1].time)
       intervals.push_back(frames[i].time - frames[i - 1].time);
-  const double maxGap = options.maxGap > 0 ? options.maxGap : kGapFactor * medianOf(intervals);
+  const double maxGap = options.maxGap > 0 ? options.maxGap : kGapFactor * usualOf(intervals);
   for (std::size_t i = 1; i < frames.size(); ++i)
   {
     const double step = frames[i].time - frames[i - 1].time;
@@ -179,9 +175,9 @@ void checkMotion(const TumDataset& dataset, const TumCheckOptions& options, TumP
     speeds.push_back(m.speed);
     turnRates.push_back(m.turnRate);
   }
-  const double speedLimit = std::max(options.maxSpeed, options.jumpFactor * medianOf(speeds));
+  const double speedLimit = std::max(options.maxSpeed, options.jumpFactor * usualOf(speeds));
   const double turnLimit =
-      std::max(mrpt::DEG2RAD(options.maxTurnRate_deg), options.jumpFactor * medianOf(turnRates));
+      std::max(mrpt::DEG2RAD(options.maxTurnRate_deg), options.jumpFactor * usualOf(turnRates));
   for (const auto& m : motions)
     if (m.speed > speedLimit || m.turnRate > turnLimit)
       problems["pose jumps"].push_back(mrpt::format(

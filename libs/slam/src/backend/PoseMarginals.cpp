@@ -11,10 +11,9 @@ std::optional<mrpt::math::CMatrixDouble66> covarianceOfPose(
 {
   constexpr double kLeastCosine = 1e-3;  // of the pitch, 0.06 deg off straight down
   if (std::abs(std::cos(T_map_robot.pitch())) < kLeastCosine) return std::nullopt;
-  const Eigen::Matrix3d R = T_map_robot.getRotationMatrix().asEigen();
   Matrix6 J = Matrix6::Zero();
   J.topRightCorner<3, 3>().setIdentity();
-  J.bottomLeftCorner<3, 3>() = localTurnsPerAngle(T_map_robot).inverse() * R.transpose();
+  J.bottomLeftCorner<3, 3>() = anglesPerTurn(T_map_robot, kLeastCosine);
   const Matrix6 covariance = J * covarianceOfStep * J.transpose();
   return mrpt::math::CMatrixDouble66(Matrix6(0.5 * (covariance + covariance.transpose())));
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/estimation/MeasuredGeometry.h"
 #include "quadmap/geometry/PoseAngles.h"
 
 namespace quadmap
@@ -59,11 +60,9 @@ double centreSigma(const CompleteMeasurement& m, int axis)
 {
   const auto& plus = m.faces[2 * static_cast<std::size_t>(axis)];
   const auto& minus = m.faces[2 * static_cast<std::size_t>(axis) + 1];
-  const auto isKnown = [](const FaceMeasurement& f)
-  { return f.kind == FaceKind::Measured || f.kind == FaceKind::Support; };
   const double half = m.object_sensor.semiAxes()[axis];
-  const double sigmaPlus = isKnown(plus) ? plus.sigma : half;
-  const double sigmaMinus = isKnown(minus) ? minus.sigma : half;
+  const double sigmaPlus = isEquality(plus.kind) ? plus.sigma : half;
+  const double sigmaMinus = isEquality(minus.kind) ? minus.sigma : half;
   return 0.5 * std::hypot(sigmaPlus, sigmaMinus);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadmap/estimation/AxisRenaming.h"
+
 namespace quadmap
 {
 namespace
@@ -16,28 +18,16 @@ struct Known
   UprightCovariance covariance;
 };
 
-void swapHorizontalAxes(Known& known)
+Known renamed(const Known& known, const AxisRenaming& by)
 {
-  Eigen::PermutationMatrix<7> swapAxes;
-  swapAxes.setIdentity();
-  std::swap(swapAxes.indices()[4], swapAxes.indices()[5]);
-  known.state = swapAxes * known.state;
-  known.covariance = swapAxes * known.covariance * swapAxes.transpose();
-}
-
-/** Of the four upright states of a cuboid the one whose yaw is nearest. */
-Known turnedLike(Known known, double yaw)
-{
-  const double turns = std::round((yaw - known.state[3]) / (M_PI / 2));
-  known.state[3] += turns * M_PI / 2;
-  if (std::fmod(std::abs(turns), 2) > 0.5) swapHorizontalAxes(known);
-  return known;
+  return {by.state(known.state), by.matrix(known.covariance)};
 }
 
 /** Names the axes when there is no heading: the longer horizontal axis tells which is which. */
 Known shapedLike(Known known, const UprightState& local)
 {
-  if ((known.state[4] - known.state[5]) * (local[4] - local[5]) < 0) swapHorizontalAxes(known);
+  if ((known.state[4] - known.state[5]) * (local[4] - local[5]) < 0)
+    known = renamed(known, axisRenaming(1));
   known.state[3] = local[3];
   return known;
 }
@@ -49,7 +39,8 @@ ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma
   const UprightState here = uprightStateOf(local.object);
   const Known there{uprightStateOf(given.object), given.covariance};
   const bool hasHeading = local.orientationDefined && given.orientationDefined;
-  Known known = hasHeading ? turnedLike(there, here[3]) : shapedLike(there, here);
+  Known known =
+      hasHeading ? renamed(there, axisRenaming(there.state, here)) : shapedLike(there, here);
   // (19.5): each side errs by sigma for itself, ln s by sigma / s and the yaw as along the longer
   // side.
   UprightState more;

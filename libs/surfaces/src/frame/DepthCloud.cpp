@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "quadmap/geometry/RobustStatistics.h"
+
 namespace quadmap
 {
 namespace
@@ -161,9 +163,7 @@ CoarseDepth DepthCloud::coarse(unsigned columns, unsigned rows) const
         out.depth.push_back(0.f);
         continue;
       }
-      const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      out.depth.push_back(*middle);
+      out.depth.push_back(medianElement(values));
     }
   return out;
 }

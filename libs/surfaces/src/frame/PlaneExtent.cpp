@@ -3,40 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "quadmap/geometry/ConvexHull.h"
+
 namespace quadmap
 {
 namespace
 {
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/** Andrew's monotone chain: the corners of the convex hull, counter-clockwise. */
-std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points)
-{
-  std::sort(
-      points.begin(), points.end(),
-      [](const auto& a, const auto& b)
-      { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  std::vector<Eigen::Vector2d> hull;
-  for (int pass = 0; pass < 2; ++pass)
-  {
-    const std::size_t start = hull.size();
-    for (const auto& p : points)
-    {
-      while (hull.size() >= start + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();  // the first one of the other pass
-    std::reverse(points.begin(), points.end());
-  }
-  if (hull.empty()) hull.push_back(points.front());
-  return hull;
-}
-
 Eigen::Vector2d nearestOnSegment(
     const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {

@@ -1,20 +1,14 @@
 #pragma once
 
-#include <mrpt/poses/CPose3D.h>
-
 #include <Eigen/Dense>
 
+#include "quadmap/geometry/PosePosition.h"
 #include "quadmap/surfaces/SurfacePatch.h"
 
 namespace quadmap
 {
 inline constexpr double kSameFloor = 0.10;   // [m]; pose noise and slope over a room
 inline constexpr double kMinUpright = 0.95;  // cosine: horizontal surfaces
-
-inline Eigen::Vector3d positionOf(const mrpt::poses::CPose3D& pose)
-{
-  return {pose.x(), pose.y(), pose.z()};
-}
 
 /** The mean of the samples of a patch, of which there is at least one [m]. */
 inline Eigen::Vector3d centroidOf(const SurfacePatch& patch)

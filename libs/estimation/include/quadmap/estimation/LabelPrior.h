@@ -20,4 +20,9 @@ constexpr std::size_t kLabelPriorRows = 4;
 std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
     const Eigen::Vector3d& logSizes, const LabelProperties& label, const EstimatorOptions& options);
 
+/** Largest deviation of a size from the label's typical one, in spreads: doc/mathematics.md, (9.5)
+ * without its sign. Which horizontal axis of an upright object is x is arbitrary, and so are all
+ * names of a free one's: sizes are compared in the order of length. */
+double sizeDeviation(const Ellipsoid& object, const LabelProperties& label, ObjectFreedom freedom);
+
 }  // namespace quadmap

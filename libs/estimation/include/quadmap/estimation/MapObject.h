@@ -28,6 +28,9 @@ UprightCovariance covarianceIntersection(const UprightCovariance& a, const Uprig
 /** The nearest matrix without negative eigenvalues. */
 UprightCovariance withoutNegative(const UprightCovariance& symmetric);
 
+/** The most frequent label; ties go to the alphabetically first. Empty when there is none. */
+std::string mostFrequentLabel(const std::map<std::string, unsigned>& counts);
+
 /** One landmark of the object map. */
 struct MapObject
 {
@@ -43,8 +46,8 @@ struct MapObject
   mrpt::Clock::time_point firstSeen, lastSeen;
 
   unsigned observations() const { return completeCount + partialCount; }
-  std::string label() const;  //!< The most frequent one; ties go to the alphabetically first
-  double existence() const;   //!< Probability, in [0, 1]
+  std::string label() const { return mostFrequentLabel(labelCounts); }
+  double existence() const;  //!< Probability, in [0, 1]
 };
 
 }  // namespace quadmap

@@ -5,6 +5,10 @@
 
 namespace quadmap
 {
+/** What is known of an object without any measurement, doc/mathematics.md, (11.20): it is within
+ * this part of a room [m], and an undefined yaw is somewhere within 45 degrees [rad]. */
+constexpr double kFreePositionSigma = 2.0, kFreeAngleSigma = M_PI / 4;
+
 /** Normal equations of a robust least-squares problem at one state of an upright object:
  * cost ~ 1/2 d^T H d + g^T d. */
 struct NormalEquations

@@ -48,6 +48,12 @@ struct ObjectView : MeasuredGeometry
   }
 };
 
+/** The usable edges of a measured box in the map. */
+std::vector<ObjectView::Edge> usableEdges(
+    const ObjectMeasurement& measurement,
+    const mrpt::poses::CPose3D& T_map_sensor,
+    const PoseNoise& noise);
+
 /** A detected object's measurement in the map; nothing when it is not usable (no measurement, or a
  * cuboid and a seed both missing).
  * \param properties Of the label; its `name` becomes the view's label. */

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "quadmap/estimation/ObjectShape.h"
+#include "quadmap/geometry/Plane.h"
 
 namespace quadmap
 {
@@ -52,6 +53,22 @@ struct TangencyRow : ResidualRow
  * \param q Exponent of the object's half width (3.2). */
 TangencyRow tangencyRow(
     const Eigen::Vector3d& n, double distance, const ObjectShape& object, double q);
+
+/** r of (3.5) alone [m]: positive when there is a gap, negative when the plane cuts the object.
+ * Plane and object are in one frame, and the plane's normal points towards the object. */
+double tangencyResidual(const Plane& plane, const Ellipsoid& object, double q = 2.0);
+
+/** Row of a face of a measured cuboid, (11.2): positive when the object is smaller than the face
+ * says.
+ * \param inward The face's unit normal, towards the object, in the map.
+ * \param fromCenter From the cuboid's centre to the object's [m]. \param half Distance of the face
+ * from the cuboid's centre [m]. \param q Exponent of the half width that the face touches. */
+TangencyRow faceRow(
+    const Eigen::Vector3d& inward,
+    const Eigen::Vector3d& fromCenter,
+    double half,
+    const ObjectShape& object,
+    double q);
 
 /** Adds the derivatives (16.3) by a pose that carries the plane.
  * \param toObject From the robot to the object's centre [m]. */

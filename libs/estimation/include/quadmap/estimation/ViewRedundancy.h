@@ -21,6 +21,18 @@ std::vector<double> independentShares(
     const Eigen::Vector3d& center,
     const ExistenceOptions& options);
 
+/** Distance of a camera from another one beyond which its mistakes are others [m]. It is the
+ * independentViewAngle as seen from the object's `center`. */
+double independentReach(
+    const Eigen::Vector3d& camera, const Eigen::Vector3d& center, const ExistenceOptions& options);
+
+/** k of (16.20), how much of their mistakes two cameras share, in [0, 1]. \param reach Of one of
+ * them [m]. */
+double sharedMistakes(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double reach);
+
+/** The share of (16.20) and (13.1). \param crowd Sum of k over the others. */
+double independentShare(double crowd, const ExistenceOptions& options);
+
 /** The same for one more view, given earlier ones. */
 double independentShare(
     const Eigen::Vector3d& camera,

@@ -35,6 +35,10 @@ class Ellipsoid
    *  Column i has the signs of its bits: bit 0 = +x, bit 1 = +y, bit 2 = +z. */
   Eigen::Matrix<double, 3, 8> cuboidCorners() const;
 
+  /** D = R diag(a^2, b^2, c^2) R^t [m^2]: doc/mathematics.md, (1.2). The half width of the
+   * ellipsoid along a unit vector n is sqrt(n^t D n). */
+  Eigen::Matrix3d shapeMatrix() const;
+
   /** Dual quadric, 4x4 symmetric: Q* = T diag(a^2, b^2, c^2, -1) T^t, where T is the 4x4 matrix of
    *  the pose. A plane pi (4x1) touches the surface when pi^t Q* pi = 0: doc/mathematics.md, (1.2)
    *  and (1.3). */

@@ -19,6 +19,10 @@ SymmetricRotation symmetricRotationDistance(const Eigen::Matrix3d& R_a, const Ei
  * [0, period/2]. */
 double yawDistance(double yawA, double yawB, double period = M_PI / 2);
 
+/** How many quarter turns, to the left, bring `yaw` nearest to `reference`: by an odd number of
+ * them x and y of a cuboid change their names. */
+int quarterTurnsTo(double yaw, double reference);
+
 /** The representative of `yaw` modulo `period` that is nearest to `reference` [rad]. */
 double nearestEquivalentYaw(double yaw, double reference, double period = M_PI / 2);
 

@@ -3,9 +3,6 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "quadmap/geometry/Ellipsoid.h"
-#include "quadmap/geometry/Plane.h"
-
 namespace quadmap
 {
 /** Smoothing of |x| as sqrt(x^2 + k^2): k is this times |s| [-]. */
@@ -33,25 +30,31 @@ struct SupportWithDerivatives
 SupportWithDerivatives supportWithDerivatives(
     const Eigen::Vector3d& n_obj, const Eigen::Vector3d& s, double q);
 
-/** Signed distance between a plane and the object it should touch, r = (n.t + d) - h_q(n) [m]:
- * doc/mathematics.md, (3.5). It is positive when there is a gap and negative when the plane cuts
- * the object. Plane and object are in one frame, and the plane's normal points towards the object.
- */
-double tangencyResidual(const Plane& plane, const Ellipsoid& object, double q = 2.0);
-
 // ---------------------------------------------------------------------------------------------
+
+/** The sum of (3.2) for q < 2 with its parts: S = sum_i w_i^(q/2), h_q = S^(1/q). */
+template <typename T>
+struct SupportSum
+{
+  /** \param v v_i = s_i n_i [m]. \param s Semi-axes [m]. */
+  SupportSum(const Eigen::Matrix<T, 3, 1>& v, const Eigen::Matrix<T, 3, 1>& s, double q)
+  {
+    using std::pow;
+    w = v.array().square() + T(kSupportSmoothing * kSupportSmoothing) * s.squaredNorm();
+    for (int i = 0; i < 3; ++i) powers[i] = pow(w[i], 0.5 * q);
+    S = powers.sum();
+    h = pow(S, 1.0 / q);
+  }
+
+  Eigen::Array<T, 3, 1> w, powers;  //!< w_i, and w_i^(q/2)
+  T S, h;
+};
 
 template <typename T>
 T supportFunction(const Eigen::Matrix<T, 3, 1>& n_obj, const Eigen::Matrix<T, 3, 1>& s, double q)
 {
-  using std::pow;
-  using std::sqrt;
-  if (q == 2.0) return n_obj.cwiseProduct(s).norm();
   const Eigen::Matrix<T, 3, 1> v = n_obj.cwiseProduct(s);
-  const T k2 = s.squaredNorm() * T(kSupportSmoothing * kSupportSmoothing);
-  T sum(0);
-  for (int i = 0; i < 3; ++i) sum += pow(v[i] * v[i] + k2, 0.5 * q);
-  return pow(sum, 1.0 / q);
+  return q == 2.0 ? v.norm() : SupportSum<T>(v, s, q).h;
 }
 
 }  // namespace quadmap

@@ -46,6 +46,12 @@ struct LabelProperties
   double sizeSpread = 1.0;                //!< Standard deviation of the logarithm of a size [-]
   std::vector<std::string> confusedWith;  //!< Canonical names that a detector mistakes it for
   bool known = false;                     //!< False when the table has no such label
+
+  /** ln(larger / smaller) in spreads of the label's sizes: doc/mathematics.md, (9.5) [-]. */
+  double spreadsBetween(double smaller, double larger) const
+  {
+    return std::log(larger / smaller) / sizeSpread;
+  }
 };
 
 /** The labels of a detector, under all their usual spellings. They are read from an INI file with

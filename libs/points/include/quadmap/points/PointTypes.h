@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/estimation/MapObject.h"
+
 namespace quadmap
 {
 template <int D>
@@ -92,7 +94,7 @@ struct PointObject
   double existenceLogOdds = 0;
   bool confirmed = false;  //!< Enough evidence to be reported
 
-  std::string label() const;  //!< The most frequent one; of equals the alphabetically first
+  std::string label() const { return mostFrequentLabel(labelCounts); }
 };
 
 /** Whether the sensor, from the pose with this index, should have seen something at a position in

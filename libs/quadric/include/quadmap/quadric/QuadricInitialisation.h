@@ -25,8 +25,8 @@ struct PlacedBox
  * \return Nothing when the boxes do not fix it, as from one place. */
 std::optional<Eigen::Vector3d> triangulatedCenter(const std::vector<PlacedBox>& boxes);
 
-/** Largest angle between the rays from two of the cameras to a point [rad]. */
-double parallaxAt(const Eigen::Vector3d& center, const std::vector<PlacedBox>& boxes);
+/** The centres of the cameras [m]. */
+std::vector<Eigen::Vector3d> camerasOf(const std::vector<PlacedBox>& boxes);
 
 /** The ellipsoid that the usable edges touch, by linear least squares: each plane pi gives
  * pi^t Q* pi = 0 for the ten numbers of the symmetric Q* (Nicholson et al., 2019). z is the axis
