@@ -1,5 +1,7 @@
 #include "GraphProblem.h"
 #include "SparseInverse.h"
+#include "quadmap/estimation/NormalEquations.h"
+#include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/RotationVector.h"
 
 // How well a map knows where its objects are in it: (16.16) to (16.18) of doc/mathematics.md.
@@ -71,8 +73,7 @@ std::map<ObjectId, UprightCovariance> GraphProblem::alignedObjectMarginals(std::
   std::vector<Eigen::Index> columns;
   for (std::size_t k = firstPose; k < graph_.poses_.size(); ++k)
   {
-    const auto pose = graph_.pose(k);
-    positions.emplace_back(pose.x(), pose.y(), pose.z());
+    positions.push_back(positionOf(graph_.pose(k)));
     const auto at = normal.poseAt.find(k);
     columns.push_back(at == normal.poseAt.end() ? -1 : at->second + 3);
   }

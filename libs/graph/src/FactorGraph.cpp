@@ -30,12 +30,6 @@ void FactorGraph::addStep(
   stepsByPose_.at(std::max(from, to)).push_back({from, to, T_from_to});
 }
 
-void FactorGraph::addPosePrior(
-    std::size_t index, const mrpt::poses::CPose3DPDFGaussian& T_map_robot)
-{
-  posePriors_[index] = T_map_robot;
-}
-
 void FactorGraph::setObject(
     ObjectId id, const Ellipsoid& object, const LabelProperties& label, ObjectFreedom freedom)
 {
@@ -61,14 +55,6 @@ void FactorGraph::setObjectPrior(ObjectId id, const ObjectPrior& prior)
   objects_.at(id).prior = prior;
 }
 
-void FactorGraph::addStandsOn(ObjectId upper, ObjectId lower)
-{
-  if (objects_.at(upper).freedom != ObjectFreedom::Upright ||
-      objects_.at(lower).freedom != ObjectFreedom::Upright)
-    throw std::invalid_argument("FactorGraph: only upright objects stand on each other");
-  standsOn_.emplace_back(upper, lower);
-}
-
 /** Adds what one Gaussian knows of an upright object to that of its heir. */
 void FactorGraph::bequeath(const ObjectPrior& from, Object& heir)
 {
@@ -76,9 +62,9 @@ void FactorGraph::bequeath(const ObjectPrior& from, Object& heir)
   { return UprightState(Eigen::Map<const UprightState>(block.data())); };
   const AxisRenaming r = axisRenaming(stateOf(from.at), stateOf(heir.block));
   ObjectPrior moved;
-  moved.L = r.P * from.L * r.P.transpose();
+  moved.L = r.matrix(from.L);
   moved.g = r.P * from.g;
-  Eigen::Map<UprightState>(moved.at.data()) = r.P * stateOf(from.at) + r.c;
+  Eigen::Map<UprightState>(moved.at.data()) = r.state(stateOf(from.at));
   if (!heir.folded)
   {
     heir.folded = moved;
@@ -99,11 +85,6 @@ void FactorGraph::removeObject(ObjectId id, std::optional<ObjectId> heir)
       to.foldedBottom += removed->second.foldedBottom;
     }
   objects_.erase(id);
-  standsOn_.erase(
-      std::remove_if(
-          standsOn_.begin(), standsOn_.end(),
-          [&](const auto& pair) { return pair.first == id || pair.second == id; }),
-      standsOn_.end());
   for (std::size_t k = firstKept(); k < viewsByPose_.size(); ++k)
   {
     auto& views = viewsByPose_[k];

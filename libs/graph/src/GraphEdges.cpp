@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "quadmap/geometry/PosePosition.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap
@@ -37,8 +38,7 @@ std::vector<FactorGraph::GraphEdge> FactorGraph::graphEdges() const
   std::vector<GraphEdge> edges;
   for (std::size_t k = 0; k < poses_.size(); ++k)
   {
-    const mrpt::poses::CPose3D T_map_robot = pose(k);
-    const Vector3d robot(T_map_robot.x(), T_map_robot.y(), T_map_robot.z());
+    const Vector3d robot = positionOf(pose(k));
     RowMajor plus(7, 6);
     manifold->PlusJacobian(poses_[k].data(), plus.data());
     std::map<ObjectId, GraphEdge> edgeTo;

@@ -2,8 +2,9 @@
 #include <cmath>
 
 #include "GraphProblem.h"
+#include "quadmap/geometry/RobustStatistics.h"
 
-// Things that stand on one floor: (16.8), (16.11) and (16.12) of doc/mathematics.md.
+// Things that stand on one floor: (16.8) and (16.10) to (16.12) of doc/mathematics.md.
 namespace quadmap
 {
 namespace
@@ -11,13 +12,6 @@ namespace
 /** Standard deviation that all bottoms on one floor have in common [m]: floors are not even, and
  * the supporting plane is fitted to what shows of it. */
 constexpr double kUneven = 0.03;
-
-double medianOf(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -59,7 +53,7 @@ StandingThing GraphProblem::standingThing(ObjectId id) const
     thing.poses.push_back(pose - firstView_);
   }
   const double sigma = graph_.options_.floorSigma;
-  thing.variance = 1 / information + kUneven * kUneven + sigma * sigma;
+  thing.variance = 1 / information + kUneven * kUneven + sigma * sigma;  // (16.10)
   return thing;
 }
 
@@ -95,7 +89,7 @@ void GraphProblem::addFloors()
   std::vector<std::vector<double>> bottoms(things.size());
   for (std::size_t i = 0; i < things.size(); ++i) bottoms[floors[i]].push_back(things[i].bottom);
   for (std::size_t i = 0; i < things.size() && !bottoms[i].empty(); ++i)
-    floors_.push_back(floorBlock(medianOf(bottoms[i])));
+    floors_.push_back(floorBlock(median(bottoms[i])));
   for (std::size_t i = 0; i < things.size(); ++i)
     problem_.AddResidualBlock(
         createFloorFactor(

@@ -5,6 +5,7 @@
 
 #include "GraphProblem.h"
 #include "SparseInverse.h"
+#include "quadmap/estimation/NormalEquations.h"
 
 namespace quadmap
 {

@@ -32,16 +32,7 @@ GraphProblem::GraphProblem(FactorGraph& graph, std::size_t firstFree, bool folde
       if (graph.hasObject(view.object)) addView(k, view);
     if (k < firstFree_) continue;
     for (const auto& step : graph.stepsByPose_[k]) addStep(step);
-    const auto prior = graph.posePriors_.find(k);
-    if (prior != graph.posePriors_.end())
-      problem_.AddResidualBlock(createPosePrior(prior->second).release(), nullptr, poseBlock(k));
   }
-  for (const auto& [upper, lower] : graph.standsOn_)
-    if (objects_.count(upper) != 0 && objects_.count(lower) != 0)
-      problem_.AddResidualBlock(
-          createStandsOnFactor(graph.options_.standsOnSigma, graph.options_.estimator.huber)
-              .release(),
-          nullptr, objects_.at(upper), objects_.at(lower));
   addFloors();
 }
 

@@ -35,11 +35,6 @@ class GraphProblem
 
  private:
   using SparseMatrix = Eigen::SparseMatrix<double>;
-  /** What is known of an object's position and angles without measurements, as in the object map.
-   */
-  static constexpr double kFreePositionSigma = 2.0;    // [m]
-  static constexpr double kFreeAngleSigma = M_PI / 4;  // [rad]
-
   /** Lower triangle of H of steps of the free blocks, and where theirs begin. */
   struct NormalMatrix
   {

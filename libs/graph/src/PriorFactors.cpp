@@ -1,5 +1,4 @@
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/rotation.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -8,6 +7,7 @@
 #include "quadmap/estimation/LabelPrior.h"
 #include "quadmap/estimation/RobustKernel.h"
 #include "quadmap/geometry/PoseAngles.h"
+#include "quadmap/geometry/StepResidual.h"
 #include "quadmap/geometry/Support.h"
 #include "quadmap/graph/GraphFactors.h"
 
@@ -21,40 +21,32 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 template <typename T>
 using QuaternionMap = Eigen::Map<const Eigen::Quaternion<T>>;
 
-/** Rotation vector of a unit quaternion. */
 template <typename T>
-Vector3<T> rotationVector(const Eigen::Quaternion<T>& q)
+using Parts = RotationAndTranslation<Eigen::Quaternion<T>, Vector3<T>>;
+
+/** Rotation and translation of a PoseBlock. */
+template <typename T>
+Parts<T> partsOf(const T* block)
 {
-  const T wxyz[4] = {q.w(), q.x(), q.y(), q.z()};
-  Vector3<T> v;
-  ceres::QuaternionToAngleAxis(wxyz, v.data());
-  return v;
+  return {Eigen::Quaternion<T>(block), Vector3<T>(block + 4)};
 }
 
-/** r = W [R_f^t (t_t - t_f) - t_m; log(R_m^t R_f^t R_t)] with W^t W = covariance^-1,
- * doc/mathematics.md, (16.2): the position's error is along the axes of `from`, the rotation's
- * along those of `to`. */
-struct StepResidual
+/** The step's residual (16.2), whitened: W^t W = covariance^-1. */
+struct OdometryResidual
 {
-  Eigen::Quaterniond q_m;
-  Eigen::Vector3d t_m;
+  Parts<double> measured;
   Matrix6 W;
 
   template <typename T>
   bool operator()(const T* from, const T* to, T* residual) const
   {
-    const QuaternionMap<T> q_f(from), q_t(to);
-    const Eigen::Map<const Vector3<T>> t_f(from + 4), t_t(to + 4);
-    Eigen::Matrix<T, 6, 1> e;
-    e.template head<3>() = q_f.conjugate() * Vector3<T>(t_t - t_f) - t_m.cast<T>();
-    e.template tail<3>() = rotationVector<T>(q_m.cast<T>().conjugate() * (q_f.conjugate() * q_t));
     Eigen::Map<Eigen::Matrix<T, 6, 1>> r(residual);
-    r = W.cast<T>() * e;
+    r = W.cast<T>() * stepResidual(partsOf(from), partsOf(to), measured);
     return true;
   }
 };
 
-StepResidual stepResidual(const mrpt::poses::CPose3DPDFGaussian& step)
+OdometryResidual odometryResidual(const mrpt::poses::CPose3DPDFGaussian& step)
 {
   // Angles (yaw, pitch, roll) -> turns about the axes of `to`.
   Matrix6 J = Matrix6::Identity();
@@ -63,23 +55,9 @@ StepResidual stepResidual(const mrpt::poses::CPose3DPDFGaussian& step)
   const Eigen::LLT<Matrix6> llt(S);
   if (llt.info() != Eigen::Success || !S.allFinite())
     throw std::invalid_argument("createOdometryFactor: the covariance is not positive definite");
-  const PoseBlock mean = poseBlockOf(step.mean);
-  const Eigen::Map<const Eigen::Quaterniond> q(mean.data());
-  const Eigen::Map<const Eigen::Vector3d> t(mean.data() + 4);
-  return {q, t, llt.matrixL().solve(Matrix6(Matrix6::Identity()))};
+  return {
+      partsOf(poseBlockOf(step.mean).data()), llt.matrixL().solve(Matrix6(Matrix6::Identity()))};
 }
-
-struct PosePriorResidual
-{
-  StepResidual step;
-
-  template <typename T>
-  bool operator()(const T* pose, T* residual) const
-  {
-    const T map[7] = {T(0), T(0), T(0), T(1), T(0), T(0), T(0)};
-    return step(map, pose, residual);
-  }
-};
 
 /** The rows of the label alone, doc/mathematics.md, (11.17) and (11.18). */
 class LabelPriorFactor : public ceres::CostFunction
@@ -142,22 +120,7 @@ struct FloorResidual
   }
 };
 
-/** How far the bottom of one object is above the top of another, doc/mathematics.md, (16.9). */
-struct StandsOnResidual
-{
-  double sigma, huber;
-
-  template <typename T>
-  bool operator()(const T* upper, const T* lower, T* residual) const
-  {
-    const T bottom = upper[2] - halfHeight<ObjectFreedom::Upright>(upper);
-    const T top = lower[2] + halfHeight<ObjectFreedom::Upright>(lower);
-    residual[0] = RobustKernel::huber(huber).root(T((bottom - top) / sigma));
-    return true;
-  }
-};
-
-/** r = S d + b with S^t S = L and S^t b = g, doc/mathematics.md, (16.10). */
+/** r = S d + b with S^t S = L and S^t b = g, doc/mathematics.md, (16.9). */
 template <int kSize>
 struct ObjectPriorResidual
 {
@@ -177,7 +140,7 @@ struct ObjectPriorResidual
     {
       const Eigen::Quaterniond q_at(Eigen::Map<const Eigen::Quaterniond>(at.data() + 3));
       d.template segment<3>(3) =
-          rotationVector<T>(QuaternionMap<T>(object + 3) * q_at.conjugate().cast<T>());
+          rotationVectorOf<T>(QuaternionMap<T>(object + 3) * q_at.conjugate().cast<T>());
       for (int i = 6; i < 9; ++i) d[i] = object[i + 1] - at[static_cast<std::size_t>(i + 1)];
     }
     Eigen::Map<Eigen::Matrix<T, kSize, 1>> r(residual);
@@ -227,12 +190,7 @@ Factor differentiated(Functor functor)
 
 Factor createOdometryFactor(const mrpt::poses::CPose3DPDFGaussian& step)
 {
-  return differentiated<6, 7, 7>(stepResidual(step));
-}
-
-Factor createPosePrior(const mrpt::poses::CPose3DPDFGaussian& T_map_robot)
-{
-  return differentiated<6, 7>(PosePriorResidual{stepResidual(T_map_robot)});
+  return differentiated<6, 7, 7>(odometryResidual(step));
 }
 
 Factor createLabelPrior(
@@ -246,11 +204,6 @@ Factor createFloorFactor(double sigma, double huber, ObjectFreedom freedom)
   if (freedom == ObjectFreedom::Upright)
     return differentiated<1, 7, 1>(FloorResidual<ObjectFreedom::Upright>{sigma, huber});
   return differentiated<1, 10, 1>(FloorResidual<ObjectFreedom::Free>{sigma, huber});
-}
-
-Factor createStandsOnFactor(double sigma, double huber)
-{
-  return differentiated<1, 7, 7>(StandsOnResidual{sigma, huber});
 }
 
 Factor createObjectPrior(const ObjectPrior& prior, ObjectFreedom freedom)

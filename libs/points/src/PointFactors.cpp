@@ -1,10 +1,11 @@
 #include "PointFactors.h"
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/rotation.h>
 
-#include <cmath>
+#include <stdexcept>
+#include <type_traits>
 
+#include "quadmap/geometry/StepResidual.h"
 #include "quadmap/graph/GraphState.h"
 
 namespace quadmap
@@ -14,43 +15,19 @@ namespace
 template <typename T, int N>
 using Vector = Eigen::Matrix<T, N, 1>;
 
-/** Rotation and translation of a block. */
 template <typename T, int D>
-struct Parts;
+using Parts = RotationAndTranslation<
+    std::conditional_t<D == 2, Eigen::Rotation2D<T>, Eigen::Quaternion<T>>,
+    Vector<T, D>>;
 
-template <typename T>
-struct Parts<T, 2>
+/** Rotation and translation of a block. */
+template <int D, typename T>
+Parts<T, D> partsOf(const T* block)
 {
-  explicit Parts(const T* block) : R(block[2]), t(block[0], block[1]) {}
-
-  Eigen::Rotation2D<T> R;
-  Vector<T, 2> t;
-};
-
-template <typename T>
-struct Parts<T, 3>
-{
-  explicit Parts(const T* block) : R(block), t(block[4], block[5], block[6]) {}
-
-  Eigen::Quaternion<T> R;
-  Vector<T, 3> t;
-};
-
-template <typename T>
-Vector<T, 1> turn(const Eigen::Rotation2D<T>& R)
-{
-  using std::floor;
-  const T circle(2 * M_PI);
-  return Vector<T, 1>(R.angle() - circle * floor((R.angle() + T(M_PI)) / circle));
-}
-
-template <typename T>
-Vector<T, 3> turn(const Eigen::Quaternion<T>& q)
-{
-  const T wxyz[4] = {q.w(), q.x(), q.y(), q.z()};
-  Vector<T, 3> v;
-  ceres::QuaternionToAngleAxis(wxyz, v.data());
-  return v;
+  if constexpr (D == 2)
+    return {Eigen::Rotation2D<T>(block[2]), Vector<T, 2>(block)};
+  else
+    return {Eigen::Quaternion<T>(block), Vector<T, 3>(block + 4)};
 }
 
 /** The matrix W with W^t W = covariance^-1. */
@@ -72,7 +49,7 @@ struct SightResidual
   template <typename T>
   bool operator()(const T* pose, const T* object, T* residual) const
   {
-    const Parts<T, D> at(pose);
+    const Parts<T, D> at = partsOf<D>(pose);
     const Vector<T, D> l = Eigen::Map<const Vector<T, D>>(object);
     const Vector<T, D> seen = at.R.inverse() * Vector<T, D>(l - at.t);
     Eigen::Map<Vector<T, D>>(residual, D) = W.template cast<T>() * (seen - z.template cast<T>());
@@ -81,23 +58,16 @@ struct SightResidual
 };
 
 template <int D>
-struct StepResidual
+struct OdometryResidual
 {
-  PointPoseBlock<D> measured;
+  Parts<double, D> measured;
   PoseIncrementMatrix<D> W;
 
   template <typename T>
   bool operator()(const T* from, const T* to, T* residual) const
   {
-    const Parts<double, D> measuredParts(measured.data());
-    const Parts<T, D> f(from), t(to);
-    Vector<T, kPoseIncrement<D>> e;
-    e.template head<D>() =
-        f.R.inverse() * Vector<T, D>(t.t - f.t) - measuredParts.t.template cast<T>();
-    e.template tail<kTurn<D>>() =
-        turn(measuredParts.R.template cast<T>().inverse() * (f.R.inverse() * t.R));
     Eigen::Map<Vector<T, kPoseIncrement<D>>>(residual, kPoseIncrement<D>) =
-        W.template cast<T>() * e;
+        W.template cast<T>() * stepResidual(partsOf<D>(from), partsOf<D>(to), measured);
     return true;
   }
 };
@@ -122,7 +92,7 @@ PointPoseBlock<3> pointBlockOf<3>(const PointPose<3>& pose)
 template <int D>
 PointPose<D> pointPoseOf(const PointPoseBlock<D>& block)
 {
-  const Parts<double, D> parts(block.data());
+  const Parts<double, D> parts = partsOf<D>(block.data());
   return {parts.R.toRotationMatrix(), parts.t};
 }
 
@@ -150,9 +120,11 @@ template <int D>
 std::unique_ptr<ceres::CostFunction> createPointStepFactor(const PointOdometry<D>& step)
 {
   constexpr int kBlock = D == 2 ? kBlock2 : kBlock3;
-  using Residual = StepResidual<D>;
+  using Residual = OdometryResidual<D>;
   return std::make_unique<ceres::AutoDiffCostFunction<Residual, kPoseIncrement<D>, kBlock, kBlock>>(
-      new Residual{pointBlockOf<D>(step.T_from_to), whitening<kPoseIncrement<D>>(step.covariance)});
+      new Residual{
+          partsOf<D>(pointBlockOf<D>(step.T_from_to).data()),
+          whitening<kPoseIncrement<D>>(step.covariance)});
 }
 
 template PointPose<2> pointPoseOf<2>(const PointPoseBlock<2>&);

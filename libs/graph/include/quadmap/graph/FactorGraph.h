@@ -22,10 +22,9 @@ namespace quadmap
 {
 struct FactorGraphOptions
 {
-  EstimatorOptions estimator;   //!< Huber's threshold, sigmas of priors: those of the object map
-  int maxIterations = 30;       //!< Of one optimisation, >= 1
-  double floorSigma = 0.03;     //!< Bottom of things that stand on one floor [m]; 0: no such factor
-  double standsOnSigma = 0.02;  //!< Bottom of a thing on the top of another one [m], > 0
+  EstimatorOptions estimator;  //!< Huber's threshold, sigmas of priors: those of the object map
+  int maxIterations = 30;      //!< Of one optimisation, >= 1
+  double floorSigma = 0.02;    //!< Bottom of things that stand on one floor [m]; 0: no such factor
   /** False: only windows are optimised. Views and steps before them are then forgotten, so that
    * memory grows by no more than a pose for each keyframe. */
   bool keepsFolded = true;
@@ -53,7 +52,6 @@ class FactorGraph
   /** By how much the steps err more than they claim, for all of them; at first they are believed.
    */
   void setStepNoise(const StepNoise& noise) { stepNoise_ = noise; }
-  void addPosePrior(std::size_t index, const mrpt::poses::CPose3DPDFGaussian& T_map_robot);
 
   /** A new object, or another first guess or label for a known one. */
   void setObject(
@@ -64,10 +62,8 @@ class FactorGraph
   bool hasObject(ObjectId id) const { return objects_.count(id) != 0; }
   Ellipsoid object(ObjectId id) const;
   /** Sets knowledge from elsewhere, 1/2 d^t L d + g^t d with d the increment from its `at`
-   * (doc/mathematics.md, (16.10)). */
+   * (doc/mathematics.md, (16.9)). */
   void setObjectPrior(ObjectId id, const ObjectPrior& prior);
-  /** `upper` stands on `lower`; both upright. */
-  void addStandsOn(ObjectId upper, ObjectId lower);
   /** Forgets the object and its views. Another one may take the views over, and what folded ones
    * said as well when both are upright. */
   void removeObject(ObjectId id, std::optional<ObjectId> heir = std::nullopt);
@@ -167,9 +163,7 @@ class FactorGraph
   std::vector<PoseBlock> poses_;
   std::vector<std::vector<Step>> stepsByPose_;  //!< At the later of their two poses
   std::vector<std::vector<View>> viewsByPose_;
-  std::map<std::size_t, mrpt::poses::CPose3DPDFGaussian> posePriors_;
   std::map<ObjectId, Object> objects_;
-  std::vector<std::pair<ObjectId, ObjectId>> standsOn_;
   std::deque<double> floorHeights_;  //!< Estimated so far [m]; a problem points to those it has
   std::size_t foldedUpTo_ = 0;
 };

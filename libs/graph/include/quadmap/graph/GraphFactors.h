@@ -21,13 +21,10 @@ namespace quadmap
  * the sum of the squares is the robust cost. */
 using Factor = std::unique_ptr<ceres::CostFunction>;
 
-/** T_from_to; six residuals. Blocks: pose `from`, pose `to`.
+/** T_from_to; six residuals, doc/mathematics.md, (16.2). Blocks: pose `from`, pose `to`.
  * \param step With its full covariance, in MRPT's order. \exception std::invalid_argument If it is
  * not positive definite. */
 Factor createOdometryFactor(const mrpt::poses::CPose3DPDFGaussian& step);
-
-/** A pose known from elsewhere. Block: the pose. */
-Factor createPosePrior(const mrpt::poses::CPose3DPDFGaussian& T_map_robot);
 
 /** One measurement of an object: the rows of ViewAtPose. Blocks: pose, object. \param view It must
  * outlive the factor, as a graph has many. \param shapeExponent Of the label, for the box edges.
@@ -45,11 +42,7 @@ Factor createLabelPrior(
  * \param sigma [m]. */
 Factor createFloorFactor(double sigma, double huber, ObjectFreedom freedom);
 
-/** An object stands on another one: the bottom of the first is at the top of the second,
- * doc/mathematics.md, (16.9). Blocks: upper object, lower object; both upright. */
-Factor createStandsOnFactor(double sigma, double huber);
-
-/** Gaussian knowledge of an object, doc/mathematics.md, (16.10): 1/2 d^t L d + g^t d with d the
+/** Gaussian knowledge of an object, doc/mathematics.md, (16.9): 1/2 d^t L d + g^t d with d the
  * increment from `at`. Block: object.
  * L may be singular (positive semidefinite). */
 struct ObjectPrior
