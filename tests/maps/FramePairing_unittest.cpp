@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "../slam/SeveralCameras.h"
@@ -74,14 +75,17 @@ TEST(FramePairing, RefusesPairsThatCannotBelongTogether)
   const SyntheticRoom room;
   const auto scan = room.scanFrom(poseAt(0), kStart);
   const auto good = room.boxesOf(*scan, poseAt(0));
-  CObservationObjects moved = *good, zoomed = *good, scaled = *good;
+  CObservationObjects moved = *good, zoomed = *good, scaled = *good, bent = *good;
   moved.sensorPose = moved.sensorPose + CPose3D(0, 0.1, 0, 0, 0, 0);
   zoomed.cameraParams.fx(zoomed.cameraParams.fx() * 2);
   scaled.cameraParams.ncols *= 2;
+  bent.cameraParams.distortion = mrpt::img::DistortionModel::plumb_bob;
+  bent.cameraParams.dist[0] = 0.1;
   for (const auto& [wrong, expected] : {
            std::pair{ moved,  "sensorPose"},
            {zoomed, "calibration"},
-           {scaled,       "image"}
+           {scaled,       "image"},
+           {  bent,  "distortion"}
   })
     for (const bool scanFirst : {true, false})
     {
@@ -103,6 +107,37 @@ TEST(FramePairing, RefusesPairsThatCannotBelongTogether)
       map.insertObservation(*scan, poseAt(0));
       EXPECT_TRUE(map.insertObservation(*good, poseAt(0))) << "the wrong pair is forgotten";
     }
+}
+
+TEST(FramePairing, RefusesACalibrationThatIsNone)
+{
+  const SyntheticRoom room;
+  const auto good = room.scanFrom(poseAt(0), kStart);
+  auto offCentre = *good, ofAnotherSize = *good;
+  offCentre.cameraParams.cy(std::nan(""));
+  ofAnotherSize.cameraParams.ncols *= 2;
+  for (const auto& [scan, expected] : {
+           std::pair{    offCentre, "no usable calibration"},
+           {ofAnotherSize, "has a calibration for"}
+  })
+  {
+    CQuadricObjectMap map;
+    auto boxes = *room.boxesOf(*good, poseAt(0));
+    boxes.cameraParams = scan.cameraParams;
+    map.insertObservation(boxes, poseAt(0));
+    try
+    {
+      map.insertObservation(scan, poseAt(0));
+      ADD_FAILURE() << expected << " was not looked at";
+    }
+    catch (const std::exception& e)
+    {
+      const std::string text = e.what();
+      EXPECT_NE(text.find("\"camera\""), std::string::npos) << text;
+      EXPECT_NE(text.find(expected), std::string::npos) << text;
+    }
+    EXPECT_TRUE(map.isEmpty());
+  }
 }
 
 TEST(FramePairing, AnEmptyListOfBoxesCountsAsAMiss)

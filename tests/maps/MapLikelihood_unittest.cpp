@@ -181,3 +181,42 @@ TEST(MapLikelihood, BoxesWithoutCalibrationAreAnError)
   EXPECT_FALSE(map.canComputeObservationLikelihood(boxes));
   EXPECT_THROW(map.computeObservationLikelihood(boxes, {}), std::runtime_error);
 }
+
+TEST(MapLikelihood, BoxesOfLowScoreSayNothing)
+{
+  CQuadricObjectMap map;
+  SyntheticCamera camera(7);
+  const auto T = SyntheticCamera::lookAt({2.5, 1.0, 1.5}, {0, 0, 0.5});
+  auto obs = camera.observe(T, kitchen());
+  for (auto& object : obs.objects) object.score = 0.4;
+  EXPECT_TRUE(map.canComputeObservationLikelihood(obs));
+  map.insertionOptions.minScore = 0.5;
+  EXPECT_FALSE(map.canComputeObservationLikelihood(obs));
+  obs.objects[0].score = 0.6;
+  EXPECT_TRUE(map.canComputeObservationLikelihood(obs));
+}
+
+TEST(MapLikelihood, BoxesWithoutACalibrationAreRefused)
+{
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  const auto T = SyntheticCamera::lookAt({2.5, 1.0, 1.5}, {0, 0, 0.5});
+  auto obs = camera.observe(T, kitchen());
+  obs.sensorLabel = "front";
+  obs.cameraParams.cx(std::nan(""));
+  EXPECT_FALSE(map.canComputeObservationLikelihood(obs));
+  for (const bool inserts : {true, false}) try
+    {
+      if (inserts)
+        map.insertObservation(obs, T);
+      else
+        map.computeObservationLikelihood(obs, T);
+      ADD_FAILURE() << "accepted";
+    }
+    catch (const std::runtime_error& e)
+    {
+      EXPECT_NE(
+          std::string(e.what()).find("\"front\" has no usable calibration"), std::string::npos)
+          << e.what();
+    }
+}

@@ -2,6 +2,7 @@
 
 #include "InsertionFrame.h"
 #include "quadmap/geometry/Projection.h"
+#include "quadmap/obs/FrameAgreement.h"
 
 // Which object a box shows: section 12 of doc/mathematics.md. The terms (12.3) to (12.10) and the
 // decision are in quadmap/estimation/Association.h.
@@ -41,6 +42,7 @@ std::vector<CQuadricObjectMap::Decision> CQuadricObjectMap::match(
 CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
     const CObservationObjects& obs, const UncertainPose& robotPose) const
 {
+  requireCalibration(obs.cameraParams, "the camera of the boxes of \"" + obs.sensorLabel + "\"");
   const LabelTable& table = labels();
   const PoseNoise noise = combined(insertionOptions.poseNoise, robotPose.error);
   Frame frame;

@@ -5,6 +5,7 @@
 #include "quadmap/estimation/ResidualRow.h"
 #include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/RotationDistance.h"
+#include "quadmap/obs/FrameAgreement.h"
 #include "quadmap/perception/BoxEdges.h"
 #include "quadmap/perception/RoomPerception.h"
 
@@ -106,14 +107,20 @@ bool CQuadricObjectMap::internal_canComputeObservationLikelihood(
     const mrpt::obs::CObservation& obs) const
 try
 {
-  const auto* boxes = dynamic_cast<const CObservationObjects*>(&obs);
-  if (!boxes) return false;
-  if (std::any_of(boxes->objects.begin(), boxes->objects.end(), saysSomething)) return true;
+  const auto* given = dynamic_cast<const CObservationObjects*>(&obs);
+  if (!given) return false;
+  requireCalibration(given->cameraParams, "the camera of the boxes");
+  CObservationObjects boxes = *given;
+  const auto isUnsure = [this](const DetectedObject& detected)
+  { return detected.score < insertionOptions.minScore; };
+  boxes.objects.erase(
+      std::remove_if(boxes.objects.begin(), boxes.objects.end(), isUnsure), boxes.objects.end());
+  if (std::any_of(boxes.objects.begin(), boxes.objects.end(), saysSomething)) return true;
   // Depth can say something of a box of which every edge is cut.
-  if (std::any_of(boxes->objects.begin(), boxes->objects.end(), isUnmeasured) &&
-      pairing_.scanOf(*boxes))
+  if (std::any_of(boxes.objects.begin(), boxes.objects.end(), isUnmeasured) &&
+      pairing_.scanOf(boxes))
     return true;
-  CObservationObjects filled = *boxes, byEdges = *boxes;
+  CObservationObjects filled = boxes, byEdges = boxes;
   measureWithoutDepth(byEdges, perceptionOptions);
   fillIn(byEdges, filled);
   return std::any_of(filled.objects.begin(), filled.objects.end(), saysSomething);

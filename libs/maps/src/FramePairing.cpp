@@ -23,6 +23,7 @@ void keep(std::deque<Item>& items, Item item)
 
 void requireAgreement(const CObservationObjects& boxes, const CObservation3DRangeScan& scan)
 {
+  requireCalibration(scan.cameraParams, "the scan of sensor \"" + scan.sensorLabel + "\"");
   if (const auto why = mismatch(boxes, scan))
     throw std::invalid_argument("frame of sensor \"" + scan.sensorLabel + "\": " + *why);
 }

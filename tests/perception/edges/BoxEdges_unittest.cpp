@@ -111,6 +111,11 @@ TEST(BoxEdges, WithoutTheBorderRuleThoseAtTheBorderCountToo)
 TEST(BoxEdges, NeedACalibration)
 {
   auto image = imageWith({});
+  const auto camera = image.cameraParams;
+  EXPECT_NO_THROW(measureWithoutDepth(image, PerceptionOptions()));
   image.cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  EXPECT_THROW(measureWithoutDepth(image, PerceptionOptions()), std::runtime_error);
+  image.cameraParams = camera;
+  image.cameraParams.cx(std::nan(""));
   EXPECT_THROW(measureWithoutDepth(image, PerceptionOptions()), std::runtime_error);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "quadmap/obs/FrameAgreement.h"
 #include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
@@ -45,9 +45,9 @@ std::array<EdgeMeasurement, 4> edgesWithoutDepth(
 
 void measureWithoutDepth(CObservationObjects& boxes, const PerceptionOptions& options)
 {
+  requireCalibration(
+      boxes.cameraParams, "the camera of the boxes of \"" + boxes.sensorLabel + "\"");
   const PinholeCamera camera = pinholeFrom(boxes.cameraParams);
-  if (!(std::abs(camera.fx) > 1) || !(std::abs(camera.fy) > 1) || camera.width == 0)
-    throw std::runtime_error("the boxes of " + boxes.sensorLabel + " have no usable calibration");
   for (auto& detected : boxes.objects)
   {
     ObjectMeasurement& m = detected.measurement;

@@ -1,8 +1,13 @@
 #include "quadmap/surfaces/DepthCloud.h"
 
+#include <mrpt/core/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "quadmap/obs/FrameAgreement.h"
 
 #include "quadmap/geometry/RobustStatistics.h"
 
@@ -15,11 +20,17 @@ constexpr int kWorkingColumns = 320;  // planes and objects need no more; see do
 void requireDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 {
   if (!scan.hasRangeImage || scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
-    throw std::runtime_error("the scan has no depth image");
+    throw std::runtime_error("the scan of sensor \"" + scan.sensorLabel + "\" has no depth image");
+  const std::string whose = "the scan of sensor \"" + scan.sensorLabel + "\"";
   const auto& camera = scan.cameraParams;
-  const bool usable = std::isfinite(camera.fx()) && std::isfinite(camera.fy()) &&
-                      std::abs(camera.fx()) > 1 && std::abs(camera.fy()) > 1;
-  if (!usable) throw std::runtime_error("the scan has no usable calibration");
+  requireCalibration(camera, whose);
+  const auto rows = static_cast<unsigned>(scan.rangeImage.rows());
+  const auto columns = static_cast<unsigned>(scan.rangeImage.cols());
+  if (camera.ncols != columns || camera.nrows != rows)
+    throw std::runtime_error(
+        whose + mrpt::format(
+                    " has a calibration for %ux%u images and a depth image of %ux%u", camera.ncols,
+                    camera.nrows, columns, rows));
 }
 
 }  // namespace
@@ -32,8 +43,6 @@ DepthCloud::DepthCloud(
   const auto& range = scan.rangeImage;
   const int width = static_cast<int>(range.cols()), height = static_cast<int>(range.rows());
   camera_ = pinholeFrom(scan.cameraParams);
-  camera_.width = static_cast<unsigned>(width);
-  camera_.height = static_cast<unsigned>(height);
 
   stride_ = std::max(1, width / kWorkingColumns);
   columns_ = width / stride_;
