@@ -309,10 +309,23 @@ TEST(ObjectEstimator, AbsorbsAPriorWhoseAxesAreNamedDifferently)
   auto other = ObjectEstimator::fromSummary(e.summary(again.state, boxy("suitcase"), {}));
 
   ObjectEstimator both = ObjectEstimator::fromSummary(e.summary(here.state, boxy("suitcase"), {}));
-  both.absorb(other, here.state, again.state);
+  both.absorb(other, here.state, again.state, {});
   const auto merged = both.estimate(here.state, boxy("suitcase"), {});
   EXPECT_LT((merged.state - here.state).norm(), 2e-3);
   EXPECT_NEAR(merged.covariance(4, 4) / here.covariance(4, 4), 0.5, 0.1) << "twice the evidence";
+}
+
+TEST(ObjectEstimator, AbsorbsNoMoreMeasurementsThanItKeeps)
+{
+  SyntheticCamera camera(9);
+  EstimatorOptions options;
+  options.maxMeasurements = 20;
+  auto e = estimatorOf(viewsAround(camera, kCabinet, 20), options);
+  const auto other = estimatorOf(viewsAround(camera, kCabinet, 15), options);
+  const auto at = e.estimate({}, boxy("suitcase"), options).state;
+  e.absorb(other, at, at, options);
+  EXPECT_EQ(e.views().size(), 20u);
+  EXPECT_LT((e.estimate(at, boxy("suitcase"), options).state - at).norm(), 0.05);
 }
 
 TEST(ObjectEstimator, RoundLabelsBecomeRound)

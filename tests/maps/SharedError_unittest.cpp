@@ -2,6 +2,8 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
+
 #include "ObjectMapFixture.h"
 
 using namespace quadmap;
@@ -53,14 +55,48 @@ TEST(SharedError, AMapWithANegativeVarianceIsNotRead)
 {
   SyntheticCamera camera(3);
   CQuadricObjectMap map = mapOfACabinet(camera);
-  map.setSharedError(onlyObject(map).id, -errorOf(1.0, 0.0));
   mrpt::io::CMemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(stream);
   archive << map;
-  stream.Seek(0);
+  const double variance = onlyObject(map).covariance(0, 0), negative = -variance;
+  std::string bytes(
+      static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount());
+  const auto at =
+      bytes.find(std::string(reinterpret_cast<const char*>(&variance), sizeof variance));
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, sizeof negative, reinterpret_cast<const char*>(&negative), sizeof negative);
+  mrpt::io::CMemoryStream changed(bytes.data(), bytes.size());
+  auto in = mrpt::serialization::archiveFrom(changed);
   CQuadricObjectMap loaded;
-  EXPECT_THROW(archive >> loaded, std::exception);
+  EXPECT_THROW(in >> loaded, std::exception);
   EXPECT_TRUE(loaded.objects().empty());
+}
+
+TEST(SharedError, IsACovariance)
+{
+  SyntheticCamera camera(4);
+  CQuadricObjectMap map = mapOfACabinet(camera);
+  const ObjectId id = onlyObject(map).id;
+  const UprightCovariance before = onlyObject(map).covariance;
+  UprightCovariance lopsided = errorOf(0.1, 0.1), mixed = errorOf(0.1, 0.1), wild = errorOf(1, 1);
+  lopsided(0, 1) = 0.001;
+  mixed(0, 1) = mixed(1, 0) = 0.02;  // more than both variances allow
+  wild(2, 2) = std::nan("");
+  for (const auto& wrong : {UprightCovariance(-errorOf(1, 0)), lopsided, mixed, wild})
+    EXPECT_THROW(map.setSharedError(id, wrong), std::invalid_argument) << wrong;
+  EXPECT_EQ(onlyObject(map).covariance, before);
+}
+
+TEST(SharedError, SaysAnewWhetherTheObjectIsConfirmed)
+{
+  SyntheticCamera camera(5);
+  CQuadricObjectMap map = mapOfACabinet(camera);
+  const MapObject& object = onlyObject(map);
+  ASSERT_TRUE(object.confirmed);
+  map.setSharedError(object.id, errorOf(2 * map.insertionOptions.existence.maxCenterSigma, 0));
+  EXPECT_FALSE(object.confirmed);
+  map.setSharedError(object.id, errorOf(0, 0));
+  EXPECT_TRUE(object.confirmed);
 }
 
 TEST(SharedError, StaysWithAStoredMap)

@@ -15,6 +15,23 @@ void requireUpright(const Ellipsoid& object)
   if (object.rotation().col(2).head<2>().norm() > kMaxTilt)
     throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
 }
+
+/** A covariance may know nothing in some direction and everything in another, but no variance is
+ * negative. */
+void requireCovariance(const UprightCovariance& m)
+{
+  constexpr double kRounding = 1e-9;  // of the largest element [-]
+  const double rounding = m.allFinite() ? kRounding * m.cwiseAbs().maxCoeff() : 0;
+  const bool isOne = m.allFinite() && (m - m.transpose()).cwiseAbs().maxCoeff() <= rounding &&
+                     Eigen::SelfAdjointEigenSolver<UprightCovariance>(m, Eigen::EigenvaluesOnly)
+                             .eigenvalues()
+                             .minCoeff() >= -rounding;
+  if (!isOne)
+    throw std::invalid_argument(
+        "the shared error of an object must be a covariance: symmetric, and without a negative "
+        "variance");
+}
+
 }  // namespace
 
 CQuadricObjectMap::Entry& CQuadricObjectMap::require(ObjectId id)
@@ -52,7 +69,8 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
   if (kept == absorbed)
     throw std::out_of_range(mrpt::format("object %u cannot be merged with itself", kept));
 
-  a.estimator.absorb(b.estimator, uprightStateOf(a.object), uprightStateOf(b.object));
+  a.estimator.absorb(
+      b.estimator, uprightStateOf(a.object), uprightStateOf(b.object), insertionOptions.estimator);
   for (const auto& [label, count] : b.labelCounts) a.labelCounts[label] += count;
   a.completeCount += b.completeCount;
   a.partialCount += b.partialCount;
@@ -76,8 +94,10 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
 void CQuadricObjectMap::setSharedError(ObjectId id, const UprightCovariance& error)
 {
   Entry& object = require(id);
+  requireCovariance(error);
   object.covariance += error - object.estimator.sharedError();
   object.estimator.setSharedError(error);
+  object.confirmed = isConfirmed(object);
 }
 
 const UprightCovariance& CQuadricObjectMap::sharedError(ObjectId id) const

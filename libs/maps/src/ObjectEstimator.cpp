@@ -153,6 +153,11 @@ std::ptrdiff_t mostRedundant(const std::deque<ObjectView>& views)
 void ObjectEstimator::add(ObjectView view, const EstimatorOptions& options)
 {
   views_.push_back(std::move(view));
+  limitViews(options);
+}
+
+void ObjectEstimator::limitViews(const EstimatorOptions& options)
+{
   while (views_.size() > static_cast<std::size_t>(options.maxMeasurements))
     views_.erase(views_.begin() + mostRedundant(views_));
 }
@@ -205,9 +210,13 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
 }
 
 void ObjectEstimator::absorb(
-    const ObjectEstimator& other, const UprightState& here, const UprightState& there)
+    const ObjectEstimator& other,
+    const UprightState& here,
+    const UprightState& there,
+    const EstimatorOptions& options)
 {
   views_.insert(views_.begin(), other.views_.begin(), other.views_.end());
+  limitViews(options);
   const AxisRenaming r = axisRenaming(there, here);
   const UprightCovariance L = r.matrix(other.prior_.L);
   prior_.L += L;

@@ -12,6 +12,7 @@
 
 #include "page/Base64.h"
 #include "quadmap/base/Json.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

@@ -45,9 +45,10 @@ class LabelSource;
  *
  * computeObservationLikelihood() takes CObservationObjects. Boxes without measurements are measured
  * with the scan of their frame if that was inserted and waits for them, which takes as long as
- * inserting them does; else their edges say what they can. Boxes that perception rejected take no
- * part. canComputeObservationLikelihood() is false when no box says anything. Unmeasured boxes
- * without a usable calibration are a std::runtime_error, those that do not fit their scan a
+ * inserting them does; else their edges say what they can. Boxes that perception rejected and
+ * those below `insertionOptions.minScore` take no part. canComputeObservationLikelihood() is false
+ * when no box says anything; the likelihood is then the same everywhere. Boxes without a usable
+ * calibration are a std::runtime_error, those that do not fit their scan a
  * std::invalid_argument.
  *
  * Pointers to objects: they stay valid while the object is in the map, and show its latest
@@ -102,7 +103,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
    * partner of the frame is missing, or when `genericMapParams` turns insertion off.
    * \exception std::invalid_argument If boxes and scan of one frame have different cameras or
    * sensor poses; neither is used.
-   * \exception std::runtime_error If a scan has no depth image or no usable calibration. */
+   * \exception std::runtime_error If a scan has no depth image, or scan or boxes have no usable
+   * calibration; names the sensor. */
   bool insertObservation(const mrpt::obs::CObservation& obs, const UncertainPose& robotPose);
 
   /** Settles the map after a batch of insertions: it estimates all objects anew (while the map
@@ -197,8 +199,10 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
 
   /** Tells how uncertain an object is because the poses it was seen from err alike
    * (doc/mathematics.md, (16.18)). It is a part of the object's covariance from now on, however
-   * many measurements come. A stored map keeps it as a part of what is known. \exception
-   * std::out_of_range If there is no such object. */
+   * many measurements come, and says anew whether the object is confirmed. A stored map keeps it as
+   * a part of what is known.
+   * \exception std::out_of_range If there is no such object.
+   * \exception std::invalid_argument If it is not symmetric or has a negative eigenvalue. */
   void setSharedError(ObjectId id, const UprightCovariance& error);
   /** \exception std::out_of_range If there is no such object. */
   const UprightCovariance& sharedError(ObjectId id) const;

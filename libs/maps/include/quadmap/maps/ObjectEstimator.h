@@ -46,9 +46,14 @@ class ObjectEstimator
       const EstimatorOptions& options,
       bool restart = false) const;
 
-  /** Takes over everything another estimator of the same object knows.
+  /** Takes over everything another estimator of the same object knows, but for redundant
+   * measurements beyond the limit.
    *  \param here, there The states of this and of the other one; axes are matched between them. */
-  void absorb(const ObjectEstimator& other, const UprightState& here, const UprightState& there);
+  void absorb(
+      const ObjectEstimator& other,
+      const UprightState& here,
+      const UprightState& there,
+      const EstimatorOptions& options);
 
   /** Tells what the measurements have in common, because the poses they were taken from err alike:
    * a covariance that estimate() adds, however many measurements there are. */
@@ -68,6 +73,8 @@ class ObjectEstimator
   const std::deque<ObjectView>& views() const { return views_; }
 
  private:
+  void limitViews(const EstimatorOptions& options);
+
   std::deque<ObjectView> views_;
   InformationPrior prior_;
   UprightCovariance sharedError_ = UprightCovariance::Zero();
