@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "MapLimits.h"
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/base/GzipStream.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
@@ -23,8 +25,9 @@ std::string classOfArchive(const std::string& head)
   return head.substr(1, length);
 }
 
-/** Says in one phrase why a file that was opened is not the archive of a map. */
-std::string whyNoMap(const GzInput& input)
+/** Says in one phrase why a file that was opened is not the archive of a map.
+ * \param error What reading it came to. */
+std::string whyNoMap(const GzInput& input, const std::exception& error)
 {
   const std::string wanted = CLASS_ID(CQuadricObjectMap)->className;
   const std::string found = classOfArchive(input.recordHead());
@@ -32,14 +35,14 @@ std::string whyNoMap(const GzInput& input)
     return "holds " + found + ", not an object map (" + wanted + ")";
   if (!input.failure().empty()) return input.failure();
   if (found.empty()) return "is no object map";
-  return "is damaged, or of a newer version than this program knows";
+  return "is damaged, or of a newer version than this program knows: " +
+         oneLine(rootMessage(error));
 }
 
 /** \exception std::exception For bytes that are no map; `input` then knows why. */
 void readMap(GzInput& input, CQuadricObjectMap& map)
 {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 26;  // 50,000 objects
-  input.setMostBytes(kMostBytes);
+  input.setMostBytes(kMostStoredBytes);
   input.startRecord();
   mrpt::serialization::archiveFrom(input) >> map;
   input.skipToEnd();  // the checksum comes last
@@ -59,9 +62,9 @@ void CQuadricObjectMap::loadFromFile(const std::string& file)
   {
     readMap(input, map);
   }
-  catch (const std::exception&)  // its text speaks of the archive's insides
+  catch (const std::exception& e)
   {
-    throw std::runtime_error(file + ": " + whyNoMap(input));
+    throw std::runtime_error(file + ": " + whyNoMap(input, e));
   }
   clear();  // tells who observes this map
   genericMapParams = map.genericMapParams;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "LabelSource.h"
+#include "MapLimits.h"
 #include "quadmap/base/ArchiveFields.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 
@@ -14,8 +15,6 @@ namespace
 {
 using mrpt::serialization::CArchive;
 
-/** More than this in a file is garbage, not a map. */
-constexpr std::uint32_t kMaxObjects = 100000;
 constexpr std::uint32_t kMaxLabels = 1000;  // of one object
 
 template <typename Options>
@@ -29,7 +28,9 @@ void writeOptions(CArchive& out, const Options& options)
 template <typename Options>
 void readOptions(CArchive& in, Options& options)
 {
-  options.loadFromConfigFile(mrpt::config::CConfigFileMemory(readText(in)), "options");
+  Options stored;  // what an older archive does not have gets its default
+  stored.loadFromConfigFile(mrpt::config::CConfigFileMemory(readText(in)), "options");
+  options = stored;
 }
 
 template <typename Matrix>
@@ -143,6 +144,7 @@ std::uint8_t CQuadricObjectMap::serializeGetVersion() const { return 1; }
 
 void CQuadricObjectMap::serializeTo(CArchive& out) const
 {
+  requireStored(objects_.size() <= kMostStoredObjects, "a map of so many objects cannot be read");
   out << genericMapParams;
   writeOptions(out, insertionOptions);
   writeOptions(out, likelihoodOptions);
@@ -180,7 +182,7 @@ try
     labels = readBool(in) ? std::make_shared<const LabelSource>(LabelTable::readFrom(in))
                           : std::make_shared<const LabelSource>();
   nextId_ = readScalar<ObjectId>(in);
-  for (auto n = readCount(in, kMaxObjects, "objects"); n > 0; --n)
+  for (auto n = readCount(in, kMostStoredObjects, "objects"); n > 0; --n)
   {
     const MapObject object = readObject(in);
     requireStored(object.id < nextId_ && objects_.count(object.id) == 0, "an object's id is wrong");
@@ -189,7 +191,7 @@ try
     entry.estimator = ObjectEstimator::fromSummary(readPrior(in));
     entry.looks = ExistenceLooks(object.existenceLogOdds);
   }
-  for (auto n = readCount(in, kMaxObjects, "instances"); n > 0; --n)
+  for (auto n = readCount(in, kMostStoredObjects, "instances"); n > 0; --n)
   {
     const auto instance = readScalar<std::uint32_t>(in);
     const auto id = readScalar<ObjectId>(in);
