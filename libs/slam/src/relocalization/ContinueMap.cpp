@@ -8,12 +8,12 @@
 #include <set>
 #include <utility>
 
+#include "ClaimTogether.h"
 #include "ConstellationMatch.h"
 #include "GoneObjects.h"
 #include "KnownObjects.h"
 #include "backend/BackEnd.h"
 #include "quadmap/estimation/Assignment.h"
-#include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
@@ -71,31 +71,6 @@ std::vector<FactorGraph::GraphEdge> renamed(
     out.push_back(edge);
   }
   return out;
-}
-
-/** Has the objects of the continued map claim what the map and the run know together, (19.8): both
- * saw them in the same way, so that their errors are not independent. */
-void claimTogether(
-    const CQuadricObjectMap& given,
-    const CQuadricObjectMap& own,
-    const std::map<ObjectId, ObjectId>& heirs,
-    CQuadricObjectMap& map)
-{
-  for (const auto& [object, heir] : heirs)
-  {
-    const MapObject *seen = own.find(object), *known = given.find(heir), *now = map.find(heir);
-    if (!seen || !now) continue;
-    const UprightState at = uprightStateOf(now->object);
-    const auto renamed = [&](const MapObject& o)
-    {
-      const UprightCovariance P = axisRenaming(uprightStateOf(o.object), at).P;
-      return UprightCovariance(P * o.covariance * P.transpose());
-    };
-    const UprightCovariance together =
-        known ? covarianceIntersection(renamed(*known), renamed(*seen)) : renamed(*seen);
-    const UprightCovariance measured = now->covariance - map.sharedError(heir);
-    map.setSharedError(heir, withoutNegative(together - measured));
-  }
 }
 
 std::set<ObjectId> idsOf(const std::vector<const MapObject*>& objects)

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "quadmap/estimation/Existence.h"
+#include "quadmap/estimation/ExistenceLooks.h"
 #include "quadmap/estimation/ObjectRules.h"
 #include "quadmap/estimation/Visibility.h"
 #include "relocalization/ConstellationMatch.h"
@@ -24,11 +25,7 @@ class GoneObjects
       const SlamResult& run,
       const ConstellationMatch& match,
       const RelocalizationOptions& options) :
-      given_(given),
-      run_(run),
-      options_(options),
-      existence_(run.map.insertionOptions.existence),
-      evidence_(existence_)
+      given_(given), run_(run), options_(options), existence_(run.map.insertionOptions.existence)
   {
     for (const auto& [here, there] : match.pairs)
     {
@@ -42,10 +39,11 @@ class GoneObjects
     }
   }
 
+  /** \return What (19.7), doc/mathematics.md, and hasShifted() say is gone. */
   std::set<ObjectId> find(const BackEnd::BoxesOf& boxesOf) const
   {
-    std::map<ObjectId, double> logOdds;  // that it is still there
-    std::size_t next = 0;                // decision
+    std::map<ObjectId, ExistenceLooks> looks;  // at what may still be there
+    std::size_t next = 0;                      // decision
     for (std::size_t k = 0; k < run_.keyframes.size(); ++k)
     {
       std::map<std::size_t, ObjectId> objectOfBox;
@@ -56,19 +54,23 @@ class GoneObjects
       const FrameGeometry frame{
           pinholeFrom(boxes->cameraParams), run_.keyframes[k].T_map_robot + boxes->sensorPose,
           &boxes->coarseDepth};
+      const auto& camera = frame.T_map_sensor;
       for (const MapObject* object : given_.confirmedObjects())
         if (found_.count(object->id) == 0 && shouldBeVisible(object->object, frame, existence_))
-          logOdds[object->id] += isShown(*object, *boxes, frame, objectOfBox)
-                                     ? evidence_.detection()
-                                     : evidence_.miss();
+          looks[object->id].add(
+              {
+                  {camera.x(), camera.y(), camera.z()},
+                  mrpt::Clock::toDouble(boxes->timestamp),
+                  isShown(*object, *boxes, frame, objectOfBox)
+          },
+              object->object.center(), existence_);
     }
     std::set<ObjectId> gone;
     for (const MapObject* object : given_.confirmedObjects())
     {
       if (found_.count(object->id) != 0) continue;
-      const auto seen = logOdds.find(object->id);
-      if (hasShifted(*object) || (seen != logOdds.end() && seen->second < -options_.minLogOdds))
-        gone.insert(object->id);
+      const double logOdds = looks[object->id].logOdds(existence_.detectionProbability, existence_);
+      if (hasShifted(*object) || logOdds < -options_.minLogOdds) gone.insert(object->id);
     }
     return gone;
   }
@@ -127,7 +129,6 @@ class GoneObjects
   const SlamResult& run_;
   const RelocalizationOptions& options_;
   const ExistenceOptions& existence_;
-  ExistenceEvidence evidence_;              //!< The terms of (19.7), doc/mathematics.md
   std::map<ObjectId, ObjectId> partnerOf_;  //!< Of the run's objects
   std::set<ObjectId> found_;                //!< Of the map's
   std::map<ObjectId, MapObject> local_;     //!< The run's confirmed objects, in the map's frame
