@@ -9,6 +9,7 @@
 
 #include "GraphProblem.h"
 #include "SparseInverse.h"
+#include "quadmap/estimation/NormalEquations.h"
 
 // What odometry errs by: (16.21) and (16.22) of doc/mathematics.md.
 namespace quadmap

@@ -42,7 +42,8 @@ std::vector<CQuadricObjectMap::Decision> CQuadricObjectMap::match(
 CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
     const CObservationObjects& obs, const UncertainPose& robotPose) const
 {
-  requireCalibration(obs.cameraParams, "the camera of the boxes of \"" + obs.sensorLabel + "\"");
+  if (!obs.objects.empty())
+    requireCalibration(obs.cameraParams, "the camera of the boxes of \"" + obs.sensorLabel + "\"");
   const LabelTable& table = labels();
   const PoseNoise noise = combined(insertionOptions.poseNoise, robotPose.error);
   Frame frame;

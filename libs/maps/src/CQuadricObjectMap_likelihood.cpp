@@ -109,6 +109,7 @@ try
 {
   const auto* given = dynamic_cast<const CObservationObjects*>(&obs);
   if (!given) return false;
+  if (given->objects.empty()) return false;
   requireCalibration(given->cameraParams, "the camera of the boxes");
   CObservationObjects boxes = *given;
   const auto isUnsure = [this](const DetectedObject& detected)
