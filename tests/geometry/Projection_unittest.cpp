@@ -125,6 +125,34 @@ TEST(ProjectEllipsoidBox, DoesNotExistUnlessTheObjectIsEntirelyAhead)
   EXPECT_TRUE(at(2, 0, 0.41)) << "beside the camera, just ahead of its plane";
 }
 
+TEST(ProjectDualConic, TouchesTheTangentLinesOfTheOutline)
+{
+  RandomGeometry random(42);
+  for (const PinholeCamera& camera : {kinectCamera(), iclCamera()})
+    for (int trial = 0; trial < 20; ++trial)
+    {
+      const Ellipsoid object = objectAhead(random);
+      // The normal of a tangent plane through the camera centre: bisection on its angle around a
+      // random axis.
+      const Eigen::Vector3d side = random.direction().cross(object.center()).normalized();
+      const Eigen::Vector3d ahead = object.center().normalized();
+      double low = 0, high = M_PI / 2;
+      const auto planeAt = [&](double angle) -> Eigen::Vector3d
+      { return std::sin(angle) * ahead + std::cos(angle) * side; };
+      for (int i = 0; i < 60; ++i)
+      {
+        const double middle = (low + high) / 2;
+        const Eigen::Vector3d n = planeAt(middle);
+        const bool isAside = n.dot(object.center()) > std::sqrt(n.dot(object.shapeMatrix() * n));
+        (isAside ? high : low) = middle;
+      }
+      const Eigen::Vector3d line = camera.matrix().inverse().transpose() * planeAt(low);
+      const Eigen::Matrix3d C = projectDualConic(camera, object);
+      const double scale = (C * line).norm() * line.norm();
+      EXPECT_NEAR(line.dot(C * line) / scale, 0, 1e-9);
+    }
+}
+
 TEST(ProjectCuboidBox, EnclosesTheSampledSides)
 {
   RandomGeometry random(43);

@@ -46,6 +46,12 @@ std::array<double, 2> outlineRange(
 }
 }  // namespace
 
+Eigen::Matrix3d projectDualConic(const PinholeCamera& camera, const Ellipsoid& object_optical)
+{
+  const Eigen::Matrix3d K = camera.matrix();
+  return K * object_optical.dualQuadric().topLeftCorner<3, 3>() * K.transpose();
+}
+
 std::optional<ImageBox> projectEllipsoidBox(
     const PinholeCamera& camera, const Ellipsoid& object_optical)
 {

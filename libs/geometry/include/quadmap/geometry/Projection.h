@@ -11,6 +11,10 @@
 
 namespace quadmap
 {
+/** Dual conic C* = K [I|0] Q* [I|0]^t K^t of the outline of an ellipsoid in `optical`:
+ * doc/mathematics.md, (2.1). */
+Eigen::Matrix3d projectDualConic(const PinholeCamera& camera, const Ellipsoid& object_optical);
+
 /** Axis-aligned box of the outline of an ellipsoid, not clipped to the image [px]: the ends (2.2)
  * of the conic (2.1) of doc/mathematics.md. \return Nothing when the object is not entirely in
  * front of the camera plane, because it is behind it, is cut by it, or has the camera inside. */
