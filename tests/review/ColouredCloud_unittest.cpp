@@ -38,6 +38,25 @@ TEST(ColouredCloud, PlacesAndColoursTheWall)
   EXPECT_FALSE(scan->hasPoints3D) << "memory is freed again";
 }
 
+TEST(ColouredCloud, KeepsPlacesAndColoursOfThinnedImages)
+{
+  auto scan = scanOfWall();  // its left half (y > 0) becomes green
+  scan->intensityImage.filledRectangle(0, 0, 63, 95, mrpt::img::TColor(10, 220, 40));
+  for (const int stride : {1, 2, 3, 5})
+  {
+    CloudCollector collector(0.005, 100000);
+    collector.add(*scan, CPose3D(), {4.5, stride});
+    const Cloud cloud = collector.points();
+    EXPECT_NEAR(static_cast<double>(cloud.size()) * stride * stride, 120 * 88, 0.1 * 120 * 88)
+        << stride;
+    for (const CloudPoint& p : cloud)
+    {
+      EXPECT_NEAR(p.position.x(), 2, 1e-3);
+      ASSERT_EQ(p.rgb[1] > 120, p.position.y() > 0) << stride << ": at " << p.position.transpose();
+    }
+  }
+}
+
 TEST(ColouredCloud, AddsNoCellsWhenAPlaceIsSeenAgain)
 {
   CloudCollector collector(0.05, 100000);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 
 namespace quadmap
@@ -33,6 +35,47 @@ struct OrganizedPoints
         points.getPointsBufferRef_z()[i]};
   }
 };
+
+/** Every n-th row and column of the images, as a camera with larger pixels would have measured
+ * them. A colour image of another camera stays as it is: points find their colours in it by
+ * projection. */
+mrpt::obs::CObservation3DRangeScan thinned(
+    const mrpt::obs::CObservation3DRangeScan& scan, int stride)
+{
+  mrpt::obs::CObservation3DRangeScan out;
+  out.sensorPose = scan.sensorPose;
+  out.rangeUnits = scan.rangeUnits;
+  out.range_is_depth = scan.range_is_depth;
+  out.intensityImage = scan.intensityImage;
+  out.hasIntensityImage = scan.hasIntensityImage;
+  out.cameraParamsIntensity = scan.cameraParamsIntensity;
+  out.relativePoseIntensityWRTDepth = scan.relativePoseIntensityWRTDepth;
+  const auto rows = (scan.rangeImage.rows() + stride - 1) / stride;
+  const auto columns = (scan.rangeImage.cols() + stride - 1) / stride;
+  out.rangeImage_setSize(static_cast<int>(rows), static_cast<int>(columns));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      out.rangeImage(row, column) = scan.rangeImage(row * stride, column * stride);
+  out.hasRangeImage = true;
+  const mrpt::img::TCamera& c = scan.cameraParams;
+  out.cameraParams = c;
+  out.cameraParams.ncols = static_cast<std::uint32_t>(columns);
+  out.cameraParams.nrows = static_cast<std::uint32_t>(rows);
+  out.cameraParams.setIntrinsicParamsFromValues(
+      c.fx() / stride, c.fy() / stride, c.cx() / stride, c.cy() / stride);
+  if (!scan.hasIntensityImage || !scan.doDepthAndIntensityCamerasCoincide()) return out;
+  const cv::Mat& image = scan.intensityImage.asCvMatRef();
+  if (image.rows < scan.rangeImage.rows() || image.cols < scan.rangeImage.cols()) return out;
+
+  out.cameraParamsIntensity = out.cameraParams;
+  cv::Mat fewer(out.rangeImage.rows(), out.rangeImage.cols(), image.type());
+  const auto pixel = image.elemSize();
+  for (int row = 0; row < fewer.rows; ++row)
+    for (int column = 0; column < fewer.cols; ++column)
+      std::memcpy(fewer.ptr(row, column), image.ptr(row * stride, column * stride), pixel);
+  out.intensityImage = mrpt::img::CImage(fewer, mrpt::img::SHALLOW_COPY);
+  return out;
+}
 
 OrganizedPoints unproject(mrpt::obs::CObservation3DRangeScan& scan)
 {
@@ -112,22 +155,36 @@ void CloudCollector::add(
     const mrpt::poses::CPose3D& T_map_robot,
     const Selection& selection)
 {
+  if (selection.stride > 1)
+  {
+    mrpt::obs::CObservation3DRangeScan fewer = thinned(scan, selection.stride);
+    return addPoints(fewer, T_map_robot, selection);
+  }
+  addPoints(scan, T_map_robot, selection);
+}
+
+void CloudCollector::addPoints(
+    mrpt::obs::CObservation3DRangeScan& scan,
+    const mrpt::poses::CPose3D& T_map_robot,
+    const Selection& selection)
+{
   constexpr float kLookWeight = 0.4F;  // of the direction to the camera, against noise
-  constexpr int kNormalStep = 8;       // wide because depth is noisy [px]
   constexpr float kFarthest = 1e6F;    // of a map; cells are numbered [m]
+  constexpr double kWide = 8;          // of the image, because depth is noisy [px]
+  const int normalStep = std::max(1, static_cast<int>(std::lround(kWide / selection.stride)));
   const OrganizedPoints frame = unproject(scan);
   const Eigen::Matrix4f T =
       T_map_robot.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().cast<float>();
   const auto& o = scan.sensorPose;
   const Eigen::Vector3f eye = Eigen::Vector3d(o.x(), o.y(), o.z()).cast<float>();
-  for (int row = 0; row + kNormalStep < frame.height; row += selection.stride)
+  for (int row = 0; row + normalStep < frame.height; ++row)
   {
-    for (int column = 0; column + kNormalStep < frame.width; column += selection.stride)
+    for (int column = 0; column + normalStep < frame.width; ++column)
     {
       if (!frame.isValid(row, column)) continue;
       const Eigen::Vector3f p_robot = frame.at(row, column);
       if ((p_robot - eye).norm() > static_cast<float>(selection.maxRange)) continue;
-      Eigen::Vector3f n_robot = normalAt(frame, row, column, kNormalStep);
+      Eigen::Vector3f n_robot = normalAt(frame, row, column, normalStep);
       if (n_robot.dot(eye - p_robot) < 0) n_robot = -n_robot;
       n_robot += kLookWeight * (eye - p_robot).normalized();
 

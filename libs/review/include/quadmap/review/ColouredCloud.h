@@ -78,6 +78,10 @@ class CloudCollector
     std::vector<std::uint32_t> slots_;  //!< 1 + index of an entry, 0 where none is; a power of two
   };
 
+  void addPoints(
+      mrpt::obs::CObservation3DRangeScan& scan,
+      const mrpt::poses::CPose3D& T_map_robot,
+      const Selection& selection);
   Eigen::Vector3i keyOf(const Eigen::Vector3f& p_map) const;
   void growCells();
 
