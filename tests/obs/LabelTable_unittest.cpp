@@ -337,6 +337,19 @@ TEST(LabelTable, FilesAndArchivesHaveTheSameLimits)
   for (const double spread : others) EXPECT_ANY_THROW(withSpread(spread)) << spread;
 }
 
+TEST(LabelTable, EveryTableThatIsReadCanBeStored)
+{
+  const std::string cup = "[cup]\ntypicalSize = 1 1 1\n";
+  const std::string longest(1000, 'a'), tooLong(1001, 'a');
+  EXPECT_EQ(errorOf([&] { tableOf(cup + "aliases = " + longest + "\n"); }), "");
+  const auto error = errorOf([&] { tableOf(cup + "aliases = " + tooLong + "\n"); });
+  EXPECT_NE(error.find("[cup] a label of more than 1000 bytes"), std::string::npos) << error;
+  EXPECT_NE(errorOf([&] { tableOf("[" + tooLong + "]\ntypicalSize = 1 1 1\n"); }), "");
+  std::string confused = "confusedWith = cup";
+  for (int i = 0; i < 100; ++i) confused += ", cup";
+  EXPECT_NE(errorOf([&] { tableOf(cup + confused + "\n"); }), "");
+}
+
 TEST(LabelTable, IsCompletedByClassesItDoesNotHave)
 {
   const TemporaryFolder folder;

@@ -142,4 +142,4 @@ TEST_F(PageInBrowser, MarksWhatDiffersFromTheTruth) { check("compares", samplePa
 TEST_F(PageInBrowser, EditsWithHandlesAndMerges) { check("handles", samplePage()); }
 TEST_F(PageInBrowser, FitsATelephone) { check("phone_and_themes", samplePage()); }
 TEST_F(PageInBrowser, DrawsOnlyWhenSomethingChanges) { check("rests", samplePage()); }
-TEST_F(PageInBrowser, IsFastEnoughWhenLarge) { check("speed", quadmap::testing::largePage()); }
+TEST_F(PageInBrowser, MovesWhenLarge) { check("speed", quadmap::testing::largePage()); }

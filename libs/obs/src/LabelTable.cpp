@@ -8,6 +8,7 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "LabelCounts.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/ShareFiles.h"
 
@@ -88,6 +89,9 @@ LabelProperties readProperties(const CConfigFile& config, const std::string& sec
       config, section, "sizeSpread", p.sizeSpread, LabelLimits::kSmallestSpread,
       LabelLimits::kLargestSpread);
   p.confusedWith = readList(config, section, "confusedWith");
+  if (p.confusedWith.size() > kMaxConfused)
+    throw std::invalid_argument(
+        "[" + section + mrpt::format("] confusedWith: more than %u labels", kMaxConfused));
   return p;
 }
 
@@ -123,6 +127,9 @@ LabelTable::LabelTable(const CConfigFile& config)
     for (const auto& alias : readList(config, section, "aliases")) addSpelling(alias, section);
   }
   if (byName_.empty()) throw std::runtime_error("no label in it: expected one [section] per class");
+  if (byName_.size() > kMaxClasses || canonicalByKey_.size() > kMaxSpellings)
+    throw std::invalid_argument(
+        mrpt::format("more than %u labels, or %u spellings of them", kMaxClasses, kMaxSpellings));
   for (auto& [name, properties] : byName_)
     for (auto& other : properties.confusedWith)
     {
@@ -136,6 +143,9 @@ LabelTable::LabelTable(const CConfigFile& config)
 void LabelTable::addSpelling(const std::string& spelling, const std::string& name)
 {
   const auto key = keyOf(spelling);
+  if (spelling.size() > kLongestLabel)
+    throw std::invalid_argument(
+        mrpt::format("[%.40s] a label of more than %zu bytes", name.c_str(), kLongestLabel));
   if (key.empty()) throw std::invalid_argument("[" + name + "] a label without letters");
   const auto [at, isNew] = canonicalByKey_.emplace(key, name);
   if (!isNew && at->second != name)

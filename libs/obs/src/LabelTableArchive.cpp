@@ -1,5 +1,6 @@
 #include <mrpt/serialization/CArchive.h>
 
+#include "LabelCounts.h"
 #include "quadmap/base/ArchiveFields.h"
 #include "quadmap/obs/LabelTable.h"
 
@@ -10,9 +11,6 @@ namespace quadmap
 namespace
 {
 using mrpt::serialization::CArchive;
-
-/** A stream that announces more than this holds garbage. */
-constexpr std::uint32_t kMaxClasses = 10000, kMaxSpellings = 100000, kMaxConfused = 100;
 
 void writeProperties(CArchive& out, const LabelProperties& p)
 {
