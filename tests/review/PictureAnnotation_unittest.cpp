@@ -1,4 +1,3 @@
-#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/PictureAnnotation.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +5,7 @@
 #include <cmath>
 
 #include "SampleScene.h"
+#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/SceneBuilder.h"
 
 using namespace quadmap;

@@ -1,4 +1,3 @@
-#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/GlbFile.h"
 
 #include <cmath>
@@ -6,6 +5,7 @@
 
 #include "GlbBody.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

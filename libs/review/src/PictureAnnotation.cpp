@@ -1,4 +1,3 @@
-#include "quadmap/obs/LabelColor.h"
 #include "quadmap/review/PictureAnnotation.h"
 
 #include <mrpt/core/format.h>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "SceneColors.h"
+#include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
 {

@@ -7,9 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "quadmap/obs/FrameAgreement.h"
-
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/obs/FrameAgreement.h"
 
 namespace quadmap
 {
