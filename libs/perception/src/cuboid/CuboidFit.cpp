@@ -32,22 +32,28 @@ void completeRound(Faces& faces, const FaceEstimator& estimator)
   far.worth = {FaceKind::Measured, roundFarSigma(radius, faces[1].worth.sigma)};
 }
 
-/** Makes sides say "at least" when the lower part of the object is out of sight. The near sides do
- * so when something hides that part, as a table hides a chair: the object may come nearer below.
- * All sides do so when the foot is in sight but returns no depth, unless the object is round:
- * plants are wider above. */
-void doubtHiddenPart(Faces& faces, const FaceEstimator& estimator, bool isRound)
+/** Decides where a lower part of the object may reach that is out of sight. The near sides say "at
+ * least" when something hides that part, as a table hides a chair: the object may come nearer
+ * below. It then reaches to what hides it, and ends on the far side where its top does. All sides
+ * say "at least" when the foot is in sight but returns no depth, unless the object is round: plants
+ * are wider above. */
+void placeHiddenPart(Faces& faces, const FaceEstimator& estimator, const LabelProperties& label)
 {
   constexpr double kMaxHidden = 0.3;   // of the height
   constexpr double kMinHidden = 0.06;  // [m]; points near the support count as the support's
   constexpr double kSideDoubt = 0.03;  // [m]
   const double bottom = -faces[kBottom].position, top = faces[kTop].position;
   if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kMaxHidden * (top - bottom))) return;
-  const bool isOpen = !isRound && estimator.isFootInSight();
+  const bool isOpen = label.dominantDirection && estimator.isFootInSight();
+  const auto before = estimator.distanceOfWhatHidesFoot();
+  const bool isTucked = before && *before < label.typicalSize.head<2>().minCoeff();
   for (std::size_t side = 0; side < kSides; ++side)
   {
     auto& worth = faces[side].worth;
-    if ((isOpen || estimator.facingAway(side) < -kTurnedAway) && worth.kind == FaceKind::Measured)
+    const double away = estimator.facingAway(side);
+    if (isTucked && faces[side].source == FaceSource::FarEdge && !faces[side].isCut)
+      worth.kind = FaceKind::Measured;
+    else if ((isOpen || away < -kTurnedAway) && worth.kind == FaceKind::Measured)
       worth.kind = FaceKind::AtLeast;
     worth.sigma += kSideDoubt;
   }
@@ -127,7 +133,7 @@ CompleteMeasurement fitCuboid(
     // Distance of the supporting plane below the camera, along the object's -z.
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
-    doubtHiddenPart(faces, estimator, !label.dominantDirection);
+    placeHiddenPart(faces, estimator, label);
   }
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);

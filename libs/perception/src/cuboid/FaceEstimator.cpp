@@ -27,6 +27,7 @@ FaceEstimator::FaceEstimator(
     planes_(planes),
     object_(object),
     options_(options),
+    measured_(measuredPart(cloud)),
     range_(upright.medianRange),
     cells_(upright.cells)
 {

@@ -25,7 +25,8 @@ struct FaceEstimate
   double position = 0;  //!< Along the outward normal, from the camera [m]
   FaceMeasurement worth;
   FaceSource source = FaceSource::Outline;
-  double shift = 0;  //!< Of the points used from the camera, along the face (horizontally) [m]
+  bool isCut = false;  //!< Its outline ends at something nearer or at the image's border
+  double shift = 0;    //!< Of the points used from the camera, along the face (horizontally) [m]
 };
 
 /** Faces in the order +x, -x, +y, -y, +z, -z. */
@@ -55,6 +56,10 @@ class FaceEstimator
   /** Does little of what the box shows below the visible part stand in front of the object? Then
    * its foot is not hidden, but black or thin. */
   bool isFootInSight() const;
+
+  /** How far before the object is what hides its lower end, horizontally [m]? Nothing when most of
+   * that end is not hidden by anything nearer. */
+  std::optional<double> distanceOfWhatHidesFoot() const;
 
   FaceEstimate face(std::size_t face) const;
 
@@ -102,12 +107,31 @@ class FaceEstimator
   FaceEstimate outline(std::size_t face, const Outline& lines) const;
   bool leadsUp(std::size_t face, double position) const;
   bool isOnSupport(const Eigen::Vector3d& p, double tolerance) const;
-  bool isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const;
+  /** What the image shows next to the object. */
+  struct Beyond
+  {
+    enum Kind
+    {
+      Background,
+      Nearer,  // or at the object's depth
+      Border
+    } kind;
+    Eigen::Vector3d point;  // of it, optical frame [m]
+  };
+  static DepthCloud::CellRange measuredPart(const DepthCloud& cloud);
+  Beyond beyond(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const;
+  /** Does the object go on beyond a cell at its rim: at the image border, behind something nearer,
+   * or on a surface that the box or the cluster cut off? \param ahead_optical Where it would go. */
+  bool isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const
+  {
+    return beyond(cell, ahead_optical).kind != Beyond::Background;
+  }
 
   const DepthCloud& cloud_;
   const ScenePlanes& planes_;
   const ObjectCloud& object_;
   const PerceptionOptions& options_;
+  const DepthCloud::CellRange measured_;  // part of the image
   double range_;
   Eigen::Matrix3d R_obj_optical_;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();

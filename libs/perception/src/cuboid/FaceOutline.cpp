@@ -114,8 +114,8 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
     ++count;
   }
   out.shift /= count;
-  const bool isOpen = cutShare(outline, face, outermost - kRim) > kMaxCut ||
-                      (away > kTurnedAway && !leadsUp(face, outermost));
+  out.isCut = cutShare(outline, face, outermost - kRim) > kMaxCut;
+  const bool isOpen = out.isCut || (away > kTurnedAway && !leadsUp(face, outermost));
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
   // A slanted cut leaves few lines their ends; nothing is known beyond them.
   if (isOpen) out.position = std::max(outermost, extreme(face));
@@ -155,32 +155,72 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
   return deep > kMinDepth && deep > kMinBreadth * spread(acrossOf(face));
 }
 
-/** Does the object go on beyond a cell at its rim: at the image border, behind something nearer, or
- * on a surface that the box or the cluster cut off? \param ahead_optical Where it would go on. */
-bool FaceEstimator::isCut(const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const
+/** The part of the image in which depth is measured: that of a camera registered to another one
+ * ends before the image does. */
+DepthCloud::CellRange FaceEstimator::measuredPart(const DepthCloud& cloud)
+{
+  constexpr int kRagged = 3;     // cells at the rim of that part
+  constexpr int kMinShare = 10;  // one of so many cells has depth
+  constexpr int kWidest = 12;    // one of so many columns or rows is without
+  const int columns = cloud.columns(), rows = cloud.rows();
+  DepthCloud::CellRange out = {0, 0, columns, rows};
+  const auto isBlind = [&](int c, int r, bool isColumn)
+  {
+    const int count = isColumn ? rows : columns;
+    int valid = 0;
+    for (int i = 0; i < count; ++i) valid += cloud.valid(isColumn ? c : i, isColumn ? i : r);
+    return kMinShare * valid <= count;
+  };
+  while (out.c0 < columns / kWidest && isBlind(out.c0, 0, true)) ++out.c0;
+  while (columns - out.c1 < columns / kWidest && isBlind(out.c1 - 1, 0, true)) --out.c1;
+  while (out.r0 < rows / kWidest && isBlind(0, out.r0, false)) ++out.r0;
+  while (rows - out.r1 < rows / kWidest && isBlind(0, out.r1 - 1, false)) --out.r1;
+  return {out.c0 + kRagged, out.r0 + kRagged, out.c1 - kRagged, out.r1 - kRagged};
+}
+
+/** What the image shows next to a cell at the rim of the object. */
+FaceEstimator::Beyond FaceEstimator::beyond(
+    const ObjectCloud::Cell& cell, const Eigen::Vector3d& ahead_optical) const
 {
   const Eigen::Vector3d p = cloud_.point(cell.c, cell.r).cast<double>();
   const Eigen::Vector3d ahead = p + ahead_optical;
-  if (ahead.z() < 0.05) return true;
+  if (ahead.z() < 0.05) return {Beyond::Border, p};
   const auto& camera = cloud_.camera();
   const Eigen::Vector2d step = camera.project(ahead) - camera.project(p);
-  if (step.norm() < 1e-6) return false;
+  if (step.norm() < 1e-6) return {Beyond::Background, p};
   const Eigen::Vector2d direction = step.normalized();
   constexpr int kReach = 10;  // cells
-  constexpr int kBorder = 3;  // cells; the sensor's own rim is empty
   for (int i = 1; i <= kReach; ++i)
   {
     const int c = static_cast<int>(cell.c + i * direction.x() + 0.5);  // rounded where it is inside
     const int r = static_cast<int>(cell.r + i * direction.y() + 0.5);
-    if (c < kBorder || r < kBorder || c >= cloud_.columns() - kBorder ||
-        r >= cloud_.rows() - kBorder)
-      return true;
+    if (!measured_.contains(c, r)) return {Beyond::Border, p};
     if (object_.mask.contains(c, r) || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
     const Eigen::Vector3d q = cloud_.point(c, r).cast<double>();
     const double noise = 3.0 * options_.depthSigma(p.z());
-    return !isOnSupport(q, noise) && q.z() < p.z() + 0.03 + noise;
+    const bool isNearer = !isOnSupport(q, noise) && q.z() < p.z() + 0.03 + noise;
+    return {isNearer ? Beyond::Nearer : Beyond::Background, q};
   }
-  return false;
+  return {Beyond::Background, p};
+}
+
+std::optional<double> FaceEstimator::distanceOfWhatHidesFoot() const
+{
+  constexpr std::size_t kBottom = 5;
+  const Eigen::Vector3d ahead = 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
+  const Outline lines = outlineTowards(kBottom);
+  std::vector<double> distances;
+  for (const auto& line : lines.lines)
+  {
+    const auto& cell = cells_[line.last];
+    const Beyond next = beyond(cell, ahead);
+    if (next.kind != Beyond::Nearer) continue;
+    const Eigen::Vector3d gap =
+        R_obj_optical_ * (next.point - cloud_.point(cell.c, cell.r).cast<double>());
+    distances.push_back(gap.head<2>().norm());
+  }
+  if (2 * distances.size() <= lines.lines.size()) return {};
+  return median(std::move(distances));
 }
 
 }  // namespace quadmap
