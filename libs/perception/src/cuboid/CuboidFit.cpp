@@ -6,6 +6,7 @@
 #include "cuboid/FaceEstimator.h"
 #include "cuboid/FaceSigmas.h"
 #include "cuboid/HeadingEstimate.h"
+#include "cuboid/TopRim.h"
 
 namespace quadmap
 {
@@ -59,7 +60,43 @@ void placeHiddenPart(Faces& faces, const FaceEstimator& estimator, const LabelPr
   }
 }
 
-/** Adds the share of the heading to the sigma of each side, equation (8.10). A wrong heading turns
+/** The heading by the sides of the object, or by the rim of its top where that tells it better. */
+HeadingEstimate headingOf(
+    const UprightCloud& upright, const std::optional<TopRim>& rim, const PerceptionOptions& options)
+{
+  HeadingEstimate bySides = estimateHeading(upright, options);
+  const auto byRim = rim ? rim->heading() : std::nullopt;
+  if (byRim && (!bySides.defined || byRim->sigma < bySides.sigma)) return *byRim;
+  return bySides;
+}
+
+/** An object with a level top ends where its top does. What is below may be hidden or return no
+ * depth (the legs of a table): it is within. */
+void endAtRim(
+    const TopRim& rim,
+    double yaw,
+    const FaceEstimator& estimator,
+    const PerceptionOptions& options,
+    Faces& faces)
+{
+  const Eigen::Vector2d x(std::cos(yaw), std::sin(yaw)), y(-x.y(), x.x());
+  const std::array<Eigen::Vector2d, kSides> normals = {x, -x, y, -y};
+  for (std::size_t side = 0; side < kSides; ++side)
+  {
+    FaceEstimate& face = faces[side];
+    if (const auto end = rim.side(normals[side]))
+    {
+      face.position = end->position;
+      // Across from the camera, in the frame of the cuboid: y of +-x faces, x of +-y faces.
+      face.shift = normals[side].dot(side < 2 ? x : y) * (side < 2 ? 1 : -1) * end->shift;
+      face.worth = {FaceKind::Measured, outlineSigma(end->perCell, estimator.range(), options)};
+    }
+    else if (estimator.facingAway(side) > -kTurnedAway && face.worth.kind == FaceKind::Measured)
+      face.worth.kind = FaceKind::AtLeast;
+  }
+}
+
+/** Adds the share of the heading to the sigma of each side, equation (8.11). A wrong heading turns
  * a face about the middle of the cuboid, and the part of the face that was seen moves by the lever.
  * Without a heading the corners that make the outline move, too. */
 void addHeadingSigma(Faces& faces, const HeadingEstimate& yaw)
@@ -114,8 +151,11 @@ CompleteMeasurement fitCuboid(
 {
   const Eigen::Vector3d up = object.support ? planes.plane(*object.support).plane.n : planes.up;
   const UprightCloud upright = uprightCloud(cloud, object, up);
-  const HeadingEstimate yaw =
-      label.dominantDirection ? estimateHeading(upright, options) : HeadingEstimate();
+  std::optional<TopRim> rim;
+  if (object.top && label.dominantDirection)
+    rim.emplace(cloud, object, *object.top, upright.R_upright_optical, options);
+  HeadingEstimate yaw;
+  if (label.dominantDirection) yaw = headingOf(upright, rim, options);
 
   const FaceEstimator estimator(cloud, planes, object, upright, yaw.yaw, options);
   Faces faces;
@@ -135,6 +175,7 @@ CompleteMeasurement fitCuboid(
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
     placeHiddenPart(faces, estimator, label);
   }
+  if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);
   else
