@@ -96,6 +96,24 @@ void weakenCutFaces(
   }
 }
 
+/** The edges that bound the object. When the lower end of the box is cut or hidden, the edges
+ * beside it bound only what is seen of the object, which may be wider below. */
+std::array<bool, 4> boundingEdges(
+    const std::array<EdgeMeasurement, 4>& edges, const mrpt::poses::CPose3D& T_map_sensor)
+{
+  std::array<bool, 4> out;
+  std::array<double, 4> upwards;  // of the normals, which look towards the object
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    out[i] = edges[i].state == EdgeState::Usable;
+    upwards[i] = edges[i].plane_sensor.transformed(T_map_sensor).n.z();
+  }
+  const auto highest = std::max_element(upwards.begin(), upwards.end());
+  const auto lower = static_cast<std::size_t>(highest - upwards.begin());
+  if (!out[lower]) out[(lower + 1) % 4] = out[(lower + 3) % 4] = false;
+  return out;
+}
+
 /** Covariance of the cuboid's centre, which is half the sum of two opposite faces. Unseen faces may
  * lie further out. */
 Eigen::Matrix3d cuboidCenterCovariance(const ObjectView& view)
@@ -210,7 +228,15 @@ std::optional<ObjectView> viewOf(
   view.label = properties.name;
   view.camera = composed(T_map_sensor, Eigen::Vector3d::Zero());
   view.positionSigma = noise.position;
-  view.edges = usableEdges(m, T_map_sensor, noise);
+  if (m.edges)
+  {
+    const auto bounding = boundingEdges(*m.edges, T_map_sensor);
+    for (std::size_t i = 0; i < m.edges->size(); ++i)
+      if (const auto& edge = (*m.edges)[i]; bounding[i])
+        view.edges.push_back(
+            {edge.plane_sensor.transformed(T_map_sensor),
+             std::hypot(edge.sigmaAngle, noise.angle)});
+  }
 
   if (m.kind == MeasurementKind::Complete && m.complete &&
       setCuboid(*m.complete, T_map_sensor, properties.support, noise, view))

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "quadmap/estimation/ObjectView.h"
+#include "quadmap/geometry/Projection.h"
+
+// Which edges of a box bound the object (doc/mathematics.md, 11, "Edge").
+
+using namespace quadmap;
+
+namespace
+{
+const PinholeCamera kCamera{525, 525, 319.5, 239.5, 640, 480};
+
+LabelProperties chair()
+{
+  LabelProperties p;
+  p.name = "chair";
+  p.typicalSize = {0.5, 0.5, 0.9};
+  p.known = true;
+  return p;
+}
+
+/** A box in the middle of the image, of something 2 m ahead. */
+DetectedObject partial()
+{
+  DetectedObject d;
+  d.measurement.kind = MeasurementKind::Partial;
+  d.measurement.seed_sensor = Eigen::Vector3d(2, 0, 0);
+  const auto planes = boxEdgePlanes(kCamera, {260, 160, 380, 320});
+  d.measurement.edges.emplace();
+  for (std::size_t e = 0; e < 4; ++e)
+    (*d.measurement.edges)[e].plane_sensor = planes[e].transformed(T_sensor_optical());
+  return d;
+}
+
+std::size_t edgesOf(const DetectedObject& d, const mrpt::poses::CPose3D& T_map_sensor)
+{
+  const auto view = viewOf(d, T_map_sensor, chair(), PoseNoise());
+  return view ? view->edges.size() : 0;
+}
+
+constexpr std::size_t kLeft = 0, kBottom = 3;
+}  // namespace
+
+TEST(BoundingEdges, BesideAHiddenLowerEndTheyBoundOnlyWhatIsSeen)
+{
+  for (const double pitchDown : {0.0, 0.7})
+  {
+    const mrpt::poses::CPose3D level(0, 0, 1.5, 0.3, pitchDown, 0);
+    DetectedObject d = partial();
+    EXPECT_EQ(edgesOf(d, level), 4u);
+    (*d.measurement.edges)[kBottom].state = EdgeState::NearImageBorder;
+    EXPECT_EQ(edgesOf(d, level), 1u) << "the upper one";
+    d = partial();
+    (*d.measurement.edges)[kLeft].state = EdgeState::Occluded;
+    EXPECT_EQ(edgesOf(d, level), 3u) << "what is hidden beside is no wider above or below";
+  }
+}
+
+TEST(BoundingEdges, TheLowerEndOfACameraOnItsSideIsASideOfTheImage)
+{
+  DetectedObject d = partial();
+  (*d.measurement.edges)[kLeft].state = EdgeState::Occluded;
+  const mrpt::poses::CPose3D leftIsDown(0, 0, 1.5, 0, 0, -M_PI / 2);
+  const mrpt::poses::CPose3D leftIsUp(0, 0, 1.5, 0, 0, M_PI / 2);
+  EXPECT_EQ(edgesOf(d, leftIsDown), 1u);
+  EXPECT_EQ(edgesOf(d, leftIsUp), 3u);
+}
