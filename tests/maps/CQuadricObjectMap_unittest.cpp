@@ -68,6 +68,38 @@ TEST(CQuadricObjectMap, LabelFlipsStayOneObject)
   EXPECT_EQ(tv->label(), "tv");
 }
 
+TEST(CQuadricObjectMap, WhatWasMeasuredAsAnotherKindOfThingDoesNotShapeAnObject)
+{
+  const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.5, 0.9}, 0.3)};
+  CQuadricObjectMap map;
+  map.insertionOptions.useInstanceIds = true;  // all boxes show the chair
+  SyntheticCamera camera(7);
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto T_map_sensor = poseAround(i, 40);
+    CObservationObjects seen = camera.observe(T_map_sensor, world);
+    // Nearly every second time the detector boxes a part of it and calls that a book.
+    for (auto& d : seen.objects)
+    {
+      d.instanceId = 1;
+      auto& complete = d.measurement.complete;
+      if (i % 2 == 0 || i < 5 || !complete) continue;
+      d.label = "book";
+      const Ellipsoid whole = complete->object_sensor;
+      complete->object_sensor =
+          Ellipsoid(whole.pose(), whole.semiAxes().cwiseProduct(Eigen::Vector3d(0.7, 0.7, 1)));
+      for (auto& face : complete->faces) face = {FaceKind::Measured, 0.003};
+    }
+    map.insertObservation(seen, camera.disturbed(T_map_sensor));
+  }
+  map.consolidate();
+  const MapObject* chair = map.nearest({0, 0, 0.45}, "chair");
+  ASSERT_TRUE(chair) << map.asString();
+  const Eigen::Vector3d size = 2 * chair->object.semiAxes();
+  EXPECT_EQ(chair->observations(), 40u) << "they tell that it is there";
+  EXPECT_GT(size.head<2>().minCoeff(), 0.44) << map.asString();
+}
+
 TEST(CQuadricObjectMap, ThingsOnAndUnderATableStayThemselves)
 {
   const std::vector<TrueObject> world = {

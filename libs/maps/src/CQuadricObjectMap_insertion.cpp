@@ -133,7 +133,9 @@ void CQuadricObjectMap::addView(Entry& object, const WaitingList::Entry& entry)
   object.looks.add(
       {entry.view.camera, mrpt::Clock::toDouble(entry.time), true}, entry.view.center,
       insertionOptions.existence);
-  object.estimator.add(entry.view, insertionOptions.estimator);
+  // As another kind of thing it was measured with what holds for that kind.
+  if (labels().compatible(entry.view.label, object.label()))
+    object.estimator.add(entry.view, insertionOptions.estimator);
 }
 
 }  // namespace quadmap

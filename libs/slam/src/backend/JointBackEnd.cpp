@@ -76,7 +76,7 @@ std::optional<BoxMeasurement> JointBackEnd::viewFor(
   const auto view = viewOf(
       detected, T_map_robot + boxes.sensorPose,
       labels_.properties(labels_.canonical(detected.label)), viewNoise_);
-  if (!view) return std::nullopt;
+  if (!view || !labels_.compatible(view->label, object.label())) return std::nullopt;
   BoxMeasurement r = measurementFromRobot(
       detected, *view, T_map_robot, boxes.sensorPose, estimator_, options_.tiltSigma);
   r.weight = viewWeight(*view, uprightStateOf(object.object));
