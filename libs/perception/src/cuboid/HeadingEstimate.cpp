@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cuboid/HeadingHistogram.h"
-#include "cuboid/LineFit.h"
+#include "quadmap/geometry/LineFit.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap

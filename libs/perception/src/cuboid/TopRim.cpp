@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cuboid/LineFit.h"
 #include "quadmap/geometry/DensestWindow.h"
+#include "quadmap/geometry/LineFit.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 

@@ -1,4 +1,4 @@
-#include "cuboid/LineFit.h"
+#include "quadmap/geometry/LineFit.h"
 
 #include <algorithm>
 #include <array>
