@@ -192,6 +192,12 @@ void setPartialPosition(
       (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();
 }
 
+ObjectView::Edge placed(
+    const EdgeMeasurement& edge, const mrpt::poses::CPose3D& T_map_sensor, const PoseNoise& noise)
+{
+  return {edge.plane_sensor.transformed(T_map_sensor), std::hypot(edge.sigmaAngle, noise.angle)};
+}
+
 }  // namespace
 
 std::array<Eigen::Vector3d, kFaces> ObjectView::faceNormals() const
@@ -209,9 +215,7 @@ std::vector<ObjectView::Edge> usableEdges(
   std::vector<ObjectView::Edge> usable;
   if (!measurement.edges) return usable;
   for (const EdgeMeasurement& edge : *measurement.edges)
-    if (edge.state == EdgeState::Usable)
-      usable.push_back(
-          {edge.plane_sensor.transformed(T_map_sensor), std::hypot(edge.sigmaAngle, noise.angle)});
+    if (edge.state == EdgeState::Usable) usable.push_back(placed(edge, T_map_sensor, noise));
   return usable;
 }
 
@@ -232,10 +236,7 @@ std::optional<ObjectView> viewOf(
   {
     const auto bounding = boundingEdges(*m.edges, T_map_sensor);
     for (std::size_t i = 0; i < m.edges->size(); ++i)
-      if (const auto& edge = (*m.edges)[i]; bounding[i])
-        view.edges.push_back(
-            {edge.plane_sensor.transformed(T_map_sensor),
-             std::hypot(edge.sigmaAngle, noise.angle)});
+      if (bounding[i]) view.edges.push_back(placed((*m.edges)[i], T_map_sensor, noise));
   }
 
   if (m.kind == MeasurementKind::Complete && m.complete &&

@@ -12,7 +12,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kWindow = 0.03;  // what a straight rim spreads over along its normal [m]
 constexpr std::size_t kMinPoints = 20;
 
@@ -145,7 +144,7 @@ std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
 
 std::optional<HeadingEstimate> TopRim::heading() const
 {
-  constexpr double kMinStraight = 0.6, kSigmaFloor = 0.2 * kPi / 180.0;
+  constexpr double kMinStraight = 0.6, kSigmaFloor = 0.2 * M_PI / 180.0;
   constexpr int kStep = 2;  // [deg]
   if (rim_.size() < 2 * kMinPoints) return {};
   const auto normalAt = [](double yaw) { return Eigen::Vector2d(std::cos(yaw), std::sin(yaw)); };
@@ -158,17 +157,17 @@ std::optional<HeadingEstimate> TopRim::heading() const
   HeadingEstimate out;
   std::size_t most = 0;
   for (int degree = 0; degree < 90; degree += kStep)
-    if (const std::size_t sum = straight(degree * kPi / 180.0); sum > most)
+    if (const std::size_t sum = straight(degree * M_PI / 180.0); sum > most)
     {
       most = sum;
-      out.yaw = degree * kPi / 180.0;
+      out.yaw = degree * M_PI / 180.0;
     }
   for (int iteration = 0; iteration < 2; ++iteration)
   {
     double information = 0, sum = 0;
     for (int side = 0; side < 4; ++side)
     {
-      const Eigen::Vector2d n = normalAt(out.yaw + side * kPi / 2), t(-n.y(), n.x());
+      const Eigen::Vector2d n = normalAt(out.yaw + side * M_PI / 2), t(-n.y(), n.x());
       std::vector<Eigen::Vector2d> points;
       for (const auto& q : sidePoints(n)) points.emplace_back(q.p.dot(t), q.p.dot(n));
       const auto line = fitLine(std::move(points), kWindow);
