@@ -245,7 +245,8 @@ int run(Cli& cli)
       std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "")
                 << oneLine(text) << "\n";
   };
-  request.onProgress = cli::ProgressBar();
+  request.onProgress = [bar = cli::ProgressBar()](const RunProgress& progress) mutable
+  { bar(progress.share); };
   request.shouldStop = [] { return cli::stopSignal != 0; };
   request.onClosing = []
   { cli::onStop = cli::OnStop::Defer; };  // so short that nothing need be lost

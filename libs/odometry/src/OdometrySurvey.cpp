@@ -199,4 +199,38 @@ OdometrySurvey surveyOdometry(
   return survey;
 }
 
+OdometrySurvey surveyOdometry(
+    FrameSource& camera,
+    PoseSource wanted,
+    const PerceptionOptions& perception,
+    const VisualOdometryOptions& visual)
+{
+  OdometrySurvey survey;
+  survey.source = wanted;
+  if (wanted != PoseSource::Auto && wanted != PoseSource::Visual) return survey;
+  UpVotes votes(perception, visual);
+  SingleMoment moment;
+  std::vector<RgbdFrame> frames;
+  while (frames.size() < kFrames)
+  {
+    auto frame = camera.next();
+    if (!frame) break;
+    moment.add(*frame);
+    frames.push_back(std::move(*frame));
+    try
+    {
+      votes.add(frames.back());
+    }
+    catch (const std::exception&)
+    {
+      break;  // the run meets the same error and reports it
+    }
+  }
+  camera.giveBack(frames);
+  if (wanted == PoseSource::Auto && moment.isPossible()) return survey;
+  survey.source = PoseSource::Visual;
+  votes.tell(survey);
+  return survey;
+}
+
 }  // namespace quadmap

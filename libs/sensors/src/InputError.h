@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/sensors/FrameSource.h"
 
 namespace quadmap
 {

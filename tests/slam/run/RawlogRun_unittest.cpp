@@ -214,7 +214,7 @@ TEST_F(RawlogRun, ProgressGrowsToOne)
 {
   auto request = requestFor(recording());
   std::vector<double> shares;
-  request.onProgress = [&](double share) { shares.push_back(share); };
+  request.onProgress = [&](const RunProgress& p) { shares.push_back(p.share); };
   runOnRawlog(request);
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));

@@ -42,13 +42,6 @@ void check(const RawlogSourceOptions& options)
 }
 }  // namespace
 
-std::string InputProblem::text() const
-{
-  const std::string where = sensor.empty() ? "" : " (" + sensor + ")";
-  // Labels come from the file.
-  return oneLine(file + ": record " + std::to_string(record) + where + ": " + what);
-}
-
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
     reader(file, o.limits),
     imagesFolder(findImagesFolder(file)),
@@ -245,14 +238,14 @@ void RawlogSource::Impl::finish()
 }
 
 RawlogSource::RawlogSource(std::string file, RawlogSourceOptions options) :
-    COutputLogger("RawlogSource"),
+    FrameSource("RawlogSource"),
     impl_(std::make_unique<Impl>(*this, std::move(file), std::move(options)))
 {
 }
 
 RawlogSource::~RawlogSource() = default;
 
-std::optional<RgbdFrame> RawlogSource::next() { return impl_->next(); }
+std::optional<RgbdFrame> RawlogSource::read() { return impl_->next(); }
 
 const std::vector<InputProblem>& RawlogSource::problems() const { return impl_->problems; }
 

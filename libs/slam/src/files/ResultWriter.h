@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "keyframes/KeyframeSpool.h"
+#include "quadmap/base/ModuleTimes.h"
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
-#include "run/ModuleTimes.h"
 
 namespace quadmap
 {

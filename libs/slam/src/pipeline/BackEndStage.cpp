@@ -19,7 +19,7 @@ void BackEndStage::add(std::size_t item, KeyframeTask& task, SlamResult& result)
     result.keyframes.push_back(
         {task.frame.record, task.frame.scan->sensorLabel, task.frame.time(), T_map_robot,
          task.T_odom_robot, step});
-    task.objectsInMap = result.map.objects().size();
+    for (const auto* object : result.map.confirmedObjects()) ++task.objectsByLabel[object->label()];
     leftOutSteps_.reset();
   }
   corrections_[item % kLag] = latest_;

@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -22,7 +23,8 @@ struct KeyframeTask
   CObservationObjects::Ptr boxes = nullptr;  //!< Boxes to measure; null when there are none
 
   std::optional<std::string> problem = std::nullopt;  //!< The reason to leave it out
-  std::size_t objectsInMap = 0;                       //!< Number of objects when it was added
+  /** Number of confirmed objects of each label when it was added. */
+  std::map<std::string, std::size_t> objectsByLabel = {};
 };
 
 }  // namespace quadmap

@@ -56,6 +56,12 @@ void StagePipeline::finish()
   if (failure_) std::rethrow_exception(failure_->second);
 }
 
+bool StagePipeline::isFull() const
+{
+  const Lock lock(mutex_);
+  return added_ - done_.back() >= mostWaiting_;
+}
+
 std::size_t StagePipeline::finished() const
 {
   const Lock lock(mutex_);

@@ -49,6 +49,9 @@ class StagePipeline
   /** Waits until all items went through all stages. \exception As in add(). */
   void finish();
 
+  /** Whether add() would wait for room, or work itself as there is only the caller's thread. */
+  bool isFull() const;
+
   /** Number of items that went through all stages, which is also the next item that will. */
   std::size_t finished() const;
 

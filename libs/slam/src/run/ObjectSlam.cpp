@@ -115,6 +115,7 @@ void ObjectSlam::tellOdometry(const RgbdFrame& frame)
 
 void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_robot)
 {
+  if (keepsUp_ && pipeline_.isFull()) return;
   const CPose3D T_odom_sensor = T_odom_robot + frame.scan->sensorPose;
   const bool isNode =
       odometry_.source() == PoseSource::Graph;  // the other program chose the keyframes

@@ -3,6 +3,7 @@
 #include <mrpt/system/COutputLogger.h>
 
 #include <cstddef>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,7 @@
 #include "pipeline/KeyframeTask.h"
 #include "pipeline/PerceptionStage.h"
 #include "pipeline/StagePipeline.h"
+#include "quadmap/base/ModuleTimes.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometryInput.h"
 #include "quadmap/odometry/OdometrySurvey.h"
@@ -23,7 +25,6 @@
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
 #include "relocalization/ContinueMap.h"
-#include "run/ModuleTimes.h"
 
 namespace quadmap
 {
@@ -79,6 +80,13 @@ class ObjectSlam : public mrpt::system::COutputLogger
    * \exception NotLocalised If the run cannot be found in the map. */
   void continueFrom(const CQuadricObjectMap& map);
 
+  /** For a camera, which does not wait: a frame is no keyframe while the threads that work on the
+   * keyframes before are busy, and a later one takes its place. */
+  void keepUp() { keepsUp_ = configuration_.slam.workingThreads() > 1; }
+
+  /** Number of confirmed objects of each label, a few keyframes ago. */
+  const std::map<std::string, std::size_t>& objectsByLabel() const { return objectsByLabel_; }
+
   /** The result, complete after finish(). Before that only frames and warnings may be read. */
   const SlamResult& result() const { return result_; }
   const std::vector<BadFrame>& badFrames() const { return badFrames_; }
@@ -125,6 +133,8 @@ class ObjectSlam : public mrpt::system::COutputLogger
   BackEndStage backEnd_;
   SlamResult result_;
   std::vector<BadFrame> badFrames_;
+  std::map<std::string, std::size_t> objectsByLabel_;
+  bool keepsUp_ = false;
   ModuleTimes times_;
   std::vector<KeyframeTask> tasks_;  //!< Those under way, in a ring
   std::size_t added_ = 0, taken_ = 0;

@@ -100,6 +100,9 @@ void ObjectSlam::account(const KeyframeTask& keyframe)
     badFrames_.emplace_back(frame, *keyframe.problem);
     return;
   }
+  objectsByLabel_ = keyframe.objectsByLabel;
+  std::size_t objects = 0;
+  for (const auto& [label, number] : objectsByLabel_) objects += number;
   const auto* boxes = keyframe.boxes.get();
   if (boxes && detection_.isActive()) lookThrough(*boxes);
   if (boxes) countBoxes(*boxes, labels_, result_.labels);
@@ -112,7 +115,7 @@ void ObjectSlam::account(const KeyframeTask& keyframe)
   MRPT_LOG_DEBUG_FMT(
       "keyframe %zu: record %zu (%s), %zu boxes, %zu objects in the map",
       taken_ - badFrames_.size(), frame.record, frame.scan->sensorLabel.c_str(),
-      boxes ? boxes->objects.size() : 0, keyframe.objectsInMap);
+      boxes ? boxes->objects.size() : 0, objects);
 }
 
 }  // namespace quadmap

@@ -27,13 +27,8 @@ class RawlogRun
       request_(request),
       directory_(request.outputDirectory),
       files_(std::make_unique<OutputSet>(request.outputDirectory, kSetName)),
-      survey_(surveyOdometry(
-          request.rawlog,
-          sourceOptions(request),
-          request.configuration.slam.odometry,
-          request.configuration.perception,
-          request.configuration.visual)),
-      source_(request.rawlog, sourceOptions(request, survey_.odometryKind)),
+      survey_(survey(request)),
+      source_(sourceOf(request, survey_)),
       spool_(request.outputDirectory),
       slam_(
           configurationOf(request, survey_),
@@ -44,7 +39,7 @@ class RawlogRun
   {
     using mrpt::system::VerbosityLevel;
     for (mrpt::system::COutputLogger* logger :
-         std::initializer_list<mrpt::system::COutputLogger*>{&slam_, &source_})
+         std::initializer_list<mrpt::system::COutputLogger*>{&slam_, source_.get()})
     {
       logger->logging_enable_console_output = false;
       logger->setMinLoggingLevel(mrpt::system::LVL_DEBUG);
@@ -52,7 +47,7 @@ class RawlogRun
     slam_.logRegisterCallback(
         [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
         { request_.onMessage(level, std::string(text)); });
-    source_.logRegisterCallback(
+    source_->logRegisterCallback(
         [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
         {
           if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
@@ -62,12 +57,13 @@ class RawlogRun
           request.rawlog + ": " + survey_.uselessKind +
           " has no pose at the times of the first images (is a clock wrong?): visual odometry "
           "replaces it");
+    if (request.isLive) slam_.keepUp();
   }
 
   RawlogRunSummary run()
   try
   {
-    const bool interrupted = addAllFrames();
+    const bool interrupted = addAllFrames() || source_->failure();
     requireContent(interrupted);
     request_.onClosing();
     finish();
@@ -79,6 +75,23 @@ class RawlogRun
   }
 
  private:
+  static OdometrySurvey survey(const RawlogRunRequest& request)
+  {
+    const SlamConfiguration& c = request.configuration;
+    if (request.source)
+      return surveyOdometry(*request.source, c.slam.odometry, c.perception, c.visual);
+    return surveyOdometry(
+        request.rawlog, sourceOptions(request), c.slam.odometry, c.perception, c.visual);
+  }
+
+  static std::shared_ptr<FrameSource> sourceOf(
+      const RawlogRunRequest& request, const OdometrySurvey& survey)
+  {
+    if (request.source) return request.source;
+    return std::make_shared<RawlogSource>(
+        request.rawlog, sourceOptions(request, survey.odometryKind));
+  }
+
   static RawlogSourceOptions sourceOptions(
       const RawlogRunRequest& request, const std::string& odometryKind = {})
   {
@@ -137,7 +150,8 @@ class RawlogRun
     while (!request_.shouldStop())
     {
       const auto frame = nextFrame();
-      request_.onProgress(source_.progress());
+      request_.onProgress(
+          {source_->progress(), slam_.result().counts().keyframes, slam_.objectsByLabel()});
       if (!frame) return false;
       slam_.addFrame(*frame);
     }
@@ -147,7 +161,7 @@ class RawlogRun
   std::optional<RgbdFrame> nextFrame()
   {
     const auto scope = slam_.times().measure("input");
-    return source_.next();
+    return source_->next();
   }
 
   InputProblem problemOf(const BadFrame& e) const
@@ -160,11 +174,13 @@ class RawlogRun
     const std::string& file = request_.rawlog;
     if (slam_.result().counts().frames == 0)
     {
-      if (interrupted) throw std::runtime_error(file + ": interrupted before the first image");
+      if (interrupted)
+        throw std::runtime_error(
+            source_->failure().value_or(file + ": interrupted before the first image"));
       const std::string sensor =
           request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
       throw std::runtime_error(
-          file + ": no usable RGB-D images" + sensor + "; it has " + source_.contentSummary());
+          file + ": no usable RGB-D images" + sensor + "; it has " + source_->contentSummary());
     }
     if (!interrupted) slam_.requireAllPosesUsed();
     if (hasSourceOfBoxes() || interrupted) return;
@@ -180,7 +196,7 @@ class RawlogRun
     const SlamCounts counts = slam_.result().counts();
     if (slam.findsBoxes())
       return counts.keyframes == 0 || counts.keyframesWithoutBoxes < counts.keyframes;
-    return slam.method == SlamMethod::Odometry || source_.hasBoxes();
+    return slam.method == SlamMethod::Odometry || source_->hasBoxes();
   }
 
   const char* whyNoBoxes() const
@@ -227,9 +243,9 @@ class RawlogRun
 
   RawlogRunSummary write(bool interrupted)
   {
-    InputDescription input{request_.rawlog,       request_.objectsFile,   request_.sensorLabel,
-                           source_.recordsRead(), source_.odometryKind(), interrupted,
-                           source_.problems()};
+    InputDescription input{request_.rawlog,        request_.objectsFile,    request_.sensorLabel,
+                           source_->recordsRead(), source_->odometryKind(), interrupted,
+                           source_->problems()};
     for (const auto& e : slam_.badFrames()) input.problems.push_back(problemOf(e));
     if (interrupted && !request_.replaceComplete && hasCompleteResult(request_.outputDirectory))
       moveBeside();
@@ -252,7 +268,7 @@ class RawlogRun
   std::optional<OutputDirectory> interruptedDirectory_;
   std::unique_ptr<OutputSet> files_;  //!< Locked from the start
   OdometrySurvey survey_;
-  RawlogSource source_;
+  std::shared_ptr<FrameSource> source_;
   KeyframeSpool spool_;
   ObjectSlam slam_;
 };

@@ -42,6 +42,14 @@ OdometrySurvey surveyOdometry(
     const PerceptionOptions& perception = {},
     const VisualOdometryOptions& visual = {});
 
+/** The same for a camera, whose first images it takes and gives back. A camera has no odometry.
+ *  \exception std::runtime_error As FrameSource::next(). */
+OdometrySurvey surveyOdometry(
+    FrameSource& camera,
+    PoseSource wanted,
+    const PerceptionOptions& perception,
+    const VisualOdometryOptions& visual);
+
 /** Mean of the largest set of directions that agree with one of them: doc/mathematics.md, section
  * 15. It is nothing when there are no directions. */
 std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions);

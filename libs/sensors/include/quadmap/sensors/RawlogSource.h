@@ -1,7 +1,5 @@
 #pragma once
 
-#include <mrpt/system/COutputLogger.h>
-
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -10,7 +8,7 @@
 
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/sensors/CheckedReader.h"
-#include "quadmap/sensors/RgbdFrame.h"
+#include "quadmap/sensors/FrameSource.h"
 
 namespace quadmap
 {
@@ -35,17 +33,6 @@ struct RawlogSourceOptions
   bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
 };
 
-/** Something in the input that could not be used. */
-struct InputProblem
-{
-  std::string file;
-  std::size_t record = 0;
-  std::string sensor;  //!< May be empty
-  std::string what;
-
-  std::string text() const;  //!< "file: record 12 (camera): what"
-};
-
 /** Reads the RGB-D frames of a rawlog one by one, and pairs them with boxes and poses. It reads
  * both formats of MRPT (actions and sensory frames, or observations), compressed or not, and holds
  * only a few frames at a time.
@@ -55,33 +42,31 @@ struct InputProblem
  * kind (CActionRobotMovement2D/3D, CObservationOdometry, CObservationRobotPose) is interpolated at
  * the frame's time. A CObservationRobotPose with the label "ground_truth" is the true pose, not
  * odometry. A CObservationRobotPose states the pose of the robot, as MRPT defines it, and not that
- * of its sensor. */
-class RawlogSource : public mrpt::system::COutputLogger
+ * of its sensor.
+ *
+ * next() gives the frames in the order of the file. It throws std::runtime_error for a truncated
+ * file, an unknown class, a missing external image and the like. The message is one line with file,
+ * record and sensor. With keepGoing such a record is noted in problems() instead, and reading goes
+ * on if the file allows it. */
+class RawlogSource : public FrameSource
 {
  public:
   /** \exception std::runtime_error If the file is missing or is no rawlog. */
   RawlogSource(std::string file, RawlogSourceOptions options);
   ~RawlogSource() override;
 
-  /** The next frame in the order of the file, or nothing at the end.
-   *  \exception std::runtime_error For a truncated file, an unknown class, a missing external image
-   *  and the like. The message is one line with file, record and sensor. With keepGoing such a
-   * record is noted in problems() instead, and reading goes on if the file allows it. */
-  std::optional<RgbdFrame> next();
-
-  const std::vector<InputProblem>& problems() const;  //!< What keepGoing left out so far
-  double progress() const;                            //!< Share of the file read, in [0, 1]
-  std::size_t recordsRead() const;
+  const std::vector<InputProblem>& problems() const override;
+  double progress() const override;
+  std::size_t recordsRead() const override;
   std::size_t framesRead() const;
-  bool hasBoxes() const;             //!< There were boxes (or pixelLabels, if wanted)
-  std::string odometryKind() const;  //!< The used one, "CObservationOdometry wheels"; at first ""
+  bool hasBoxes() const override;                  //!< There were boxes (or pixelLabels, if wanted)
+  std::string odometryKind() const override;       //!< "CObservationOdometry wheels"; at first ""
   std::vector<std::string> odometryKinds() const;  //!< All kinds so far, used or not
-
-  /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
-   */
-  std::string contentSummary() const;
+  std::string contentSummary() const override;
 
  private:
+  std::optional<RgbdFrame> read() override;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -3,19 +3,33 @@
 #include <mrpt/system/COutputLogger.h>
 
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "quadmap/base/OutputSet.h"
+#include "quadmap/sensors/FrameSource.h"
 #include "quadmap/slam/SlamConfiguration.h"
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
 {
+/** How far a run is. */
+struct RunProgress
+{
+  double share = 0;                                   //!< Of the input, in [0, 1]
+  std::size_t keyframes = 0;                          //!< That went through the pipeline
+  const std::map<std::string, std::size_t>& objects;  //!< Number of confirmed ones by label
+};
+
 /** One call of quadmap-slam. */
 struct RawlogRunRequest
 {
-  std::string rawlog;
+  std::string rawlog;  //!< The recording, or for messages the name of `source`
+  /** The input instead of a rawlog; null for the rawlog. */
+  std::shared_ptr<FrameSource> source;
+  bool isLive = false;              //!< `source` does not wait: it drops what is not taken in time
   std::string outputDirectory;      //!< It is made when it does not exist
   std::string objectsFile;          //!< Boxes; if empty, NAME.objects.rawlog or the rawlog
   std::string sensorLabel;          //!< The only RGB-D sensor to read; empty for all
@@ -31,7 +45,7 @@ struct RawlogRunRequest
   /** Receives messages while it runs: warnings, and each keyframe as LVL_DEBUG. */
   std::function<void(mrpt::system::VerbosityLevel, const std::string&)> onMessage =
       [](mrpt::system::VerbosityLevel, const std::string&) {};
-  std::function<void(double)> onProgress = [](double) {};   //!< Share of the rawlog, in [0, 1]
+  std::function<void(const RunProgress&)> onProgress = [](const RunProgress&) {};
   std::function<bool()> shouldStop = [] { return false; };  //!< Asked before every frame
   std::function<void()> onClosing = [] {};  //!< No more frames: the result is computed and written
 
@@ -46,7 +60,8 @@ struct RawlogRunSummary
   std::vector<std::string> dropped;  //!< What keepGoing left out, one line each
   std::string directory;             //!< Where the files are
   std::vector<std::string> files;    //!< Their names
-  bool interrupted = false;          //!< shouldStop() ended it; the files have what was done
+  /** shouldStop() ended it, or the source failed; the files have what was done. */
+  bool interrupted = false;
 };
 
 /** Runs ObjectSlam on a rawlog and writes all files of the output directory, which appear together.

@@ -1,4 +1,4 @@
-#include "run/ModuleTimes.h"
+#include "quadmap/base/ModuleTimes.h"
 
 #include <algorithm>
 #include <cstdio>
