@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <iostream>
 
+#include "../common/CameraArguments.h"
 #include "../common/CommandLine.h"
 #include "../common/ProgressBar.h"
+#include "CameraImport.h"
 #include "TumImport.h"
 #include "quadmap/sensors/TumCheck.h"
 
@@ -18,13 +20,19 @@ struct Cli
       "Turns an RGB-D recording into a rawlog that every MRPT program reads, its poses included, "
       "and the boxes of a detector into OUT.objects.rawlog beside it.",
       QUADMAP_VERSION};
-  std::vector<std::string> formats{"tum"}, poseKinds{"odometry", "ground-truth", "none"};
+  std::vector<std::string> formats{"tum", "openni2"}, poseKinds{"odometry", "ground-truth", "none"};
   TCLAP::ValuesConstraint<std::string> knownFormats{formats}, knownPoses{poseKinds};
   TCLAP::UnlabeledValueArg<std::string> format{
-      "format",   "Layout of the recording: tum (TUM RGB-D benchmark).", true, "", &knownFormats,
+      "format",
+      "Layout of the recording: tum (TUM RGB-D benchmark), or openni2 (a camera by OpenNI2).",
+      true,
+      "",
+      &knownFormats,
       line.args()};
   TCLAP::UnlabeledValueArg<std::string> source{
-      "SOURCE", "Folder of the recording.", true, "", "SOURCE", line.args()};
+      "SOURCE", "Folder of the recording; openni2: live, the plugged-in camera, or FILE.oni.",
+      true,     "",
+      "SOURCE", line.args()};
   TCLAP::ValueArg<std::string> output{"o",          "output",   "The rawlog to write.", false, "",
                                       "OUT.rawlog", line.args()};
   TCLAP::SwitchArg check{
@@ -45,6 +53,7 @@ struct Cli
                              "N", line.args()};
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Drop what cannot be used, say so, and go on.", line.args()};
+  cli::CameraArguments camera{line.args()};
 };
 
 PosesAs posesAs(const std::string& name)
@@ -110,6 +119,20 @@ int checkOnly(const TumDataset& dataset, Cli& cli)
   return problems.empty() ? 0 : 1;
 }
 
+/** The kind openni2. */
+int importFromCamera(Cli& cli)
+{
+  if (cli.check.isSet() || cli.detections.isSet() || cli.posesAs.isSet())
+    throw cli::UsageError("--check, --detections, --poses-as: not for a camera");
+  CameraImportRequest request;
+  request.source = cli.source.getValue();
+  request.output = cli.output.getValue();
+  request.camera = cli.camera.options();
+  request.writing.external = cli.external.getValue();
+  request.every = static_cast<std::size_t>(cli.every.getValue());
+  return importCamera(request);
+}
+
 int run(Cli& cli)
 {
   const bool checking = cli.check.getValue();
@@ -120,6 +143,9 @@ int run(Cli& cli)
   reading.detections = cli.detections.getValue();
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
+  if (cli.format.getValue() == "openni2") return importFromCamera(cli);
+  if (cli.camera.isAnySet())
+    throw cli::UsageError("--duration, --frames, --resolution, --intrinsics: for openni2 only");
   const TumDataset dataset(cli.source.getValue(), reading);
   for (const auto& note : dataset.notes())
     std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";

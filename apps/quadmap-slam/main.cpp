@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
-#include "../common/ProgressBar.h"
+#include "CameraInput.h"
 #include "quadmap/review/KeyframeContent.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/slam/PoseNodes.h"
@@ -24,17 +24,23 @@ struct Cli
 {
   cli::CommandLine line{
       "quadmap-slam",
-      "Makes the trajectory and the object map of an RGB-D rawlog. Boxes come from the rawlog, "
-      "from NAME.objects.rawlog beside it, or from --detector. Ctrl-C stops early: the files then "
-      "hold what was done, "
-      "and the exit status is 130 (143 after SIGTERM); a second one ends at once and changes "
-      "nothing.",
+      "Makes the trajectory and the object map of an RGB-D rawlog or of a camera. Boxes come from "
+      "the rawlog, from NAME.objects.rawlog beside it, or from --detector. Ctrl-C ends a camera. "
+      "It "
+      "stops a recording early: the files then hold what was done, and the exit status is 130 (143 "
+      "after SIGTERM). A second one ends at once and changes nothing.",
       QUADMAP_VERSION};
   std::vector<std::string> methodNames{"rgbd", "quadric", "point", "odometry"};
   std::vector<std::string> associationNames{"estimated", "given"};
   TCLAP::ValuesConstraint<std::string> methods{methodNames}, associations{associationNames};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
-      "rawlog", "The recording, in either format of MRPT.", true, "", "IN.rawlog", line.args()};
+      "rawlog",
+      "The recording, in either format of MRPT; or openni2:live, the plugged-in camera, or "
+      "openni2:FILE.oni, a recording of one.",
+      true,
+      "",
+      "IN.rawlog|openni2:...",
+      line.args()};
   TCLAP::ValueArg<std::string> output{
       "o", "output", "Folder for the results; made when missing.", true, "", "OUTDIR", line.args()};
   TCLAP::ValueArg<std::string> config{
@@ -117,6 +123,7 @@ struct Cli
       0,
       "N",
       line.args()};
+  cli::CameraArguments camera{line.args()};
 };
 
 /** Sets an option by its setter. An error names the option as the command line does. */
@@ -245,20 +252,25 @@ int run(Cli& cli)
       std::cerr << "quadmap-slam: " << (level == mrpt::system::LVL_WARN ? "warning: " : "")
                 << oneLine(text) << "\n";
   };
-  request.onProgress = [bar = cli::ProgressBar()](const RunProgress& progress) mutable
-  { bar(progress.share); };
   request.shouldStop = [] { return cli::stopSignal != 0; };
   request.onClosing = []
   { cli::onStop = cli::OnStop::Defer; };  // so short that nothing need be lost
   request.addFiles = [](const SlamResult& result, OutputSet& files)
   { writeSceneOf(result, files.written("map.simplemap"), files.add("scene.3Dscene")); };
   cli::onStop = cli::OnStop::Note;
+  CameraInput camera(request, cli.camera);
 
   const RawlogRunSummary summary = runOnRawlog(request);
+  camera.end();
   for (const auto& note : notes) std::printf("%s\n", note.c_str());
   if (verbosity <= mrpt::system::LVL_INFO) printSummary(summary);
   for (const auto& what : summary.dropped) std::cerr << "quadmap-slam: left out: " << what << "\n";
   if (!summary.interrupted) return 0;
+  if (camera.failure())
+  {
+    std::cerr << "quadmap-slam: " << *camera.failure() << "; the files hold what was done\n";
+    return 1;
+  }
   std::cerr << "quadmap-slam: interrupted, the files hold what was done\n";
   return 128 + cli::stopSignal;  // the exit status by which shells report a signal
 }
