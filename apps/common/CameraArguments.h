@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -42,9 +43,11 @@ class CameraArguments
   {
   }
 
-  bool isAnySet() const
+  /** For a source that is no camera. \exception UsageError If one of them is given. */
+  void requireNone() const
   {
-    return duration_.isSet() || frames_.isSet() || resolution_.isSet() || intrinsics_.isSet();
+    if (duration_.isSet() || frames_.isSet() || resolution_.isSet() || intrinsics_.isSet())
+      throw UsageError("--duration, --frames, --resolution, --intrinsics: for openni2 only");
   }
 
   /** \exception UsageError For values out of range. */

@@ -144,8 +144,7 @@ int run(Cli& cli)
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
   if (cli.format.getValue() == "openni2") return importFromCamera(cli);
-  if (cli.camera.isAnySet())
-    throw cli::UsageError("--duration, --frames, --resolution, --intrinsics: for openni2 only");
+  cli.camera.requireNone();
   const TumDataset dataset(cli.source.getValue(), reading);
   for (const auto& note : dataset.notes())
     std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";

@@ -44,8 +44,8 @@ CameraInput::CameraInput(RawlogRunRequest& run, cli::CameraArguments& arguments)
   const bool isCamera = run.rawlog.compare(0, kPrefix.size(), kPrefix) == 0;
   if (isCamera)
     open(run, arguments.options());
-  else if (arguments.isAnySet())
-    throw cli::UsageError("--duration, --frames, --resolution, --intrinsics: for openni2 only");
+  else
+    arguments.requireNone();
   if (run.isLive)
   {
     run.onMessage = [this, tell = run.onMessage](auto level, const std::string& text)
