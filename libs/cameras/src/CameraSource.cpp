@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstring>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -16,7 +15,7 @@
 #include "NewestQueue.h"
 #include "RgbdDevice.h"
 #include "quadmap/base/ErrorText.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/RgbdScan.h"
 
 namespace quadmap
 {
@@ -36,21 +35,10 @@ struct Capture
 mrpt::obs::CObservation3DRangeScan::Ptr scanOf(
     const Capture& capture, const DeviceDescription& camera)
 {
-  const cv::Mat &depth = capture.images.depth.pixels, &color = capture.images.color.pixels;
-  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
-  scan->timestamp = mrpt::Clock::fromDouble(capture.time);
-  scan->sensorLabel = kCameraLabel;
+  auto scan = makeRgbdScan(
+      capture.time, capture.images.color.pixels, capture.images.depth.pixels, camera.depthUnit);
   scan->cameraParams = camera.depth;
   scan->cameraParamsIntensity = camera.color;
-  scan->hasIntensityImage = scan->hasRangeImage = true;
-  scan->intensityImage = mrpt::img::CImage(color, mrpt::img::SHALLOW_COPY);
-  scan->rangeUnits = static_cast<float>(camera.depthUnit);
-  scan->range_is_depth = true;
-  scan->rangeImage_setSize(depth.rows, depth.cols);
-  for (int row = 0; row < depth.rows; ++row)
-    std::memcpy(
-        &scan->rangeImage(row, 0), depth.ptr(row),
-        static_cast<std::size_t>(depth.cols) * sizeof(std::uint16_t));
   return scan;
 }
 

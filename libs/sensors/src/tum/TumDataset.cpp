@@ -2,13 +2,13 @@
 
 #include <mrpt/core/format.h>
 
-#include <cstring>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/sensors/CheckedReader.h"
+#include "quadmap/sensors/RgbdScan.h"
 #include "records/EncodedImage.h"
 #include "tum/TumFiles.h"
 
@@ -106,19 +106,8 @@ mrpt::obs::CObservation3DRangeScan::Ptr TumDataset::scan(std::size_t index) cons
   if (depth.type() != CV_16UC1)
     throw std::runtime_error(frame.depth + ": is no depth image (one channel of 16 bits)");
 
-  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
-  scan->timestamp = mrpt::Clock::fromDouble(frame.time);
-  scan->sensorLabel = kCameraLabel;
+  auto scan = makeRgbdScan(frame.time, color, depth, 1.0 / calibration_.depthFactor);
   scan->cameraParams = scan->cameraParamsIntensity = camera;
-  scan->hasIntensityImage = scan->hasRangeImage = true;
-  scan->intensityImage = mrpt::img::CImage(color, mrpt::img::SHALLOW_COPY);
-  scan->rangeUnits = static_cast<float>(1.0 / calibration_.depthFactor);
-  scan->range_is_depth = true;
-  scan->rangeImage_setSize(depth.rows, depth.cols);
-  for (int row = 0; row < depth.rows; ++row)
-    std::memcpy(
-        &scan->rangeImage(row, 0), depth.ptr(row),
-        static_cast<std::size_t>(depth.cols) * sizeof(std::uint16_t));
   return scan;
 }
 

@@ -86,7 +86,4 @@ class TumDataset
   std::vector<std::string> notes_;
 };
 
-/** Sensor label of imported and simulated RGB-D frames. */
-inline const std::string kCameraLabel = "camera";
-
 }  // namespace quadmap
