@@ -118,7 +118,6 @@ struct CameraSource::Impl
   const CameraOptions options;
   NewestQueue<Capture> queue;
   std::atomic<std::size_t> frames{0};  //!< That were given to the program
-  bool toldLosses = false;
 
  private:
   void captureAll()
@@ -212,14 +211,7 @@ CameraSource::~CameraSource() = default;
 std::optional<RgbdFrame> CameraSource::read()
 {
   const auto capture = impl_->next();
-  if (!capture)
-  {
-    const std::string losses = lossSummary();
-    if (!losses.empty() && !impl_->toldLosses)
-      logStr(mrpt::system::LVL_WARN, impl_->name + ": " + losses);
-    impl_->toldLosses = true;
-    return std::nullopt;
-  }
+  if (!capture) return std::nullopt;
   RgbdFrame frame;
   frame.record = capture->number;
   frame.scan = scanOf(*capture, impl_->camera);

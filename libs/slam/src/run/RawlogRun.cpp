@@ -64,6 +64,8 @@ class RawlogRun
   try
   {
     const bool interrupted = addAllFrames() || source_->failure();
+    const std::string losses = source_->lossSummary();
+    if (!losses.empty()) slam_.warn(request_.rawlog + ": " + losses);
     requireContent(interrupted);
     request_.onClosing();
     finish();

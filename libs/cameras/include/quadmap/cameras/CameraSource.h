@@ -38,8 +38,7 @@ class CameraSource : public FrameSource
   CameraCounts counts() const;
   /** What a user should know, although it is no error: one line each. */
   std::vector<std::string> notes() const;
-  /** "3 frames skipped, 1 lost by the camera", or an empty text when all frames were good. */
-  std::string lossSummary() const;
+  std::string lossSummary() const override;
 
   double progress() const override;  //!< By time, number or place in the file; 0 without a limit
   std::size_t recordsRead() const override;

@@ -50,6 +50,10 @@ class FrameSource : public mrpt::system::COutputLogger
    * did not. The frames before are good. */
   virtual std::optional<std::string> failure() const { return std::nullopt; }
 
+  /** What did not reach the program, "3 frames skipped, 1 lost by the camera"; empty when all did.
+   */
+  virtual std::string lossSummary() const { return {}; }
+
  protected:
   virtual std::optional<RgbdFrame> read() = 0;  //!< As next()
 
