@@ -6,6 +6,7 @@
 
 #include <Eigen/Sparse>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -31,7 +32,8 @@ class GraphProblem
   FactorGraph::Marginals marginals(bool withObjects);
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
-  StepFit stepFit(std::pair<std::size_t, std::size_t> steps);
+  FactorGraph::WindowFit windowFit(std::pair<std::size_t, std::size_t> steps);
+  StepFit stepFit();
 
  private:
   using SparseMatrix = Eigen::SparseMatrix<double>;
@@ -44,6 +46,13 @@ class GraphProblem
   };
   /** \param positionSigma, angleSigma Of each object from elsewhere [m], [rad]. */
   NormalMatrix normalMatrix(double positionSigma, double angleSigma);
+  /** Rows and columns of H^-1 from these on, of two poses. */
+  using JointCovariance =
+      std::function<Eigen::Matrix<double, 6, 6>(Eigen::Index row, Eigen::Index column)>;
+  StepFit stepFit(
+      const NormalMatrix& normal,
+      const JointCovariance& covariance,
+      std::pair<std::size_t, std::size_t> steps) const;
 
   void addFloors();
   double* floorBlock(double height);

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <stdexcept>
 
 #include "GraphProblem.h"
 #include "SparseInverse.h"
@@ -53,6 +56,30 @@ double scaleOf(const StepFit::Sums& sums, double claimWeight)
       std::max(1.0, (claimWeight + sums.squares) / (claimWeight + sums.redundancy)));  // (16.22)
 }
 
+/** Blocks of H^-1 of the few poses that are asked for, which take less time than its sparse
+ * entries. */
+class SolvedColumns
+{
+ public:
+  explicit SolvedColumns(const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>& H) : H_(H) {}
+
+  Matrix6 operator()(Eigen::Index row, Eigen::Index column)
+  {
+    auto& solved = columns_[column];
+    if (solved.size() == 0)
+    {
+      Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(H_.rows(), 6);
+      unit.middleRows(column, 6).setIdentity();
+      solved = H_.solve(unit);
+    }
+    return solved.middleRows(row, 6);
+  }
+
+ private:
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>& H_;
+  std::map<Eigen::Index, Eigen::MatrixXd> columns_;
+};
+
 }  // namespace
 
 mrpt::poses::CPose3DPDFGaussian enlarged(
@@ -78,14 +105,12 @@ StepNoise stepNoiseOf(const StepFit& fit, double claimWeight)
   return {scaleOf(fit.position, claimWeight), scaleOf(fit.angle, claimWeight)};
 }
 
-StepFit GraphProblem::stepFit(std::pair<std::size_t, std::size_t> steps)
+StepFit GraphProblem::stepFit(
+    const NormalMatrix& normal,
+    const JointCovariance& covariance,
+    std::pair<std::size_t, std::size_t> steps) const
 {
   StepFit fit;
-  const NormalMatrix normal = normalMatrix(kFreePositionSigma, kFreeAngleSigma);
-  if (normal.poseAt.empty()) return fit;
-  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
-  if (factorised.info() != Eigen::Success || factorised.vectorD().minCoeff() <= 0) return fit;
-  const SparseInverse inverse(factorised);
   for (std::size_t k = std::max(steps.first, firstFree_); k < steps.second; ++k)
     for (const auto& step : graph_.stepsByPose_.at(k))
     {
@@ -97,8 +122,7 @@ StepFit GraphProblem::stepFit(std::pair<std::size_t, std::size_t> steps)
       for (std::size_t a = 0; a < 2; ++a)
         for (std::size_t b = 0; b < 2; ++b)
           if (ends[a] >= firstFree_ && ends[b] >= firstFree_)
-            known += at.J[a] *
-                     inverse.block(normal.poseAt.at(ends[a]), normal.poseAt.at(ends[b]), 6) *
+            known += at.J[a] * covariance(normal.poseAt.at(ends[a]), normal.poseAt.at(ends[b])) *
                      at.J[b].transpose();
       const auto& noise = graph_.stepNoise_;
       fit.position.squares += std::pow(noise.position, 2) * at.r.head<3>().squaredNorm();
@@ -109,11 +133,43 @@ StepFit GraphProblem::stepFit(std::pair<std::size_t, std::size_t> steps)
   return fit;
 }
 
-StepFit FactorGraph::stepFit(std::size_t firstFree, std::pair<std::size_t, std::size_t> steps)
+StepFit GraphProblem::stepFit()
 {
-  return GraphProblem(*this, firstFree, true).stepFit(steps);
+  const NormalMatrix normal = normalMatrix(kFreePositionSigma, kFreeAngleSigma);
+  if (normal.poseAt.empty()) return {};
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  if (factorised.info() != Eigen::Success || factorised.vectorD().minCoeff() <= 0) return {};
+  const SparseInverse inverse(factorised);
+  return stepFit(
+      normal, [&](Eigen::Index row, Eigen::Index column) { return inverse.block(row, column, 6); },
+      {firstFree_, graph_.poses_.size()});
 }
 
-StepFit FactorGraph::stepFit() { return GraphProblem(*this, 1, false).stepFit({1, poses()}); }
+FactorGraph::WindowFit GraphProblem::windowFit(std::pair<std::size_t, std::size_t> steps)
+{
+  FactorGraph::WindowFit fit;
+  const NormalMatrix normal = normalMatrix(kFreePositionSigma, kFreeAngleSigma);
+  if (normal.poseAt.empty()) return fit;
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  if (factorised.info() != Eigen::Success)
+    throw std::runtime_error("the normal matrix of the factor graph cannot be factorised");
+  SolvedColumns solved(factorised);
+  const auto last = normal.poseAt.find(graph_.poses_.size() - 1);
+  if (last != normal.poseAt.end())
+  {
+    const Matrix6 block = solved(last->second, last->second);
+    fit.lastPose = 0.5 * (block + block.transpose());
+  }
+  if (factorised.vectorD().minCoeff() > 0) fit.steps = stepFit(normal, std::ref(solved), steps);
+  return fit;
+}
+
+FactorGraph::WindowFit FactorGraph::windowFit(
+    std::size_t firstFree, std::pair<std::size_t, std::size_t> steps)
+{
+  return GraphProblem(*this, firstFree, true).windowFit(steps);
+}
+
+StepFit FactorGraph::stepFit() { return GraphProblem(*this, 1, false).stepFit(); }
 
 }  // namespace quadmap

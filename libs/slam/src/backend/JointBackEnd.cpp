@@ -120,12 +120,17 @@ CPose3D JointBackEnd::addKeyframe(
   CQuadricObjectMap& map = result.map;
   const auto window = static_cast<std::size_t>(options_.window);
   const std::size_t firstFree = pose < window ? 1 : pose + 1 - window;
-  const auto poseError = [&] { return noiseOf(graph_.marginals(firstFree, false).lastPose); };
-  addViews(*boxes, map.match(*boxes, UncertainPose(predicted, poseError())), pose, map);
+  const auto before = graph_.marginals(firstFree, false);
+  addViews(
+      *boxes, map.match(*boxes, UncertainPose(predicted, noiseOf(before.lastPose))), pose, map);
   graph_.optimiseWindow(firstFree);
-  learnStepNoise(firstFree);
+  // The step that is about to leave the window is known best: it is judged then, once.
+  const bool isFull = graph_.poses() > window;
+  const auto fit = graph_.windowFit(firstFree, {firstFree + 1, firstFree + (isFull ? 2 : 1)});
+  stepFit_ += fit.steps;
+  graph_.setStepNoise(stepNoiseOf(stepFit_, options_.claimWeight));
 
-  insertIntoMap(*boxes, pose, graph_.pose(pose), result, poseError());
+  insertIntoMap(*boxes, pose, graph_.pose(pose), result, noiseOf(fit.lastPose));
   followMerged(map, graph_, cameras_);
   graph_.removeViews(pose);
   addViews(*boxes, map.lastDecisions(), pose, map);
@@ -133,14 +138,6 @@ CPose3D JointBackEnd::addKeyframe(
   for (const auto& decision : map.lastDecisions())
     if (decision.object) rememberCamera(camera, cameras_[*decision.object]);
   return graph_.pose(pose);
-}
-
-/** The step that is about to leave the window is known best: it is judged then, once. */
-void JointBackEnd::learnStepNoise(std::size_t firstFree)
-{
-  if (graph_.poses() <= static_cast<std::size_t>(options_.window)) return;
-  stepFit_ += graph_.stepFit(firstFree, {firstFree + 1, firstFree + 2});
-  graph_.setStepNoise(stepNoiseOf(stepFit_, options_.claimWeight));
 }
 
 FactorGraph JointBackEnd::globalGraph(

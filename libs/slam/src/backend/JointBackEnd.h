@@ -59,7 +59,6 @@ class JointBackEnd : public BackEnd
       const Decisions& decisions,
       std::size_t pose,
       const CQuadricObjectMap& map);
-  void learnStepNoise(std::size_t firstFree);
   using Priors = std::map<ObjectId, ObjectPrior>;
 
   enum class FirstPose

@@ -110,11 +110,20 @@ class FactorGraph
    * \return Nothing when something is not determined at all. */
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
 
-  /** How the steps agree with all else at the present estimate, (16.21) of doc/mathematics.md.
-   * \param firstFree As in optimiseWindow(). \param steps The first and one past the last pose of
-   * those that steps lead to. \return Zeros when something is not determined at all. */
-  StepFit stepFit(std::size_t firstFree, std::pair<std::size_t, std::size_t> steps);
-  /** The same of all steps, with all poses free. */
+  /** What a window says of its last pose and of the odometry, at the present estimate. Both follow
+   * from one normal matrix. */
+  struct WindowFit
+  {
+    /** Covariance of the increments of the last pose (GraphState.h). */
+    Eigen::Matrix<double, 6, 6> lastPose = Eigen::Matrix<double, 6, 6>::Zero();
+    StepFit steps;  //!< How the steps agree with all else, (16.21) of doc/mathematics.md
+  };
+  /** \param firstFree As in optimiseWindow(). \param steps The first and one past the last pose of
+   * those that the steps in question lead to.
+   * \exception std::runtime_error When the normal matrix cannot be factorised. */
+  WindowFit windowFit(std::size_t firstFree, std::pair<std::size_t, std::size_t> steps);
+  /** How all steps agree with all else, with all poses free.
+   * \return Zeros when something is not determined at all. */
   StepFit stepFit();
 
   /** How much the views of one pose know of the relative pose of one object. */
