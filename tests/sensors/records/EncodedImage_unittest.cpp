@@ -39,3 +39,35 @@ TEST(EncodedImage, NoFormatEscapesTheLimitOfPixels)
   for (const char* format : {".jpg", ".png", ".bmp", ".ppm"})
     EXPECT_FALSE(isRead(encoded(format), kEnough - 1)) << format;
 }
+
+TEST(EncodedImage, JpegHasThePixelsThatOpenCVGives)
+{
+  cv::Mat noise(kRows, kColumns, CV_8UC3);
+  cv::theRNG().state = 7;
+  cv::randu(noise, 0, 256);
+  cv::Mat grey;
+  cv::extractChannel(noise, grey, 0);
+  for (const cv::Mat& image : {noise, grey})
+  {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".jpg", image, bytes);
+    const cv::Mat ours = decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, 1 << 20);
+    ASSERT_EQ(ours.size(), image.size());
+    EXPECT_EQ(cv::norm(ours, cv::imdecode(bytes, cv::IMREAD_COLOR), cv::NORM_INF), 0);
+  }
+}
+
+TEST(EncodedImage, DamageOfAJpegIsTold)
+{
+  auto bytes = encoded(".jpg");
+  bytes.resize(bytes.size() - 20);
+  try
+  {
+    decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, 1 << 20);
+    ADD_FAILURE() << "the end is missing";
+  }
+  catch (const std::runtime_error& e)
+  {
+    EXPECT_NE(std::string(e.what()).find("Premature end of JPEG"), std::string::npos) << e.what();
+  }
+}

@@ -12,6 +12,7 @@
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/StderrCapture.h"
+#include "records/JpegDecoder.h"
 
 namespace quadmap
 {
@@ -67,30 +68,30 @@ ImageSize sizeOfJpeg(const std::uint8_t* bytes, std::size_t size)
   return largest;
 }
 
+bool isJpeg(const std::uint8_t* bytes, std::size_t size)
+{
+  return size >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;
+}
+
 /** Zero when the image has another format or does not tell. */
 ImageSize statedSize(const std::uint8_t* bytes, std::size_t size)
 {
-  constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8}, kPng[] = {0x89, 'P', 'N', 'G'};
+  constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G'};
   constexpr std::size_t kPngWidth = 16, kPngHeight = 20, kPngHead = 24;
-  if (size >= sizeof kJpeg && std::memcmp(bytes, kJpeg, sizeof kJpeg) == 0)
-    return sizeOfJpeg(bytes, size);
+  if (isJpeg(bytes, size)) return sizeOfJpeg(bytes, size);
   if (size >= kPngHead && std::memcmp(bytes, kPng, sizeof kPng) == 0)
     return {bigEndian32(bytes + kPngWidth), bigEndian32(bytes + kPngHeight)};
   return {};
 }
 
-/** libjpeg fills the rest of a damaged image with grey and only says so. Its other remarks, and the
- * warnings of libpng, are about things that do not change the image. */
-bool tellsDamage(const std::string& remarks)
+/** The decoded image, empty when that fails, and why. The warnings of libpng are about things that
+ * do not change the image. */
+std::pair<cv::Mat, std::string> decodedWithReason(
+    const std::uint8_t* bytes, std::size_t size, const ImageSize& stated, int flags)
 {
-  return remarks.find("Corrupt JPEG") != std::string::npos ||
-         remarks.find("Premature end of JPEG") != std::string::npos;
-}
-
-/** The decoded image, empty when that fails, and what the decoders print about it. */
-std::pair<cv::Mat, std::string> decodedWithRemarks(
-    const std::uint8_t* bytes, std::size_t size, int flags)
-{
+  if (isJpeg(bytes, size))
+    return decodedJpeg(
+        bytes, size, static_cast<int>(stated.height), static_cast<int>(stated.width));
   const StderrCapture capture;
   try
   {
@@ -117,10 +118,10 @@ cv::Mat decodeImage(
         static_cast<unsigned long long>(stated.width),
         static_cast<unsigned long long>(stated.height),
         static_cast<unsigned long long>(mostPixels >> 20)));
-  const auto [image, remarks] = decodedWithRemarks(bytes, size, flags);
-  if (image.empty() || tellsDamage(remarks))
+  const auto [image, reason] = decodedWithReason(bytes, size, stated, flags);
+  if (image.empty())
     throw std::runtime_error(
-        "cannot be read as an image" + (remarks.empty() ? "" : ": " + oneLine(remarks)));
+        "cannot be read as an image" + (reason.empty() ? "" : ": " + oneLine(reason)));
   return image;
 }
 
