@@ -59,7 +59,9 @@ double edgesTerm(
 }
 
 /** What the edges of a box alone say, also of a box too few of whose edges are usable for a place.
- * Nothing when no edge is usable. */
+ * Nothing when no edge is usable. Edges beside a hidden lower end count here, other than in the
+ * estimate of an object: they would spoil its width, but a known object and one of them tell where
+ * the camera looks. */
 std::optional<ObjectView> edgeView(
     const DetectedObject& detected,
     const mrpt::poses::CPose3D& T_map_sensor,
