@@ -29,10 +29,12 @@ struct Cli
       "",
       "OUTDIR|EST.tum",
       line.args()};
-  Text objects{"",        "objects",  "True objects, same form as objects.json.", false, "",
-               "gt.json", line.args()};
-  Text trajectory{"",       "trajectory", "True trajectory: time tx ty tz qx qy qz qw.", false, "",
-                  "gt.tum", line.args()};
+  Text objects{"",         "objects", "True objects, same form as objects.json.",
+               false,      "",        "objects.gt.json",
+               line.args()};
+  Text trajectory{"",         "trajectory", "True trajectory: time tx ty tz qx qy qz qw.",
+                  false,      "",           "groundtruth.tum",
+                  line.args()};
   Text json{"", "json", "Write the figures to this file too.", false, "", "FILE", line.args()};
   TCLAP::SwitchArg inPlace{
       "", "in-place", "Both worlds are the same: compare without aligning them.", line.args()};

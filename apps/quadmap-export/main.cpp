@@ -58,10 +58,10 @@ struct Cli
       "DIR",
       line.args()};
   Text truth{"",         "truth", "True objects, drawn in black. Needs --trajectory or --in-place.",
-             false,      "",      "gt.json",
+             false,      "",      "objects.gt.json",
              line.args()};
   Text trajectory{"",         "trajectory", "True trajectory, by which the truth is aligned.",
-                  false,      "",           "gt.tum",
+                  false,      "",           "groundtruth.tum",
                   line.args()};
   TCLAP::SwitchArg inPlace{"", "in-place", "The truth is in the map's frame already.", line.args()};
   Text compare{

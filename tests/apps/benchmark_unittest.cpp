@@ -272,6 +272,12 @@ TEST_F(BenchmarkScripts, MapRecordingsWithWhatTruthThereIs)
   EXPECT_NE(evaluation("0.rgbd.visual").find("0.125"), kNotFound) << "compared with the objects";
   EXPECT_EQ(calls("quadmap-slam"), 2u);
   EXPECT_EQ(calls("quadmap-evaluate"), 1u) << "odometry has no objects";
+
+  std::filesystem::remove_all(folder_.path("results"));
+  std::filesystem::rename(
+      recording.files.path("objects_gt.json"), recording.files.path("objects.gt.json"));
+  ASSERT_EQ(run(plan).status, 0);
+  EXPECT_NE(evaluation("0.rgbd.visual").find("0.125"), kNotFound) << "either name is known";
 }
 
 /** A source tree under git: the scripts, a page with a marker, and a file that stands for the code.

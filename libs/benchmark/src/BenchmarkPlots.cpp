@@ -80,7 +80,7 @@ Picture errorPlotOf(
       if (run->job.method == method && method != "odometry")
         trajectories.push_back({method, readTumTrajectory(inFolder(*run, "trajectory.tum"))});
   return errorOverTimePlot(
-      titleOf(runs.front()->job), readTumTrajectory(inFolder(*runs.front(), "truth.tum")),
+      titleOf(runs.front()->job), readTumTrajectory(inFolder(*runs.front(), "groundtruth.tum")),
       trajectories);
 }
 
@@ -88,8 +88,8 @@ Picture mapPlotOf(const BenchmarkResult& run)
 {
   EvaluationInput input;
   input.estimate = run.folder;
-  input.trueObjectsPath = inFolder(run, "truth.json");
-  input.trueTrajectoryPath = inFolder(run, "truth.tum");
+  input.trueObjectsPath = inFolder(run, "objects.gt.json");
+  input.trueTrajectoryPath = inFolder(run, "groundtruth.tum");
   return mapPlot(
       titleOf(run.job) + ", " + run.job.method, evaluateRun(input),
       readTumTrajectory(inFolder(run, "trajectory.tum")));
@@ -194,10 +194,10 @@ std::map<std::string, Picture> benchmarkPlots(const BenchmarkResults& results)
   std::map<std::string, Picture> plots;
   for (const auto& [subject, runs] : shownRuns(results))
   {
-    if (runs.front()->fileSizes.count("truth.tum") == 0) continue;
+    if (runs.front()->fileSizes.count("groundtruth.tum") == 0) continue;
     plots["error-" + subject + ".svg"] = errorPlotOf(runs, results.methods());
     for (const auto* run : runs)
-      if (run->job.method == "rgbd" && run->fileSizes.count("truth.json"))
+      if (run->job.method == "rgbd" && run->fileSizes.count("objects.gt.json"))
         plots["map-" + subject + ".svg"] = mapPlotOf(*run);
   }
   plots["classes-trans.svg"] = classesPlot(
