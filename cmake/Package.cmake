@@ -45,7 +45,7 @@ write_basic_package_version_file(quadmapConfigVersion.cmake COMPATIBILITY SameMi
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfigVersion.cmake DESTINATION ${configDir})
 # The pages in the places in which they point to each other.
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES rawlogs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/rawlogs)
 install(FILES libs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/libs)

@@ -6,7 +6,7 @@ share=$(cd "$2" && pwd)
 cd "$1"
 failed=0
 missing() { echo "$1 points to $2"; failed=1; }
-for page in README.md doc/*.md doc/guide/*.md rawlogs/README.md; do
+for page in README.md CHANGELOG.md doc/*.md doc/guide/*.md rawlogs/README.md; do
   while read -r target; do
     [[ -e $(dirname "$page")/${target%%#*} ]] || missing "$page" "$target"
   done < <(grep -oE '\]\([^)]+\)' "$page" | sed 's/^](//; s/)$//' | grep -vE '^(https?:|#)')
