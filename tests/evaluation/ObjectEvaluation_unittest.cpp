@@ -240,20 +240,26 @@ TEST(EvaluateObjects, CarriesTheEstimatesIntoTheTruthsWorld)
 
 TEST(EvaluateObjects, SaysHowTheErrorsCompareWithTheClaimedCovariances)
 {
-  // The estimate is 0.03 m off along its world's x, where it claims 0.01 m, and 0.02 m along its z.
-  // Its world is turned by a quarter against the truth's.
-  const auto truth = object("1", "tv", CPose3D(0, 1, 0.5, 0.3, 0, 0));
-  auto estimated = object("1", "tv", CPose3D(1.03, 0, 0.52, 0.3 - M_PI / 2 + 0.04, 0, 0));
-  const CPose3D T_truth_estimated(0, 0, 0, M_PI / 2, 0, 0);
-  EXPECT_FALSE(evaluateObjects({truth}, {estimated}, T_truth_estimated).meanCenterNees());
-  estimated.covariance.emplace();
-  estimated.covariance->setIdentity();
-  estimated.covariance->diagonal().head<4>() << 1e-4, 1.0, 4e-4, 4e-4;
-  const auto e = evaluateObjects({truth}, {estimated}, T_truth_estimated);
-  ASSERT_EQ(e.matches.size(), 1u);
-  EXPECT_NEAR(e.meanCenterNees().value(), 9 + 1, 1e-6);
-  EXPECT_NEAR(e.meanHeightNees().value(), 1, 1e-6);
-  EXPECT_NEAR(e.meanYawNees().value(), 4, 1e-6);
+  // The estimate is 0.03 m off along its world's x, where it claims 0.01 m, and 0.02 m along its z,
+  // which is up. In the truth's world up is anywhere.
+  const CPose3D T_map_truth(1, 0, 0.5, 0.3, 0, 0);
+  auto estimated = object("1", "tv", CPose3D(1.03, 0, 0.52, 0.3 + 0.04, 0, 0));
+  RandomGeometry random(11);
+  for (const CPose3D& T_truth_estimated :
+       {CPose3D(0, 0, 0, M_PI / 2, 0, 0), CPose3D(0, 0, 0, 0, 0, M_PI / 2), random.pose(4)})
+  {
+    const auto truth = object("1", "tv", T_truth_estimated + T_map_truth);
+    estimated.covariance.reset();
+    EXPECT_FALSE(evaluateObjects({truth}, {estimated}, T_truth_estimated).meanCenterNees());
+    estimated.covariance.emplace();
+    estimated.covariance->setIdentity();
+    estimated.covariance->diagonal().head<4>() << 1e-4, 1.0, 4e-4, 4e-4;
+    const auto e = evaluateObjects({truth}, {estimated}, T_truth_estimated);
+    ASSERT_EQ(e.matches.size(), 1u);
+    EXPECT_NEAR(e.meanCenterNees().value(), 9 + 1, 1e-6);
+    EXPECT_NEAR(e.meanHeightNees().value(), 1, 1e-6);
+    EXPECT_NEAR(e.meanYawNees().value(), 4, 1e-6);
+  }
 }
 
 TEST(EvaluateObjects, AveragesAnglesOverDefinedOrientationsOnly)

@@ -81,7 +81,8 @@ std::vector<std::size_t> assign(
   return columnOfRow;
 }
 
-/** (20.8) of the errors of an estimate, in the world of the truth. */
+/** (20.8) of the errors of an estimate. The world is that of the estimate, where z is up: in that
+ * of the truth up may be anywhere. */
 void compareWithCovariance(
     const Ellipsoid& truth, const ObjectRecord& estimated, ObjectComparison& result)
 {
@@ -102,19 +103,6 @@ void compareWithCovariance(
     const double turn = std::remainder(yaw - trueYaw, M_PI / 2);
     result.yawNees = turn * turn / yawVariance;
   }
-}
-
-/** The object in another world, with its covariance. */
-ObjectRecord carried(ObjectRecord record, const mrpt::poses::CPose3D& T_to_from)
-{
-  record.object = record.object.transformed(T_to_from);
-  if (record.covariance)
-  {
-    Eigen::Matrix<double, 7, 7> turn = Eigen::Matrix<double, 7, 7>::Identity();
-    turn.topLeftCorner<3, 3>() = T_to_from.getRotationMatrix().asEigen();
-    record.covariance = turn * *record.covariance * turn.transpose();
-  }
-  return record;
 }
 
 /** Mean of a figure over the matches that have it. */
@@ -169,7 +157,6 @@ ObjectComparison compareObjects(const ObjectRecord& truth, const ObjectRecord& e
   }
   else
     result.shapeIoU = shapeIoUKeepingVertical(t, e);
-  compareWithCovariance(t, estimated, result);
   return result;
 }
 
@@ -221,8 +208,12 @@ ObjectEvaluation evaluateObjects(
     const mrpt::poses::CPose3D& T_truth_estimated,
     const ObjectEvaluationOptions& options)
 {
-  std::vector<ObjectRecord> inTruth;
-  for (const auto& record : estimated) inTruth.push_back(carried(record, T_truth_estimated));
+  std::vector<ObjectRecord> inTruth = estimated;
+  for (auto& record : inTruth)
+  {
+    record.object = record.object.transformed(T_truth_estimated);
+    record.covariance.reset();
+  }
 
   const auto estimatedOfTruth = assign(truth, inTruth, options);
   ObjectEvaluation result;
@@ -233,7 +224,10 @@ ObjectEvaluation evaluateObjects(
     if (j < inTruth.size())
     {
       taken[j] = true;
-      result.matches.push_back({truth[i], inTruth[j], compareObjects(truth[i], inTruth[j])});
+      auto comparison = compareObjects(truth[i], inTruth[j]);
+      compareWithCovariance(
+          truth[i].object.transformed(-T_truth_estimated), estimated[j], comparison);
+      result.matches.push_back({truth[i], inTruth[j], comparison});
     }
     else if (truth[i].framesVisible && *truth[i].framesVisible < options.minFramesVisible)
       result.uncounted.push_back(truth[i]);
