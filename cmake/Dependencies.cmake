@@ -19,3 +19,11 @@ else()
   set(OPENNI2_FOUND FALSE)
   message(STATUS "OpenNI2 not found (libopenni2-dev): the programs are built without cameras")
 endif()
+
+# Dense clouds are made with PCL where it is installed. Of VTK, which the parts that are used do not
+# need, its configuration would ask for MPI and Qt.
+set(CMAKE_DISABLE_FIND_PACKAGE_VTK TRUE)
+find_package(PCL 1.12 QUIET COMPONENTS common kdtree search features filters segmentation)
+if(NOT PCL_FOUND)
+  message(STATUS "PCL not found (libpcl-dev): the programs are built without dense clouds")
+endif()

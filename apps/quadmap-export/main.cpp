@@ -4,10 +4,12 @@
 #include <regex>
 #include <string>
 
+#include "DenseExport.h"
 #include "ExportInput.h"
 #include "common/CommandLine.h"
 #include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/dense/DenseCloud.h"
 #include "quadmap/review/ContactSheet.h"
 #include "quadmap/review/GlbFile.h"
 #include "quadmap/review/KeyframePictures.h"
@@ -57,6 +59,25 @@ struct Cli
       "",
       "DIR",
       line.args()};
+  Text cloud{
+      "",
+      "cloud",
+      "The room as a cloud of points with normals, fused from all keyframes (.pcd or .ply).",
+      false,
+      "",
+      "FILE",
+      line.args()};
+  Text objectClouds{
+      "",
+      "object-clouds",
+      "Folder for the points of each object, as ID_LABEL.pcd; made when missing.",
+      false,
+      "",
+      "DIR",
+      line.args()};
+  Text config{"",         "config", "Section [dense]: how --cloud and --object-clouds are made.",
+              false,      "",       "FILE.ini",
+              line.args()};
   Text truth{"",         "truth", "True objects, drawn in black. Needs --trajectory or --in-place.",
              false,      "",      "objects.gt.json",
              line.args()};
@@ -109,13 +130,17 @@ void checkUsage(Cli& cli)
     throw cli::UsageError("--trajectory and --in-place belong to --truth");
   if (cli.compare.isSet() && (cli.truth.isSet() || !cli.html.isSet()))
     throw cli::UsageError("--compare: belongs to --html, and goes without --truth");
+  if (cli.cloud.isSet() && !isCloudName(cli.cloud.getValue()))
+    throw cli::UsageError("--cloud: the name must end in .pcd or .ply");
+  if (cli.config.isSet() && !cli.cloud.isSet() && !cli.objectClouds.isSet())
+    throw cli::UsageError("--config: belongs to --cloud and --object-clouds");
   for (const auto* output :
        {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
-        &cli.frames})
+        &cli.frames, &cli.cloud, &cli.objectClouds})
     if (output->isSet()) return;
   throw cli::UsageError(
-      "nothing to write: give --html, --scene, --png, --top, --ply, --glb, --sheet, --json or "
-      "--frames");
+      "nothing to write: give --html, --scene, --png, --top, --ply, --glb, --sheet, --json, "
+      "--frames, --cloud or --object-clouds");
 }
 
 /** Runs a writer if its file was asked for, and prints the name of the file. */
@@ -166,6 +191,9 @@ void writeScenes(Cli& cli, const SceneContent& content)
 {
   const PictureSize size = pictureSizeFrom(cli.size.getValue());
   writeFrames(cli, content.objects);
+  writeDenseClouds(
+      cli.input.getValue(), content.objects,
+      {given(cli.cloud), given(cli.objectClouds), given(cli.config)});
   const SceneBuilder builder;
   writeIfSet(cli.json, [&](const auto& path) { writeObjectsJson(path, content.objects); });
   writeIfSet(cli.ply, [&](const auto& path) { writePly(content, path); });

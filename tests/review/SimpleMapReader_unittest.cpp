@@ -1,4 +1,4 @@
-#include "SimpleMapReader.h"
+#include "quadmap/sensors/SimpleMapReader.h"
 
 #include <gtest/gtest.h>
 

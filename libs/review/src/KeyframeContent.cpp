@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "SimpleMapReader.h"
+#include "quadmap/sensors/SimpleMapReader.h"
 
 namespace quadmap
 {

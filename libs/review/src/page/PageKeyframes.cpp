@@ -8,9 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "BoxObjects.h"
-#include "SimpleMapReader.h"
+#include "quadmap/obs/BoxObjects.h"
 #include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/sensors/SimpleMapReader.h"
 
 namespace quadmap
 {

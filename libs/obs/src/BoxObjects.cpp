@@ -1,4 +1,4 @@
-#include "BoxObjects.h"
+#include "quadmap/obs/BoxObjects.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "SimpleMapReader.h"
+#include "quadmap/sensors/SimpleMapReader.h"
 
 #include <mrpt/core/format.h>
 #include <mrpt/obs/registerAllClasses.h>

@@ -1,0 +1,37 @@
+#include "DenseExport.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "common/ProgressBar.h"
+#include "quadmap/dense/ObjectPoints.h"
+#include "quadmap/dense/RoomCloud.h"
+
+namespace quadmap
+{
+void writeDenseClouds(
+    const std::string& result, const std::vector<ObjectRecord>& objects, const DenseExport& wanted)
+{
+  if (!wanted.cloud && !wanted.objectClouds) return;
+  const std::string option = wanted.cloud ? "--cloud" : "--object-clouds";
+  requirePcl(option);
+  if (!std::filesystem::is_directory(result))
+    throw std::runtime_error(result + ": " + option + " needs a folder that quadmap-slam wrote");
+  const DenseOptions options = wanted.config ? readDenseOptions(*wanted.config) : DenseOptions();
+  if (wanted.cloud)
+  {
+    cli::ProgressBar bar;
+    const DenseCloud cloud = fuseRoom(result, options, [&](double share) { bar(share); });
+    writeCloud(cloud, *wanted.cloud);
+    std::cout << "wrote " << *wanted.cloud << ": " << cloud.size() << " points\n";
+  }
+  if (!wanted.objectClouds) return;
+  cli::ProgressBar bar;
+  const auto found = findObjectPoints(result, objects, options, [&](double share) { bar(share); });
+  const auto names = writeObjectClouds(found, *wanted.objectClouds);
+  std::cout << "wrote the clouds of " << names.size() << " of " << objects.size()
+            << " objects into " << *wanted.objectClouds << "\n";
+}
+
+}  // namespace quadmap

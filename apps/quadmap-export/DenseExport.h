@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadmap/obs/ObjectList.h"
+
+namespace quadmap
+{
+/** The clouds that were asked for. */
+struct DenseExport
+{
+  std::optional<std::string> cloud;         //!< File for the cloud of the room
+  std::optional<std::string> objectClouds;  //!< Folder for a cloud of each object
+  std::optional<std::string> config;        //!< INI file with a section [dense]
+};
+
+/** Makes the clouds from the keyframes of a run, with a bar on a terminal, and says what was
+ * written. \param result Folder of quadmap-slam. \param objects The objects of its map. \exception
+ * std::runtime_error For files that cannot be read or written, and without PCL. */
+void writeDenseClouds(
+    const std::string& result, const std::vector<ObjectRecord>& objects, const DenseExport& wanted);
+
+}  // namespace quadmap

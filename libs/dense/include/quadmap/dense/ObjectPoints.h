@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadmap/dense/DenseCloud.h"
+#include "quadmap/dense/DenseOptions.h"
+#include "quadmap/obs/ObjectList.h"
+
+namespace quadmap
+{
+/** The points of one object of a map, as the depth images and the detector's boxes tell them: what
+ * lies in its boxes, stands on its support and hangs together. The map says which boxes are of the
+ * object and about where it is, but nothing about its size. */
+struct ObjectPoints
+{
+  ObjectRecord record;                  //!< As the map has it
+  DenseCloud cloud;                     //!< Empty when nothing was found
+  std::vector<float> weights;           //!< Of each point: how much was measured there
+  std::optional<double> supportHeight;  //!< z of the surface it stands on, in the map [m]
+  std::vector<Eigen::Vector3d> eyes;    //!< Where the cameras of its boxes were, in the map [m]
+};
+
+/** Finds the points of all objects of a run, in their order.
+ * \param result Folder of quadmap-slam: map.simplemap, objects.simplemap and report.json are read.
+ * \param objects The objects of its map.
+ * \param progress Called with the share of the keyframes that is done, in [0, 1].
+ * \exception std::runtime_error For files that cannot be read, and without PCL. */
+std::vector<ObjectPoints> findObjectPoints(
+    const std::string& result,
+    const std::vector<ObjectRecord>& objects,
+    const DenseOptions& options,
+    const std::function<void(double)>& progress);
+
+/** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd, all of them or none. The
+ * folder is made when missing. \return The names of the files.
+ * \exception std::runtime_error If they cannot be written. */
+std::vector<std::string> writeObjectClouds(
+    const std::vector<ObjectPoints>& objects, const std::string& folder);
+
+}  // namespace quadmap

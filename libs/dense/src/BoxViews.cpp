@@ -1,0 +1,50 @@
+#include "BoxViews.h"
+
+#include "IsometryOf.h"
+
+namespace quadmap
+{
+std::optional<bool> BoxView::contains(const Eigen::Vector3d& p_map) const
+{
+  // The edges of a box err by some pixels: as those of a picture 640 pixels wide.
+  constexpr double kSlack = 3.0 / 640;
+  const Eigen::Vector3d p = T_optical_map * p_map;
+  if (!(p.z() > 0.05)) return std::nullopt;
+  const Eigen::Vector2d pixel = camera.project(p);
+  if (!(pixel.x() >= 0 && pixel.x() < camera.width && pixel.y() >= 0 && pixel.y() < camera.height))
+    return std::nullopt;
+  const double slack = kSlack * camera.width;
+  return !(
+      (usable[0] && pixel.x() < box.x1 - slack) || (usable[1] && pixel.y() < box.y1 - slack) ||
+      (usable[2] && pixel.x() > box.x2 + slack) || (usable[3] && pixel.y() > box.y2 + slack));
+}
+
+std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
+{
+  const DetectedObject& seen = image.boxes->objects[box];
+  if (!seen.measurement.edges) return std::nullopt;
+  BoxView view;
+  view.camera = pinholeFrom(image.boxes->cameraParams);
+  view.T_optical_map =
+      (isometryOf(image.T_map_robot + image.scan->sensorPose) * isometryOf(T_sensor_optical()))
+          .inverse();
+  view.box = seen.box;
+  for (std::size_t side = 0; side < view.usable.size(); ++side)
+    view.usable[side] = (*seen.measurement.edges)[side].state == EdgeState::Usable;
+  return view;
+}
+
+double boxShare(const std::vector<BoxView>& views, const Eigen::Vector3d& p_map)
+{
+  std::size_t shown = 0, inside = 0;
+  for (const BoxView& view : views)
+    if (const auto isInside = view.contains(p_map))
+    {
+      ++shown;
+      inside += *isInside ? 1 : 0;
+    }
+  if (inside == 0 || 4 * shown < views.size()) return 0;
+  return static_cast<double>(inside) / static_cast<double>(shown);
+}
+
+}  // namespace quadmap

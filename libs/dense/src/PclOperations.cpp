@@ -1,0 +1,94 @@
+#include <pcl/features/normal_3d_omp.h>
+#include <pcl/filters/statistical_outlier_removal.h>
+#include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
+#include <pcl/segmentation/extract_clusters.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "PointOperations.h"
+#include "quadmap/dense/DenseCloud.h"
+
+namespace quadmap
+{
+namespace
+{
+using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
+
+PclCloud::Ptr pclCloud(const pointOperations::Points& points)
+{
+  PclCloud::Ptr cloud(new PclCloud);
+  cloud->reserve(points.size());
+  for (const Eigen::Vector3f& p : points) cloud->emplace_back(p.x(), p.y(), p.z());
+  return cloud;
+}
+
+std::vector<std::size_t> ascending(const pcl::Indices& indices)
+{
+  std::vector<std::size_t> sorted(indices.begin(), indices.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+}  // namespace
+
+void requirePcl(const std::string&) {}
+
+std::vector<std::size_t> pointOperations::withoutOutliers(
+    const Points& points, int neighbours, double standardDeviations)
+{
+  if (points.empty()) return {};
+  pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
+  filter.setInputCloud(pclCloud(points));
+  filter.setMeanK(neighbours);
+  filter.setStddevMulThresh(standardDeviations);
+  pcl::Indices kept;
+  filter.filter(kept);
+  return ascending(kept);
+}
+
+std::vector<pointOperations::SurfaceNormal> pointOperations::surfaceNormals(
+    const Points& points, int neighbours)
+{
+  std::vector<SurfaceNormal> normals(points.size());
+  if (points.empty()) return normals;
+  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setInputCloud(pclCloud(points));
+  estimation.setSearchMethod(
+      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
+  estimation.setKSearch(neighbours);
+  pcl::PointCloud<pcl::Normal> found;
+  estimation.compute(found);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+  {
+    const pcl::Normal& n = found[i];
+    if (!std::isfinite(n.normal_x) || !std::isfinite(n.curvature)) continue;
+    normals[i] = {n.getNormalVector3fMap(), n.curvature};
+  }
+  return normals;
+}
+
+std::vector<std::vector<std::size_t>> pointOperations::connectedParts(
+    const Points& points, double distance)
+{
+  if (points.empty()) return {};
+  const PclCloud::Ptr cloud = pclCloud(points);
+  pcl::search::KdTree<pcl::PointXYZ>::Ptr tree(new pcl::search::KdTree<pcl::PointXYZ>);
+  tree->setInputCloud(cloud);
+  pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setSearchMethod(tree);
+  extraction.setClusterTolerance(distance);
+  std::vector<pcl::PointIndices> clusters;
+  extraction.extract(clusters);
+  std::vector<std::vector<std::size_t>> parts;
+  for (const auto& cluster : clusters) parts.push_back(ascending(cluster.indices));
+  std::sort(
+      parts.begin(), parts.end(),
+      [](const auto& a, const auto& b)
+      { return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front(); });
+  return parts;
+}
+
+}  // namespace quadmap
