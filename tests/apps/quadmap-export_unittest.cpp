@@ -231,6 +231,67 @@ TEST_F(QuadmapExport, DrawsThePicturesOfTheKeyframes)
   expectError("DIR/room", "objects.simplemap");
 }
 
+TEST_F(QuadmapExport, RefusesCloudsThatItCannotWrite)
+{
+  const auto expectError = [&](const std::string& arguments, int status, const std::string& text)
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, status) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(text), kNotFound) << result.err;
+  };
+  expectError("DIR --cloud DIR/c.obj", 2, "must end in .pcd or .ply");
+  expectError("DIR --json DIR/o.json --config DIR/d.ini", 2, "belongs to --cloud");
+#ifdef QUADMAP_WITH_PCL
+  expectError("DIR/objects.quadmap --cloud DIR/c.pcd", 1, "--cloud needs a folder");
+  expectError("DIR --object-clouds DIR/c", 1, "objects.simplemap");
+  folder_.write("d.ini", "[dense]\nroomCell = -1\n");
+  expectError("DIR --cloud DIR/c.pcd -c DIR/d.ini", 1, "roomCell");
+  EXPECT_FALSE(exists("c.pcd") || exists("c"));
+#else
+  expectError("DIR --cloud DIR/c.pcd", 1, "built without PCL");
+#endif
+}
+
+#ifdef QUADMAP_WITH_PCL
+TEST_F(QuadmapExport, WritesTheSameCloudsWhateverTheThreads)
+{
+  const auto recording = folder_.path("room");
+  ASSERT_EQ(
+      runProgram(
+          "quadmap-simulate", "home --resolution 160x120 --frames 30 -o " + recording + ".rawlog")
+          .status,
+      0);
+  ASSERT_EQ(
+      runProgram(
+          "quadmap-slam", recording + ".rawlog --every 1 --odometry ground-truth -o " + recording)
+          .status,
+      0);
+  folder_.write("d.ini", "[dense]\nroomCell = 0.03\nobjectCell = 0.02\n");
+  for (const char* threads : {"1", "3"})
+  {
+    ::setenv("OMP_NUM_THREADS", threads, 1);
+    const std::string arguments = "DIR/room -c DIR/d.ini --cloud DIR/" + std::string(threads) +
+                                  ".ply --object-clouds DIR/new/clouds" + threads;
+    const auto result = run(arguments);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("points"), kNotFound) << result.out;
+  }
+  ::unsetenv("OMP_NUM_THREADS");
+  EXPECT_EQ(readFile(folder_.path("1.ply")), readFile(folder_.path("3.ply")));
+  EXPECT_GT(readFile(folder_.path("1.ply")).size(), 100000u);
+  std::size_t clouds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path("new/clouds1")))
+  {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(readFile(entry.path().string()), readFile(folder_.path("new/clouds3/" + name)))
+        << name;
+    ++clouds;
+  }
+  EXPECT_GE(clouds, 5u);
+}
+#endif
+
 TEST_F(QuadmapExport, NamesTheFileItCannotRead)
 {
   const auto expectError = [&](const std::string& arguments, const std::string& name)
