@@ -75,7 +75,7 @@ struct Cli
       "",
       "DIR",
       line.args()};
-  Text config{"",         "config", "Section [dense]: how --cloud and --object-clouds are made.",
+  Text config{"c",        "config", "Section [dense]: how --cloud and --object-clouds are made.",
               false,      "",       "FILE.ini",
               line.args()};
   Text truth{"",         "truth", "True objects, drawn in black. Needs --trajectory or --in-place.",
