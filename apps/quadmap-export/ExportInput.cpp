@@ -4,7 +4,8 @@
 #include <stdexcept>
 
 #include "quadmap/evaluation/EvaluationReport.h"
-#include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/maps/MapFile.h"
+#include "quadmap/maps/ObjectRecords.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/review/KeyframeContent.h"
 #include "quadmap/review/PageKeyframes.h"
@@ -21,18 +22,6 @@ std::vector<mrpt::poses::CPose3D> posesOf(const fs::path& path)
   if (!fs::exists(path)) return poses;
   for (const StampedPose& stamped : readTumTrajectory(path.string())) poses.push_back(stamped.pose);
   return poses;
-}
-
-CQuadricObjectMap readMap(const std::string& input)
-{
-  const fs::path path = input;
-  if (!fs::exists(path)) throw std::runtime_error(input + ": there is no such file or folder");
-  const fs::path mapPath = fs::is_directory(path) ? path / "objects.quadmap" : path;
-  if (!fs::exists(mapPath))
-    throw std::runtime_error(mapPath.string() + ": is missing; is this a folder of quadmap-slam?");
-  CQuadricObjectMap map;
-  map.loadFromFile(mapPath.string());
-  return map;
 }
 
 /** The true objects in the frame of the map. */
@@ -76,14 +65,7 @@ SceneContent readScene(
 PageObject pageObjectOf(const MapObject& object)
 {
   PageObject out;
-  out.record.id = std::to_string(object.id);
-  out.record.label = object.label();
-  out.record.object = object.object;
-  out.record.orientationDefined = object.orientationDefined;
-  out.record.observations = object.observations();
-  out.record.existence = object.existence();
-  out.record.labelCounts = object.labelCounts;
-  out.record.covariance = object.covariance;
+  out.record = recordOf(object);
   out.confirmed = object.confirmed;
   out.misses = object.missCount;
   out.firstSeen = mrpt::Clock::toDouble(object.firstSeen);

@@ -1,5 +1,8 @@
 #include "Commands.h"
 
+#include <mrpt/system/datetime.h>
+
+#include <algorithm>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -7,6 +10,7 @@
 #include "ObjectTable.h"
 #include "common/CommandLine.h"
 #include "quadmap/maps/MapEdits.h"
+#include "quadmap/maps/MapFile.h"
 
 namespace quadmap
 {
@@ -32,8 +36,7 @@ struct EditCli
   }
 
   cli::CommandLine line;
-  TCLAP::UnlabeledValueArg<std::string> file{"FILE",     "An objects.quadmap.", true, "", "FILE",
-                                             line.args()};
+  TCLAP::UnlabeledValueArg<std::string> file{"MAP", kMapHelp, true, "", "MAP", line.args()};
   Text output{"o",           "output",   "The changed map; may be the same file.", true, "",
               "out.quadmap", line.args()};
 };
@@ -44,17 +47,37 @@ void requireObject(const CQuadricObjectMap& map, ObjectId id, const std::string&
     throw std::runtime_error(path + ": has no object with id " + std::to_string(id));
 }
 
+/** When the confirmed objects were seen, as a line; empty when there is none. */
+std::string timesSeen(const CQuadricObjectMap& map)
+{
+  const auto confirmed = map.confirmedObjects();
+  if (confirmed.empty()) return "";
+  auto first = confirmed.front()->firstSeen, last = confirmed.front()->lastSeen;
+  for (const MapObject* object : confirmed)
+  {
+    first = std::min(first, object->firstSeen);
+    last = std::max(last, object->lastSeen);
+  }
+  return "seen:   " + mrpt::system::dateTimeToString(first) + " ... " +
+         mrpt::system::dateTimeToString(last) + " UTC\n";
+}
+
 }  // namespace
 
 void infoCommand(int argc, char** argv)
 {
   cli::CommandLine line("quadmap-map info", "Shows what a map contains.", QUADMAP_VERSION);
   TCLAP::UnlabeledValueArg<std::string> file(
-      "FILE", "An objects.quadmap.", true, "", "FILE", line.args());
+      "MAP", std::string(kMapHelp) + " Or an objects.json.", true, "", "MAP", line.args());
   if (!line.parse(argc, argv)) return;
-  CQuadricObjectMap map;
-  map.loadFromFile(file.getValue());
-  std::cout << mapSummary(map, file.getValue());
+  const std::string& path = file.getValue();
+  if (isObjectList(path))
+    std::cout << mapSummary(readInventory(path), path, "");
+  else
+  {
+    const CQuadricObjectMap map = readMap(path);
+    std::cout << mapSummary(inventoryOf(map), path, timesSeen(map));
+  }
 }
 
 void relabelCommand(int argc, char** argv)
@@ -67,10 +90,9 @@ void relabelCommand(int argc, char** argv)
       cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
   if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
-  CQuadricObjectMap map;
-  map.loadFromFile(cli.file.getValue());
+  CQuadricObjectMap map = readMap(cli.file.getValue());
   requireObject(map, id.getValue(), cli.file.getValue());
-  if (!anyLabel.getValue()) requireLabel(map, label.getValue(), cli.file.getValue());
+  if (!anyLabel.getValue()) requireLabel(inventoryOf(map), label.getValue(), cli.file.getValue());
   map.relabel(id.getValue(), label.getValue());
   cli.write(map);
 }
@@ -81,8 +103,7 @@ void removeCommand(int argc, char** argv)
   TCLAP::MultiArg<unsigned> ids(
       "", "id", "An object; may be given several times.", true, "N", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
-  CQuadricObjectMap map;
-  map.loadFromFile(cli.file.getValue());
+  CQuadricObjectMap map = readMap(cli.file.getValue());
   for (const unsigned id : ids.getValue())
   {
     requireObject(map, id, cli.file.getValue());
@@ -99,8 +120,7 @@ void mergeCommand(int argc, char** argv)
   if (!cli.line.parse(argc, argv)) return;
   if (kept.getValue() == absorbed.getValue())
     throw cli::UsageError("--keep and --absorb: must be two objects");
-  CQuadricObjectMap map;
-  map.loadFromFile(cli.file.getValue());
+  CQuadricObjectMap map = readMap(cli.file.getValue());
   requireObject(map, kept.getValue(), cli.file.getValue());
   requireObject(map, absorbed.getValue(), cli.file.getValue());
   map.merge(kept.getValue(), absorbed.getValue());
@@ -114,8 +134,7 @@ void applyCommand(int argc, char** argv)
       "EDITS", "The list (.json).", true, "", "EDITS", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
   const std::vector<MapEdit> edits = readMapEdits(list.getValue());
-  CQuadricObjectMap map;
-  map.loadFromFile(cli.file.getValue());
+  CQuadricObjectMap map = readMap(cli.file.getValue());
   try
   {
     applyEdits(edits, map);

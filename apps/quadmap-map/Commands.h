@@ -2,6 +2,11 @@
 
 namespace quadmap
 {
+/** What the argument MAP of all sub-commands may be, for --help. */
+inline constexpr const char* kMapHelp =
+    "A folder that quadmap-slam wrote, its objects.quadmap, or its objects.simplemap, which is "
+    "mapped anew.";
+
 /** The sub-commands of quadmap-map. `argv[0]` is the sub-command's name.
  * \exception cli::UsageError For wrong arguments. \exception std::runtime_error Names the file. */
 void infoCommand(int argc, char** argv);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "ObjectTable.h"
 #include "common/CommandLine.h"
 #include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/ErrorText.h"
+#include "quadmap/relations/AnswerFile.h"
+#include "quadmap/relations/Questions.h"
 
 namespace quadmap
 {
@@ -20,17 +24,24 @@ struct Cli
 
   cli::CommandLine line{
       "quadmap-map query",
-      "Lists the objects that fulfil all conditions given; all objects without any.",
+      "Answers a question as \"nearest chair to the tv\", \"cup on table\", \"chairs\", \"books "
+      "near "
+      "the laptop\" or \"cup between the tv and the keyboard\", of those objects that fulfil all "
+      "conditions given. Relations are on, in, under, next to, near, in front of, behind and "
+      "between. Without a question it lists the objects that fulfil all conditions. The status is "
+      "1 when there are none.",
       QUADMAP_VERSION};
-  TCLAP::UnlabeledValueArg<std::string> file{"FILE",     "An objects.quadmap.", true, "", "FILE",
-                                             line.args()};
+  TCLAP::UnlabeledValueArg<std::string> file{
+      "MAP", std::string(kMapHelp) + " Or an objects.json.", true, "", "MAP", line.args()};
+  TCLAP::UnlabeledMultiArg<std::string> question{
+      "QUESTION", "In a few words; quotes are not needed.", false, "QUESTION", line.args()};
   Text label{"", "label", "Only objects of this label.", false, "", "LABEL", line.args()};
   Text near{"",      "near",     "Nearest to this place first, with distances [m].", false, "",
             "x,y,z", line.args()};
   Text region{"",         "region", "Only objects whose centre lies in this box [m].",
               false,      "",       "x1,y1,z1,x2,y2,z2",
               line.args()};
-  TCLAP::ValueArg<unsigned> id{"", "id", "Only this object.", false, 0, "N", line.args()};
+  Text id{"", "id", "Only this object.", false, "", "N", line.args()};
   TCLAP::SwitchArg footprint{"", "footprint", "Show the outlines on the floor.", line.args()};
   TCLAP::SwitchArg json{"", "json", "Print in the form of objects.json.", line.args()};
 };
@@ -56,59 +67,107 @@ std::vector<double> numbersOf(TCLAP::ValueArg<std::string>& argument, std::size_
   return numbers;
 }
 
-std::vector<const MapObject*> candidates(Cli& cli, const CQuadricObjectMap& map)
+/** What the conditions accept, and the place that distances are from. */
+AnswerLimits limitsOf(Cli& cli, const Inventory& inventory)
 {
-  if (cli.id.isSet())
+  AnswerLimits limits;
+  if (cli.near.isSet())
   {
-    const MapObject* object = map.find(cli.id.getValue());
-    if (!object)
-      throw std::runtime_error(
-          cli.file.getValue() + ": has no object with id " + std::to_string(cli.id.getValue()));
-    return {object};
+    const std::vector<double> p = numbersOf(cli.near, 3);
+    limits.place = Eigen::Vector3d(p[0], p[1], p[2]);
   }
-  return cli.label.isSet() ? map.withLabel(cli.label.getValue()) : map.confirmedObjects();
-}
-
-/** Keeps what is in both lists. */
-void intersect(std::vector<const MapObject*>& list, const std::vector<const MapObject*>& other)
-{
-  const auto isMissing = [&](const MapObject* object)
-  { return std::find(other.begin(), other.end(), object) == other.end(); };
-  list.erase(std::remove_if(list.begin(), list.end(), isMissing), list.end());
-}
-
-std::vector<ObjectRow> rowsOf(Cli& cli, const CQuadricObjectMap& map)
-{
-  std::vector<const MapObject*> objects = candidates(cli, map);
-  if (cli.id.isSet() && cli.label.isSet()) intersect(objects, map.withLabel(cli.label.getValue()));
+  std::optional<std::string> id, label;
+  if (cli.id.isSet()) id = cli.id.getValue();
+  if (cli.label.isSet()) label = inventory.labels.canonical(cli.label.getValue());
+  std::optional<mrpt::math::TBoundingBox> region;
   if (cli.region.isSet())
   {
     const std::vector<double> v = numbersOf(cli.region, 6);
-    intersect(
-        objects, map.inRegion(mrpt::math::TBoundingBox::FromUnsortedPoints(
-                     {v[0], v[1], v[2]}, {v[3], v[4], v[5]})));
+    region = mrpt::math::TBoundingBox::FromUnsortedPoints({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
   }
+  limits.accepts = [=, &inventory](const ObjectRecord& object)
+  {
+    const Eigen::Vector3d c = object.object.center();
+    return (!id || object.id == *id) &&
+           (!label || inventory.labels.canonical(object.label) == *label) &&
+           (!region || region->containsPoint({c.x(), c.y(), c.z()}));
+  };
+  return limits;
+}
+
+/** Conditions that name what is not there are mistakes. */
+void checkConditions(Cli& cli, const Inventory& inventory)
+{
+  const std::string& path = cli.file.getValue();
+  const bool isNumber = cli.id.getValue().find_first_not_of("0123456789") == std::string::npos;
+  if (cli.id.isSet() && !isNumber && !isObjectList(path))
+    throw cli::UsageError("--id: expected a number, got '" + oneLine(cli.id.getValue()) + "'");
+  if (cli.label.isSet()) requireLabel(inventory, cli.label.getValue(), path);
+  const auto hasId = [&](const InventoryItem& item) { return item.record.id == cli.id.getValue(); };
+  if (cli.id.isSet() && std::none_of(inventory.items.begin(), inventory.items.end(), hasId))
+    throw std::runtime_error(path + ": has no object with id " + oneLine(cli.id.getValue()));
+}
+
+/** The confirmed objects, or the one asked for, that fulfil the conditions. */
+std::vector<ObjectRow> rowsOf(Cli& cli, const Inventory& inventory, const AnswerLimits& limits)
+{
   std::vector<ObjectRow> rows;
-  for (const MapObject* object : objects) rows.push_back({object, std::nullopt});
-  if (!cli.near.isSet()) return rows;
-  const std::vector<double> p = numbersOf(cli.near, 3);
-  for (ObjectRow& row : rows)
-    row.distance = (row.object->object.center() - Eigen::Vector3d(p[0], p[1], p[2])).norm();
+  for (const InventoryItem& item : inventory.items)
+    if ((item.confirmed || cli.id.isSet()) && limits.accepts(item.record))
+      rows.push_back({&item.record, std::nullopt});
+  if (!limits.place) return rows;
+  for (ObjectRow& row : rows) row.distance = (row.object->object.center() - *limits.place).norm();
   std::stable_sort(
       rows.begin(), rows.end(),
       [](const ObjectRow& a, const ObjectRow& b) { return *a.distance < *b.distance; });
   return rows;
 }
 
-/** In the order of the rows. */
-std::string jsonOf(const CQuadricObjectMap& map, const std::vector<ObjectRow>& rows)
+/** \return Whether anything was found. */
+bool list(Cli& cli, const Inventory& inventory, const AnswerLimits& limits)
 {
-  std::vector<ObjectRecord> found;
-  const std::vector<ObjectRecord> records = map.toRecords();
-  for (const ObjectRow& row : rows)
-    for (const ObjectRecord& record : records)
-      if (record.id == std::to_string(row.object->id)) found.push_back(record);
-  return objectsToJson(found);
+  const std::vector<ObjectRow> rows = rowsOf(cli, inventory, limits);
+  std::vector<ObjectRecord> records;
+  for (const ObjectRow& row : rows) records.push_back(*row.object);
+  if (cli.json.getValue())
+    std::cout << objectsToJson(records);
+  else if (!rows.empty())
+    std::cout << objectTable(rows, cli.footprint.getValue());
+  return !rows.empty();
+}
+
+std::string questionOf(Cli& cli)
+{
+  std::string question;
+  for (const std::string& word : cli.question.getValue())
+    question += (question.empty() ? "" : " ") + word;
+  return question;
+}
+
+void printAnswer(Cli& cli, const Answer& answer)
+{
+  if (cli.json.getValue())
+  {
+    std::cout << answerToJson(answer, questionOf(cli));
+    return;
+  }
+  for (const FoundObject& found : answer.found)
+  {
+    std::cout << textOf(found) << "\n";
+    if (cli.footprint.getValue()) std::cout << footprintText(found.item.record.object);
+  }
+}
+
+Answer answerOf(Cli& cli, const Inventory& inventory, const AnswerLimits& limits)
+{
+  try
+  {
+    return ask(inventory, questionOf(cli), limits);
+  }
+  catch (const QuestionError& e)
+  {
+    throw cli::UsageError(e.what());
+  }
 }
 
 }  // namespace
@@ -119,13 +178,18 @@ void queryCommand(int argc, char** argv)
   if (!cli.line.parse(argc, argv)) return;
   if (cli.json.getValue() && cli.footprint.getValue())
     throw cli::UsageError("--footprint and --json: the form of objects.json has no footprints");
-  CQuadricObjectMap map;
-  map.loadFromFile(cli.file.getValue());
-  if (cli.label.isSet()) requireLabel(map, cli.label.getValue(), cli.file.getValue());
-  const std::vector<ObjectRow> rows = rowsOf(cli, map);
-  std::cout
-      << (cli.json.getValue() ? jsonOf(map, rows)
-                              : objectTable(map, rows, cli.footprint.getValue()));
+  const std::string& path = cli.file.getValue();
+  const Inventory inventory = readInventory(path);
+  const AnswerLimits limits = limitsOf(cli, inventory);
+  checkConditions(cli, inventory);
+  if (cli.question.isSet())
+  {
+    const Answer answer = answerOf(cli, inventory, limits);
+    printAnswer(cli, answer);
+    if (answer.found.empty()) throw std::runtime_error(path + ": " + answer.whyNothing);
+  }
+  else if (!list(cli, inventory, limits))
+    throw std::runtime_error(path + ": no object fulfils the conditions");
 }
 
 }  // namespace quadmap

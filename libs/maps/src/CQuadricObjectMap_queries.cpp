@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/maps/ObjectRecords.h"
 
 namespace quadmap
 {
@@ -87,19 +88,7 @@ mrpt::math::TBoundingBoxf CQuadricObjectMap::boundingBox() const
 std::vector<ObjectRecord> CQuadricObjectMap::toRecords() const
 {
   std::vector<ObjectRecord> records;
-  for (const auto* object : confirmedObjects())
-  {
-    ObjectRecord r;
-    r.id = std::to_string(object->id);
-    r.label = object->label();
-    r.object = object->object;
-    r.orientationDefined = object->orientationDefined;
-    r.observations = object->observations();
-    r.existence = object->existence();
-    r.labelCounts = object->labelCounts;
-    r.covariance = object->covariance;
-    records.push_back(r);
-  }
+  for (const auto* object : confirmedObjects()) records.push_back(recordOf(*object));
   return records;
 }
 

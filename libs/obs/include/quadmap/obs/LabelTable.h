@@ -85,6 +85,9 @@ class LabelTable
 
   const std::map<std::string, LabelProperties>& all() const { return byName_; }
 
+  /** All spellings, in lower case and without blanks, '_' and '-', with their canonical names. */
+  const std::map<std::string, std::string>& spellings() const { return canonicalByKey_; }
+
   /** Writes all classes and spellings to a stream, for readFrom(). */
   void writeTo(mrpt::serialization::CArchive& out) const;
 

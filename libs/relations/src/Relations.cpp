@@ -1,0 +1,64 @@
+#include "quadmap/relations/Relations.h"
+
+#include <optional>
+
+#include "Geometry.h"
+
+namespace quadmap
+{
+const char* textOf(RelationKind kind)
+{
+  switch (kind)
+  {
+    case RelationKind::On:
+      return "on";
+    case RelationKind::In:
+      return "in";
+    case RelationKind::Under:
+      return "under";
+    case RelationKind::NextTo:
+      return "next to";
+    case RelationKind::Near:
+      return "near";
+    case RelationKind::InFrontOf:
+      return "in front of";
+    case RelationKind::Behind:
+      return "behind";
+    case RelationKind::Between:
+      return "between";
+    case RelationKind::Nearest:
+      return "nearest";
+    case RelationKind::Farthest:
+      return "farthest";
+  }
+  return "";
+}
+
+std::vector<Relation> relationsOf(const Inventory& inventory)
+{
+  const Geometry geometry(inventory);
+  std::vector<Relation> relations;
+  for (std::size_t i = 0; i < geometry.size(); ++i)
+    for (std::size_t j = 0; j < geometry.size(); ++j)
+    {
+      const auto add = [&](RelationKind kind, const std::optional<double>& distance)
+      {
+        if (distance)
+          relations.push_back(
+              {kind, inventory.items[i].record.id, inventory.items[j].record.id, *distance});
+      };
+      add(RelationKind::On, geometry.on(i, j));
+      add(RelationKind::In, geometry.in(i, j));
+      if (i < j) add(RelationKind::NextTo, geometry.nextTo(i, j));
+      add(RelationKind::InFrontOf, geometry.inFrontOf(i, j));
+      add(RelationKind::Behind, geometry.behind(i, j));
+    }
+  return relations;
+}
+
+std::vector<Relation> relationsOf(const CQuadricObjectMap& map)
+{
+  return relationsOf(inventoryOf(map));
+}
+
+}  // namespace quadmap

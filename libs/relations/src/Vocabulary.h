@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "quadmap/relations/Inventory.h"
+
+namespace quadmap
+{
+/** A text in lower case as its words: letters and digits; all else separates them. Bytes beyond
+ * ASCII are letters. */
+std::vector<std::string> wordsOf(const std::string& text);
+
+/** Smallest number of letters that have to be put in, left out, replaced or exchanged with their
+ * neighbour to make one word of the other. */
+std::size_t editDistance(const std::string& a, const std::string& b);
+
+/** What the words of questions about an inventory mean. */
+class Vocabulary
+{
+ public:
+  /** Has to be outlived by the inventory. */
+  explicit Vocabulary(const Inventory& inventory);
+
+  /** A label without regard to its spelling. */
+  std::string keyOf(const std::string& label) const;
+
+  /** Keys of the labels that a noun of some words means, in singular or plural: the label with this
+   * spelling, and those that end with these words. Empty when nobody knows the noun. */
+  std::set<std::string> labelsMeantBy(const std::vector<std::string>& noun) const;
+
+  /** The known words that are spelt most like one that is not: labels of the objects, spellings of
+   * the label table, words of questions; at most three, best first.
+   * \param grammar The words of questions. */
+  std::vector<std::string> similarTo(
+      const std::string& word, const std::set<std::string>& grammar) const;
+
+ private:
+  const LabelTable& table_;
+  /** Labels of the objects and classes of the table as words, with their keys. */
+  std::map<std::vector<std::string>, std::string> keyByWords_;
+  std::set<std::string> objectLabels_;
+};
+
+}  // namespace quadmap
