@@ -1,10 +1,13 @@
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/CommandLine.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/evaluation/EvaluationReport.h"
+#include "quadmap/maps/MapFile.h"
 
 namespace
 {
@@ -20,14 +23,16 @@ struct Cli
       "Compares what quadmap-slam wrote with the truth: ATE of the trajectory; position, "
       "orientation, shape and overlap of the objects; precision, recall and F1. At least one of "
       "--objects and --trajectory is needed. A trajectory alone (EST.tum) is compared as evo_ape "
-      "--align does.",
+      "--align does; a map alone in place.",
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> estimate{
       "OUTDIR",
-      "Folder quadmap-slam wrote, or the file of a trajectory: time tx ty tz qx qy qz qw.",
+      "Folder quadmap-slam wrote, a file of a map (.quadmap, .simplemap or .json), or the file of "
+      "a "
+      "trajectory: time tx ty tz qx qy qz qw.",
       true,
       "",
-      "OUTDIR|EST.tum",
+      "OUTDIR|MAP|EST.tum",
       line.args()};
   Text objects{"",         "objects", "True objects, same form as objects.json.",
                false,      "",        "objects.gt.json",
@@ -55,6 +60,17 @@ std::optional<std::string> given(Cli::Text& argument)
   return argument.getValue();
 }
 
+/** The objects of the estimate when it is the file of a map. */
+std::optional<std::vector<ObjectRecord>> mapObjectsOf(const std::string& estimate)
+{
+  const std::filesystem::path path = estimate;
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  if (path.extension() == ".json") return readObjectsJson(estimate);
+  if (path.extension() == ".quadmap" || path.extension() == ".simplemap")
+    return readMap(estimate).toRecords();
+  return std::nullopt;
+}
+
 void run(Cli& cli)
 {
   if (!cli.objects.isSet() && !cli.trajectory.isSet())
@@ -64,6 +80,7 @@ void run(Cli& cli)
 
   EvaluationInput input;
   input.estimate = cli.estimate.getValue();
+  input.mapObjects = mapObjectsOf(input.estimate);
   input.trueObjectsPath = given(cli.objects);
   input.trueTrajectoryPath = given(cli.trajectory);
   input.inPlace = cli.inPlace.getValue();

@@ -11,7 +11,7 @@ namespace quadmap
 {
 struct ExportInput
 {
-  std::string path;                           //!< OUTDIR of quadmap-slam, or one objects.quadmap
+  std::string path;                           //!< OUTDIR of quadmap-slam, or the file of a map
   std::optional<std::string> truthPath;       //!< True objects in the form of objects.json
   std::optional<std::string> trajectoryPath;  //!< True trajectory, in the world of the truth
   bool inPlace = false;                       //!< The truth's world is the map's

@@ -31,11 +31,16 @@ struct Cli
   cli::CommandLine line{
       "quadmap-export",
       "Writes a map in forms that people and other programs can look at. Of a folder it shows the "
-      "objects, the trajectories and the coloured point cloud of the keyframes; of a single "
-      "objects.quadmap the objects. No display is needed.",
+      "objects, the trajectories and the coloured point cloud of the keyframes; of a map file the "
+      "objects. No display is needed.",
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> input{
-      "OUTDIR",   "Folder quadmap-slam wrote, or its objects.quadmap.", true, "", "OUTDIR",
+      "OUTDIR",
+      "Folder quadmap-slam wrote, its objects.quadmap, or its objects.simplemap, which is mapped "
+      "anew.",
+      true,
+      "",
+      "OUTDIR|MAP",
       line.args()};
   Text scene{"",     "scene",    "Scene for MRPT's SceneViewer3D (.3Dscene).", false, "",
              "FILE", line.args()};
@@ -87,7 +92,7 @@ struct Cli
   TCLAP::SwitchArg inPlace{"", "in-place", "The truth is in the map's frame already.", line.args()};
   Text compare{
       "",         "compare", "Second map to show beside this one in the page, in the same frame.",
-      false,      "",        "OUTDIR",
+      false,      "",        "OUTDIR|MAP",
       line.args()};
   Text three{
       "",         "three",      "Folder of three.js for --html (default that of libjs-three).",

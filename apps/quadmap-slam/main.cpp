@@ -3,6 +3,7 @@
 
 #include "../common/CommandLine.h"
 #include "CameraInput.h"
+#include "quadmap/maps/MapFile.h"
 #include "quadmap/review/KeyframeContent.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/slam/PoseNodes.h"
@@ -84,12 +85,12 @@ struct Cli
   TCLAP::ValueArg<std::string> map{
       "",
       "map",
-      "Start in this map of an earlier run: the place is found from the objects, results are in "
-      "the "
-      "map's frame, and OUTDIR/objects.quadmap is the map brought up to date.",
+      "Start in this map of an earlier run, its folder or a file of a map: the place is found from "
+      "the objects, results are in the map's frame, and OUTDIR/objects.quadmap is the map brought "
+      "up to date.",
       false,
       "",
-      "objects.quadmap",
+      "MAP",
       line.args()};
   TCLAP::ValueArg<std::string> objects{
       "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
@@ -234,10 +235,8 @@ int run(Cli& cli)
   request.configuration = configurationOf(cli);
   if (cli.map.isSet())
   {
-    request.mapFile = cli.map.getValue();
-    const auto map = CQuadricObjectMap::Create();
-    map->loadFromFile(request.mapFile);
-    request.map = map;
+    request.mapFile = mapFileOf(cli.map.getValue());
+    request.map = std::make_shared<CQuadricObjectMap>(readMap(request.mapFile));
   }
   request.version = QUADMAP_VERSION;
   const auto verbosity = cli.line.verbosity();

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <memory>
 #include <string>
 
 #include "../maps/SyntheticScene.h"
@@ -14,8 +18,10 @@ inline CQuadricObjectMap mapFrom(const std::string& file)
   return map;
 }
 
-/** A chair, a couch and a refrigerator, seen from all around with millimetres of noise. */
-inline CQuadricObjectMap sampleMap()
+/** Calls `use` with the pose of a camera and what it sees of a chair, a couch and a refrigerator,
+ * from all around with millimetres of noise. */
+template <typename F>
+void forEachViewOfSample(F&& use)
 {
   const std::vector<testing::TrueObject> world = {
       testing::cuboid("chair", {1.0, 0.5, 0.45}, {0.5, 0.5, 0.9}, 0.3),
@@ -23,7 +29,6 @@ inline CQuadricObjectMap sampleMap()
       testing::cuboid("refrigerator", {0.5, -1.8, 0.9}, {0.6, 0.7, 1.8}, -0.5)};
   testing::SyntheticCamera camera(1);
   camera.disturbances = {0.002, 0.01, 0, 0, 0};
-  CQuadricObjectMap map;
   for (const auto& truth : world)
     for (int i = 0; i < 24; ++i)
     {
@@ -31,10 +36,31 @@ inline CQuadricObjectMap sampleMap()
       const Eigen::Vector3d target = truth.object.center();
       const Eigen::Vector3d eye = target + Eigen::Vector3d(3 * std::cos(a), 3 * std::sin(a), 1.0);
       const auto T_map_sensor = testing::SyntheticCamera::lookAt(eye, target);
-      map.insertObservation(camera.observe(T_map_sensor, {truth}), T_map_sensor);
+      use(T_map_sensor, camera.observe(T_map_sensor, {truth}));
     }
+}
+
+inline CQuadricObjectMap sampleMap()
+{
+  CQuadricObjectMap map;
+  forEachViewOfSample([&](const auto& T_map_sensor, const CObservationObjects& seen)
+                      { map.insertObservation(seen, T_map_sensor); });
   map.consolidate();
   return map;
+}
+
+/** The same views as keyframes. */
+inline mrpt::maps::CSimpleMap simpleMapOfSample()
+{
+  mrpt::maps::CSimpleMap keyframes;
+  forEachViewOfSample(
+      [&](const auto& T_map_sensor, const CObservationObjects& seen)
+      {
+        mrpt::obs::CSensoryFrame frame;
+        frame.insert(std::make_shared<CObservationObjects>(seen));
+        keyframes.insert(mrpt::poses::CPose3DPDFGaussian(T_map_sensor), frame);
+      });
+  return keyframes;
 }
 
 }  // namespace quadmap

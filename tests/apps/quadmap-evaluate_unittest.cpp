@@ -86,6 +86,28 @@ TEST_F(QuadmapEvaluate, ComparesATrajectoryAlone)
   EXPECT_NEAR(json["trajectory"]["ate_rmse_m"].get<double>(), 0, 1e-9);
 }
 
+TEST_F(QuadmapEvaluate, ComparesAMapAlone)
+{
+  const std::string home = QUADMAP_SOURCE_DIR "/tests/maps/data/home-archive-version-0.quadmap";
+  const std::string truth = QUADMAP_SOURCE_DIR "/rawlogs/home.objects.gt.json";
+  const auto map = run("'" + home + "' --objects '" + truth + "'");
+  EXPECT_EQ(map.status, 0) << map.err;
+  EXPECT_NE(map.out.find("16 true, 16 estimated, 16 matched"), kNotFound) << map.out;
+  const auto list = run("DIR/objects.json --objects DIR/gt.json");
+  EXPECT_EQ(list.status, 0) << list.err;
+  EXPECT_NE(list.out.find("2 true, 1 estimated, 1 matched"), kNotFound) << list.out;
+
+  const auto aligned = run("'" + home + "' --objects '" + truth + "' --trajectory DIR/gt.tum");
+  EXPECT_EQ(aligned.status, 1);
+  EXPECT_NE(aligned.err.find("a map by itself has no trajectory"), kNotFound) << aligned.err;
+  folder_.write(
+      "moved.json", R"({"objects":[{"id":1,"label":"cup","center":[0,0,0],"size":[1,1,1],)"
+                    R"("orientation_defined":false,"to":12}]})");
+  const auto moved = run("DIR/objects.json --objects DIR/moved.json");
+  EXPECT_EQ(moved.status, 1);
+  EXPECT_NE(moved.err.find("does not say which objects of"), kNotFound) << moved.err;
+}
+
 TEST_F(QuadmapEvaluate, WritesTheAteWithAllItsDigits)
 {
   const std::string given = QUADMAP_SOURCE_DIR "/tests/evaluation/trajectories/loop_";

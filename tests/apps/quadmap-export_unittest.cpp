@@ -80,6 +80,17 @@ std::size_t childrenOf(mrpt::opengl::COpenGLScene& scene, const std::string& gro
 }
 }  // namespace
 
+TEST_F(QuadmapExport, TakesAMapInAnyOfItsForms)
+{
+  EXPECT_TRUE(simpleMapOfSample().saveToFile(folder_.path("objects.simplemap")));
+  for (const char* form : {"DIR", "DIR/objects.quadmap", "DIR/objects.simplemap"})
+  {
+    const auto result = run(std::string(form) + " --json DIR/out.json");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(readObjectsJson(folder_.path("out.json")).size(), 3u) << form;
+  }
+}
+
 TEST_F(QuadmapExport, WritesEverythingOfAFolder)
 {
   const auto result =

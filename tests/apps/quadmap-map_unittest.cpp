@@ -46,10 +46,10 @@ class QuadmapMap : public ::testing::Test
   std::vector<std::string> labelsOf(const std::string& conditions) const
   {
     const auto result = run("query MAP --json " + conditions);
-    EXPECT_EQ(result.status, 0) << result.err;
     std::vector<std::string> labels;
     const auto json = nlohmann::json::parse(result.out);
     for (const auto& object : json.at("objects")) labels.push_back(object.at("label"));
+    EXPECT_EQ(result.status, labels.empty() ? 1 : 0) << result.err;
     return labels;
   }
 
@@ -99,9 +99,93 @@ TEST_F(QuadmapMap, QueryPrintsTablesWithDistancesAndFootprints)
   EXPECT_EQ(misspelt.status, 1);
   EXPECT_NE(misspelt.err.find("\"chiar\""), kNotFound) << misspelt.err;
   EXPECT_NE(misspelt.err.find("1 chair"), kNotFound) << "what there is: " << misspelt.err;
+  EXPECT_NE(misspelt.err.find("did you mean \"chair\"?"), kNotFound) << misspelt.err;
   const auto nothing = run("query MAP --label cup");
-  EXPECT_EQ(nothing.status, 0);
-  EXPECT_EQ(nothing.out, "no objects\n");
+  EXPECT_EQ(nothing.status, 1) << "as grep";
+  EXPECT_EQ(nothing.out, "");
+  EXPECT_TRUE(isOneLine(nothing.err)) << nothing.err;
+}
+
+TEST_F(QuadmapMap, QueryAnswersQuestions)
+{
+  EXPECT_EQ(labelsOf("nearest thing to the sofa"), Labels{"chair"});
+  EXPECT_EQ(labelsOf("'farthest object from the fridge'"), Labels{"couch"});
+  EXPECT_EQ(labelsOf("chairs --region 0,-3,0,2,0,2"), Labels{});
+  EXPECT_EQ(labelsOf("everything --region 0,-3,0,2,0,2"), Labels{"refrigerator"});
+  EXPECT_EQ(labelsOf("nearest thing --near -1.4,0.9,0"), Labels{"couch"});
+  EXPECT_EQ(labelsOf("things --near -1.4,0.9,0"), (Labels{"couch", "chair", "refrigerator"}));
+  EXPECT_EQ(labelsOf("things --label chair"), Labels{"chair"});
+
+  const auto text = run("query MAP nearest thing to the sofa --footprint");
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_EQ(text.out.find("chair " + std::to_string(idOf("chair")) + " at ("), 0u) << text.out;
+  EXPECT_NE(text.out.find(" m from couch " + std::to_string(idOf("couch"))), kNotFound);
+  EXPECT_NE(text.out.find("footprint [m]: ("), kNotFound);
+
+  const auto nothing = run("query MAP cup on the couch");
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_EQ(nothing.out, "");
+  EXPECT_NE(nothing.err.find("there is no \"cup\""), kNotFound) << nothing.err;
+  const auto misspelt = run("query MAP nearest chiar to the couch");
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_TRUE(isOneLine(misspelt.err)) << misspelt.err;
+  EXPECT_NE(misspelt.err.find("did you mean \"chair\"?"), kNotFound) << misspelt.err;
+}
+
+TEST_F(QuadmapMap, AnswersAboutTheBundledRecording)
+{
+  const auto answer = [](const std::string& question)
+  {
+    const auto result = runProgram(
+        "quadmap-map",
+        "query " QUADMAP_SOURCE_DIR "/tests/maps/data/home-archive-version-0.quadmap " + question);
+    EXPECT_EQ(result.status, 0) << question << result.err;
+    return result.out;
+  };
+  const std::string table = "on dining table 5\n";
+  EXPECT_NE(answer("nearest chair to the tv").find("chair 9 at "), kNotFound);
+  const std::string cups = answer("cup on table");
+  EXPECT_NE(cups.find("cup 4 at "), kNotFound) << cups;
+  EXPECT_NE(cups.find("cup 11 at "), kNotFound) << cups;
+  EXPECT_NE(cups.find(table), kNotFound) << cups;
+  const std::string chairs = answer("chairs");
+  EXPECT_EQ(std::count(chairs.begin(), chairs.end(), '\n'), 4);
+  EXPECT_EQ(answer("books near the vase").find("book 1 at "), 0u);
+  EXPECT_EQ(answer("cup between the tv and the vase").find("cup 4 at "), 0u);
+  EXPECT_EQ(answer("plant next to the tv").find("potted plant 12 at "), 0u);
+}
+
+TEST_F(QuadmapMap, TakesAMapInAnyOfItsForms)
+{
+  writeObjectsJson(folder_.path("objects.json"), map_.toRecords());
+  simpleMapOfSample().saveToFile(folder_.path("objects.simplemap"));
+  for (const char* form : {"DIR", "MAP", "DIR/objects.simplemap", "DIR/objects.json"})
+  {
+    const auto info = run("info " + std::string(form));
+    EXPECT_EQ(info.status, 0) << form << info.err;
+    EXPECT_NE(info.out.find("labels: 1 chair, 1 couch, 1 refrigerator"), kNotFound) << info.out;
+    const auto query = run("query " + std::string(form) + " nearest thing to the sofa");
+    EXPECT_EQ(query.status, 0) << form << query.err;
+    EXPECT_EQ(query.out.find("chair "), 0u) << query.out;
+  }
+  for (const char* form : {"DIR", "DIR/objects.simplemap"})
+  {
+    EXPECT_EQ(run("remove " + std::string(form) + " --id 1 -o DIR/out.quadmap").status, 0) << form;
+    EXPECT_EQ(mapFrom(folder_.path("out.quadmap")).confirmedObjects().size(), 2u) << form;
+  }
+  const auto list = run("remove DIR/objects.json --id 1 -o DIR/x.quadmap");
+  EXPECT_EQ(list.status, 1);
+  EXPECT_NE(list.err.find("objects.json: is no object map"), kNotFound) << list.err;
+
+  const TemporaryFolder empty;
+  const auto none = run("info " + empty.folder().string());
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.err.find("objects.quadmap: is missing"), kNotFound) << none.err;
+  mrpt::maps::CSimpleMap withoutBoxes;
+  withoutBoxes.saveToFile(empty.path("map.simplemap"));
+  const auto noBoxes = run("info " + empty.path("map.simplemap"));
+  EXPECT_EQ(noBoxes.status, 1);
+  EXPECT_NE(noBoxes.err.find("map.simplemap: has no boxes"), kNotFound) << noBoxes.err;
 }
 
 TEST_F(QuadmapMap, RelabelRemoveAndMergeWriteANewMap)

@@ -145,7 +145,7 @@ TEST_F(EarlierMap, LaterRunFindsItselfAndWhatChanged)
   moveOdometry("second", CPose3D(3, -1, 0.2, 2.2, 0, 0));
   const std::string second = path("second.rawlog") + " -o ";
   expectSuccess("quadmap-slam", second + path("alone"));
-  expectSuccess("quadmap-slam", second + path("in_map") + " --map " + path("map/objects.quadmap"));
+  expectSuccess("quadmap-slam", second + path("in_map") + " --map " + path("map"));
 
   EXPECT_LE(rmse("in_map", "second.groundtruth.tum"), 1.1 * ate("alone", "second.groundtruth.tum"))
       << "[m]; of the first nothing is aligned: 10 % for what the map's own objects err by";

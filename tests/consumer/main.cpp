@@ -6,6 +6,7 @@
 
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/relations/Questions.h"
 
 using mrpt::poses::CPose3D;
 
@@ -81,6 +82,12 @@ void run(const std::string& file)
   const Eigen::Vector3d error = chair->object.center() - Eigen::Vector3d(2.0, 0.3, 0.45);
   require(error.norm() < 0.02, "the chair is where it was seen, to the 0.02 m of its faces");
   std::cout << "the chair stands at " << chair->object.center().transpose() << " m\n";
+
+  quadmap::AnswerLimits limits;
+  limits.place = Eigen::Vector3d(0, 0, 0);  // of the robot
+  const quadmap::Answer answer = quadmap::ask(map, "nearest chair", limits);
+  require(answer.found.size() == 1, "the chair is the nearest one");
+  std::cout << quadmap::textOf(answer.found.front()) << "\n";
 
   map.saveToFile(file);
   quadmap::CQuadricObjectMap loaded;

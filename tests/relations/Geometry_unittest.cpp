@@ -63,20 +63,19 @@ bool holds(const Ellipsoid& cuboid, const Eigen::Vector3d& p)
 
 /** Share of the points of one cuboid that fulfil a condition, by sampling. */
 template <typename F>
-double shareOf(const Ellipsoid& cuboid, F&& condition)
+double shareOf(const Ellipsoid& cuboid, F&& condition, int steps = 20)
 {
-  constexpr int kSteps = 30;
   int fulfilled = 0;
-  for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j)
-      for (int k = 0; k < kSteps; ++k)
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j)
+      for (int k = 0; k < steps; ++k)
       {
-        const Eigen::Vector3d cell = (Eigen::Vector3d(i, j, k).array() + 0.5) * 2 / kSteps - 1;
+        const Eigen::Vector3d cell = (Eigen::Vector3d(i, j, k).array() + 0.5) * 2 / steps - 1;
         const Eigen::Vector3d p =
             cuboid.center() + cuboid.rotation() * cell.cwiseProduct(cuboid.semiAxes());
         if (condition(p)) ++fulfilled;
       }
-  return fulfilled / std::pow(kSteps, 3);
+  return fulfilled / std::pow(steps, 3);
 }
 
 using Told = std::set<std::tuple<std::string, std::string, std::string>>;
@@ -126,7 +125,7 @@ TEST(RelationGeometry, FootprintsOverlapAsTheirPointsDo)
     const auto isOver = [&](const Eigen::Vector3d& p) {
       return holds(b, {p.x(), p.y(), b.center().z()});
     };
-    EXPECT_NEAR(sharedArea(footprint(a), footprint(b)) / area, shareOf(a, isOver), 0.03) << i;
+    EXPECT_NEAR(sharedArea(footprint(a), footprint(b)) / area, shareOf(a, isOver, 60), 0.03) << i;
   }
 }
 
@@ -134,15 +133,16 @@ TEST(RelationGeometry, OnAndInAgreeWithSampledPoints)
 {
   RandomSolids random;
   int on = 0, in = 0;
-  for (int i = 0; i < 400; ++i)
+  for (int i = 0; i < 800; ++i)
   {
     InventoryItem below = random.next("desk"), above = random.next("box");
     // Near the top of the other one, so that some stand on it.
-    const Eigen::Vector3d c = above.record.object.center(), s = above.record.object.semiAxes();
+    const Eigen::Vector3d c = above.record.object.center();
+    const Eigen::Vector3d s = 0.4 * above.record.object.semiAxes();
     const double top = below.record.object.center().z() + below.record.object.semiAxes().z();
     const double bottom = i % 2 == 0 ? top + random.uniform(-0.1, 0.1) : c.z() - s.z();
     above = item(
-        above.record.id, "box", {c.x(), c.y(), bottom + s.z()}, 2 * s,
+        above.record.id, "box", {0.6 * c.x(), 0.6 * c.y(), bottom + s.z()}, 2 * s,
         above.record.object.pose().yaw());
     const Ellipsoid &a = above.record.object, &b = below.record.object;
     const double over = shareOf(
@@ -152,7 +152,7 @@ TEST(RelationGeometry, OnAndInAgreeWithSampledPoints)
         });
     const double inside = shareOf(a, [&](const Eigen::Vector3d& p) { return holds(b, p); });
     const double tolerance = std::min(0.05, std::max(0.02, b.semiAxes().z() / 2));
-    if (std::abs(over - 0.5) < 0.04 || std::abs(inside - 0.5) < 0.04) continue;
+    if (std::abs(over - 0.5) < 0.06 || std::abs(inside - 0.5) < 0.06) continue;
 
     const Geometry geometry(inventoryWith({above, below}));
     const bool isOn =
@@ -178,8 +178,7 @@ TEST(RelationGeometry, TellsWhatAPersonWouldSayOfALivingRoom)
       { "9",      "in",  "4"}, // which is inside the cuboid, too
       {"10",      "in",  "3"}, // the suitcase under the table
       { "2", "next to", "11"}, // the plant beside the cabinet
-      { "5", "next to",  "6"}, // cup and bowl on one table
-      { "5", "next to",  "7"},
+      { "7",      "on",  "3"}, // which is on the table with its bowl
   };
   EXPECT_EQ(toldOf(livingRoom()), expected);
 }

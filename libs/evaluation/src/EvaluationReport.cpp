@@ -20,7 +20,7 @@ std::string inFolder(const EvaluationInput& input, const char* file)
 
 bool isTrajectoryAlone(const EvaluationInput& input)
 {
-  return std::filesystem::is_regular_file(input.estimate);
+  return !input.mapObjects && std::filesystem::is_regular_file(input.estimate);
 }
 
 std::vector<PosePair> pairsWithTruth(
@@ -90,6 +90,10 @@ std::vector<ObjectRecord> trueObjects(const EvaluationInput& input, std::vector<
   auto truth = readObjectsJson(*input.trueObjectsPath);
   const auto comesOrGoes = [](const ObjectRecord& object) { return object.from || object.to; };
   if (std::none_of(truth.begin(), truth.end(), comesOrGoes)) return truth;
+  if (input.mapObjects)
+    throw std::runtime_error(
+        input.estimate + ": a map by itself does not say which objects of " +
+        *input.trueObjectsPath + " are still there; give the folder");
   const std::string path = inFolder(input, "trajectory.tum");
   const Trajectory trajectory = readTumTrajectory(path);
   if (trajectory.empty())
@@ -117,6 +121,11 @@ EvaluationReport evaluateRun(const EvaluationInput& input)
 {
   if (isTrajectoryAlone(input) && input.trueObjectsPath)
     throw std::runtime_error(input.estimate + ": a trajectory alone has no objects to compare");
+  if (input.mapObjects && input.trueTrajectoryPath)
+    throw std::runtime_error(
+        input.estimate +
+        ": a map by itself has no trajectory to compare or to align; give the "
+        "folder");
   if (!std::filesystem::exists(input.estimate))
     throw std::runtime_error(input.estimate + ": no such folder, nor a file with a trajectory");
 
@@ -131,16 +140,18 @@ EvaluationReport evaluateRun(const EvaluationInput& input)
     report.trajectory = evaluateTrajectory(input, report.T_truth_estimated, report.notes);
     report.trajectory->ateRmseOdometry = odometryAte(input);
   }
+  const std::string objectsPath =
+      input.mapObjects ? input.estimate : inFolder(input, "objects.json");
   if (input.trueObjectsPath) try
     {
       report.objects = evaluateObjects(
-          trueObjects(input, report.notes), readObjectsJson(inFolder(input, "objects.json")),
+          trueObjects(input, report.notes),
+          input.mapObjects ? *input.mapObjects : readObjectsJson(objectsPath),
           report.T_truth_estimated, input.objects);
     }
     catch (const TooManyObjects& e)
     {
-      throw std::runtime_error(
-          *input.trueObjectsPath + " and " + inFolder(input, "objects.json") + ": " + e.what());
+      throw std::runtime_error(*input.trueObjectsPath + " and " + objectsPath + ": " + e.what());
     }
   return report;
 }

@@ -8,7 +8,7 @@
 
 namespace quadmap
 {
-/** The relations of an inventory's objects as geometry says them: doc/mathematics.md, section 22.
+/** The relations of an inventory's objects as geometry says them: doc/mathematics.md, section 23.
  * Objects are named by their index in the inventory, which has to outlive this. Each relation is
  * empty when it does not hold, else a distance [m]. */
 class Geometry

@@ -24,10 +24,14 @@ Inventory inventoryOf(const std::vector<ObjectRecord>& objects)
   return inventory;
 }
 
+bool isObjectList(const std::string& path)
+{
+  return std::filesystem::path(path).extension() == ".json";
+}
+
 Inventory readInventory(const std::string& path)
 {
-  if (std::filesystem::path(path).extension() == ".json") return inventoryOf(readObjectsJson(path));
-  return inventoryOf(readMap(path));
+  return isObjectList(path) ? inventoryOf(readObjectsJson(path)) : inventoryOf(readMap(path));
 }
 
 }  // namespace quadmap

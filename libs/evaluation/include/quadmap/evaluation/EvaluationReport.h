@@ -17,7 +17,10 @@ constexpr double kMaxTimeDifference = 0.02;
 /** A run of quadmap-slam, and the truth it is compared with. */
 struct EvaluationInput
 {
-  std::string estimate;  //!< OUTDIR of quadmap-slam, or a trajectory alone (TUM form)
+  std::string estimate;  //!< OUTDIR of quadmap-slam, a trajectory alone (TUM form), or a map
+  /** The objects of `estimate` when that is a map by itself, which has no trajectory; empty: those
+   *  of objects.json in the folder. */
+  std::optional<std::vector<ObjectRecord>> mapObjects;
   std::optional<std::string> trueObjectsPath;     //!< In the form of objects.json
   std::optional<std::string> trueTrajectoryPath;  //!< In TUM form
   bool inPlace = false;  //!< Compare without alignment, as both worlds are the same

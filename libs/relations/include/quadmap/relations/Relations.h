@@ -7,7 +7,7 @@
 
 namespace quadmap
 {
-/** How objects stand to each other: doc/mathematics.md, section 22. */
+/** How objects stand to each other: doc/mathematics.md, section 23. */
 enum class RelationKind
 {
   On,         //!< It stands on the other one
