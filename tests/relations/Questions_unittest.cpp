@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "../maps/SyntheticScene.h"
 #include "SampleInventory.h"
@@ -128,6 +129,51 @@ TEST(Questions, NameTheWordThatIsNotUnderstood)
   EXPECT_NE(
       complaintAbout("cup table").find("\"table\" is not understood there"), std::string::npos);
   EXPECT_EQ(complaintAbout("zzzzzz"), "\"zzzzzz\" is neither a label nor a word of questions");
+}
+
+TEST(Questions, AnyWordsAreAnsweredOrRefused)
+{
+  const std::vector<std::string> words = {
+      "cup",
+      "table",
+      "on",
+      "in",
+      "next",
+      "to",
+      "near",
+      "between",
+      "and",
+      "nearest",
+      "the",
+      "5",
+      "front",
+      "of",
+      "behind",
+      "under",
+      "things",
+      "\xff\xfe",
+      "99999999999999999999",
+      "top",
+      "?"};
+  const Inventory room = livingRoom();
+  std::mt19937 random(3);
+  int answered = 0;
+  for (int i = 0; i < 3000; ++i)
+  {
+    std::string question;
+    for (unsigned n = random() % 7; n > 0; --n) question += words[random() % words.size()] + " ";
+    try
+    {
+      const Answer answer = ask(room, question);
+      EXPECT_EQ(answer.found.empty(), !answer.whyNothing.empty()) << question;
+      ++answered;
+    }
+    catch (const QuestionError& e)
+    {
+      EXPECT_FALSE(std::string(e.what()).empty());
+    }
+  }
+  EXPECT_GT(answered, 300);
 }
 
 TEST(Questions, DoubtfulObjectsComeLastAndAreMarked)
