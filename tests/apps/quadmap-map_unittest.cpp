@@ -286,7 +286,7 @@ TEST_F(QuadmapMap, NamesTheFileItCannotRead)
   folder_.write("short.quadmap", whole.substr(0, whole.size() / 2));
   folder_.write("empty.quadmap", "");
   folder_.write("text.quadmap", "no map at all\n");
-  for (const char* name : {"short.quadmap", "empty.quadmap", "text.quadmap", "missing.quadmap", ""})
+  for (const char* name : {"short.quadmap", "empty.quadmap", "text.quadmap", "missing.quadmap"})
   {
     const auto result = run("info DIR/" + std::string(name));
     EXPECT_EQ(result.status, 1) << name;
