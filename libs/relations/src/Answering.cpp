@@ -125,14 +125,12 @@ std::optional<Reason> Answering::relationTo(
   if (kind == RelationKind::InFrontOf) distance = geometry_.inFrontOf(subject, object);
   if (kind == RelationKind::Behind) distance = geometry_.behind(subject, object);
   if (!distance) return std::nullopt;
-  const std::string text =
-      mrpt::format("%.2f m %s ", *distance, kind == RelationKind::Near ? "from" : textOf(kind));
+  const std::string metres = mrpt::format("%.2f m", *distance), name = nameOf(object);
+  std::string text = metres + " " + textOf(kind) + " " + name;
+  if (kind == RelationKind::Near) text = metres + " from " + name;
   if (kind == RelationKind::NextTo)
-    return reason(
-        kind, {object}, *distance,
-        std::string(textOf(kind)) + " " + nameOf(object) +
-            mrpt::format(", %.2f m apart", *distance));
-  return reason(kind, {object}, *distance, text + nameOf(object));
+    text = std::string(textOf(kind)) + " " + name + ", " + metres + " apart";
+  return reason(kind, {object}, *distance, text);
 }
 
 /** What carries the subject on the way to the object, which is the last and carries it as `kind`

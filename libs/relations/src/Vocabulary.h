@@ -21,7 +21,7 @@ std::size_t editDistance(const std::string& a, const std::string& b);
 class Vocabulary
 {
  public:
-  /** Has to be outlived by the inventory. */
+  /** The inventory has to outlive this. */
   explicit Vocabulary(const Inventory& inventory);
 
   /** A label without regard to its spelling. */
