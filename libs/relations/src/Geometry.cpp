@@ -155,8 +155,7 @@ Eigen::Vector2d Geometry::frontOf(const Solid& solid) const
   return best;
 }
 
-/** How far the subject is beyond the front of an object (sign = 1) or beyond its back (-1),
- * (23.10).
+/** How far the subject is beyond an object's front (sign = 1) or beyond its back (-1), (23.10) [m].
  */
 std::optional<double> Geometry::onSide(const Solid& subject, const Solid& object, double sign) const
 {
