@@ -7,6 +7,7 @@
 #include "cuboid/FaceSigmas.h"
 #include "cuboid/HeadingEstimate.h"
 #include "cuboid/TopRim.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {
@@ -96,6 +97,18 @@ void endAtRim(
   }
 }
 
+/** The rim of a thing that rises little above the noise of its support is taken for the support:
+ * the sides lie outside of what is left. The edges of the box tell where. */
+void openThinSides(double tolerance, Faces& faces)
+{
+  constexpr double kClear = 2.0;  // tolerances of the support
+  const double height = faces[kTop].position + faces[kBottom].position;
+  if (height > kClear * tolerance) return;
+  for (std::size_t side = 0; side < kSides; ++side)
+    if (faces[side].source != FaceSource::Surface && faces[side].worth.kind == FaceKind::Measured)
+      faces[side].worth.kind = FaceKind::AtLeast;
+}
+
 /** Adds the share of the heading to the sigma of each side, equation (8.11). A wrong heading turns
  * a face about the middle of the cuboid, and the part of the face that was seen moves by the lever.
  * Without a heading the corners that make the outline move, too. */
@@ -174,6 +187,7 @@ CompleteMeasurement fitCuboid(
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
     placeHiddenPart(faces, estimator, label);
+    openThinSides(supportTolerance(estimator.range(), label, options), faces);
   }
   if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
   if (label.dominantDirection)

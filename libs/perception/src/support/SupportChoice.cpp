@@ -141,6 +141,7 @@ class SupportJudge
   {
     constexpr double kMinTouching = 0.15;
     constexpr double kMinCovered = 0.3, kMaxBelow = 0.5;
+    constexpr double kAround = 0.5;
     const ScenePlane& plane = planes_.plane(i);
     const auto ring = touching(plane.plane);
     SupportSurface surface = {plane.plane, plane.extent};
@@ -152,7 +153,11 @@ class SupportJudge
     // noise.
     const bool mayBeItsTop = label_.support == UsualSupport::Floor || isMostlyInBox(i);
     const double minAbove = mayBeItsTop ? 0.5 : 0.15;
-    if (e.above < minAbove || e.covered < kMinCovered || e.below > kMaxBelow) return 0;
+    // A surface that shows all around a thing is not its top. What lies on it may be thinner than
+    // the noise of single points.
+    const bool isAround = !mayBeItsTop && ring.share > kAround;
+    if (e.above < minAbove && !isAround) return 0;
+    if (e.covered < kMinCovered || e.below > kMaxBelow) return 0;
     return kCovered * e.covered + kBelow * std::max(0.0, e.below - kAllowedBelow) +
            kGap * (1 - std::exp(-e.gap / kGapScale)) +
            kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
