@@ -8,6 +8,7 @@
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 #include "quadmap/maps/MapFile.h"
+#include "quadmap/review/ReportPage.h"
 
 namespace
 {
@@ -41,6 +42,13 @@ struct Cli
                   false,      "",           "groundtruth.tum",
                   line.args()};
   Text json{"", "json", "Write the figures to this file too.", false, "", "FILE", line.args()};
+  Text html{"",
+            "html",
+            "Write the report of the run with the figures as a page, too (of OUTDIR).",
+            false,
+            "",
+            "FILE",
+            line.args()};
   TCLAP::SwitchArg inPlace{
       "", "in-place", "Both worlds are the same: compare without aligning them.", line.args()};
   TCLAP::ValueArg<double> maxTimeDifference{
@@ -71,6 +79,13 @@ std::optional<std::vector<ObjectRecord>> mapObjectsOf(const std::string& estimat
   return std::nullopt;
 }
 
+void writeReport(Cli& cli, const EvaluationReport& figures)
+{
+  ReportTruth truth{figures, std::nullopt};
+  if (cli.trajectory.isSet()) truth.trajectory = readTumTrajectory(cli.trajectory.getValue());
+  writeTextFile(cli.html.getValue(), reportPage(cli.estimate.getValue(), truth));
+}
+
 void run(Cli& cli)
 {
   if (!cli.objects.isSet() && !cli.trajectory.isSet())
@@ -78,6 +93,8 @@ void run(Cli& cli)
   if (!(cli.maxTimeDifference.getValue() >= 0))
     throw cli::UsageError("--max-time-difference: must be >= 0");
 
+  if (cli.html.isSet() && std::filesystem::is_regular_file(cli.estimate.getValue()))
+    throw cli::UsageError("--html: needs a folder that quadmap-slam wrote");
   EvaluationInput input;
   input.estimate = cli.estimate.getValue();
   input.mapObjects = mapObjectsOf(input.estimate);
@@ -92,6 +109,7 @@ void run(Cli& cli)
               << report.T_truth_estimated << "\n";
   std::cout << toTable(report);
   if (cli.json.isSet()) writeTextFile(cli.json.getValue(), toJson(report));
+  if (cli.html.isSet()) writeReport(cli, report);
 }
 }  // namespace
 

@@ -1,10 +1,13 @@
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 #include "../common/CommandLine.h"
 #include "CameraInput.h"
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/maps/MapFile.h"
 #include "quadmap/review/KeyframeContent.h"
+#include "quadmap/review/ReportPage.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/slam/PoseNodes.h"
 #include "quadmap/slam/RawlogRun.h"
@@ -255,7 +258,11 @@ int run(Cli& cli)
   request.onClosing = []
   { cli::onStop = cli::OnStop::Defer; };  // so short that nothing need be lost
   request.addFiles = [](const SlamResult& result, OutputSet& files)
-  { writeSceneOf(result, files.written("map.simplemap"), files.add("scene.3Dscene")); };
+  {
+    writeSceneOf(result, files.written("map.simplemap"), files.add("scene.3Dscene"));
+    const std::string folder = std::filesystem::path(files.written("report.json")).parent_path();
+    writeTextFile(files.add("report.html"), reportPage(folder));
+  };
   cli::onStop = cli::OnStop::Note;
   CameraInput camera(request, cli.camera);
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "MeanAndSpread.h"
-#include "SvgPlot.h"
+#include "quadmap/base/SvgPlot.h"
 #include "quadmap/geometry/ConvexHull.h"
 
 namespace quadmap

@@ -1,4 +1,4 @@
-#include "SvgPlot.h"
+#include "quadmap/base/SvgPlot.h"
 
 #include <gtest/gtest.h>
 
