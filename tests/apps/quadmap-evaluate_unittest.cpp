@@ -108,6 +108,30 @@ TEST_F(QuadmapEvaluate, ComparesAMapAlone)
   EXPECT_NE(moved.err.find("does not say which objects of"), kNotFound) << moved.err;
 }
 
+TEST_F(QuadmapEvaluate, WritesTheReportOfTheRunWithTheFigures)
+{
+  const std::string arguments =
+      "DIR --objects DIR/gt.json --trajectory DIR/gt.tum --html DIR/r.html";
+  const auto none = run(arguments);
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.err.find("report.json: cannot be read"), kNotFound) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("r.html")));
+
+  folder_.write("report.json", R"({"input": {"file": "room.rawlog"}})");
+  std::filesystem::copy(folder_.path("trajectory.tum"), folder_.path("trajectory_odometry.tum"));
+  const auto result = run(arguments);
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string page = readFile(folder_.path("r.html"));
+  EXPECT_NE(page.find("room.rawlog"), kNotFound);
+  EXPECT_NE(page.find("<td>ATE RMSE [m]</td><td class=\"number\">0.0000</td>"), kNotFound);
+  EXPECT_NE(
+      page.find("<td>recall</td><td class=\"number\"></td><td class=\"number\">0.50</td>"),
+      kNotFound);
+
+  const auto alone = run("DIR/trajectory.tum --trajectory DIR/gt.tum --html DIR/x.html");
+  EXPECT_EQ(alone.status, 2);
+}
+
 TEST_F(QuadmapEvaluate, WritesTheAteWithAllItsDigits)
 {
   const std::string given = QUADMAP_SOURCE_DIR "/tests/evaluation/trajectories/loop_";

@@ -104,7 +104,8 @@ TEST_F(QuadmapSlam, MapsTheRoomAndNamesItsFiles)
   EXPECT_NE(result.out.find("6 frames, 6 keyframes, 6 boxes, 1 objects"), kNotFound) << result.out;
   for (const auto* name :
        {"objects.quadmap", "objects.json", "trajectory.tum", "trajectory_odometry.tum",
-        "map.simplemap", "objects.simplemap", "pose-graph.graph", "report.json", "scene.3Dscene"})
+        "map.simplemap", "objects.simplemap", "pose-graph.graph", "report.json", "report.html",
+        "scene.3Dscene"})
   {
     EXPECT_NE(result.out.find("wrote " + folder_.path("out/") + name), kNotFound) << name;
     EXPECT_GT(std::filesystem::file_size(folder_.path("out/") + name), 0u) << name;

@@ -49,10 +49,16 @@ void HtmlTable::addRow(const std::vector<std::string>& cells)
 
 std::string HtmlTable::toHtml() const
 {
-  std::string html = "<div class=\"wide\"><table>\n<thead><tr>";
+  std::string head;
+  bool hasTitles = false;
   for (std::size_t i = 0; i < columns_.size(); ++i)
-    html += cell("th", i, columns_[i][0] == '#' ? columns_[i].substr(1) : columns_[i]);
-  return html + "</tr></thead>\n<tbody>\n" + rows_ + "</tbody></table></div>\n";
+  {
+    head += cell("th", i, columns_[i][0] == '#' ? columns_[i].substr(1) : columns_[i]);
+    hasTitles = hasTitles || !columns_[i].empty();
+  }
+  if (hasTitles) head = "<thead><tr>" + head + "</tr></thead>\n";
+  return "<div class=\"wide\"><table>\n" + (hasTitles ? head : "") + "<tbody>\n" + rows_ +
+         "</tbody></table></div>\n";
 }
 
 }  // namespace quadmap

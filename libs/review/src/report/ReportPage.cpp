@@ -65,6 +65,13 @@ ReportTracks tracksOf(
   return tracks;
 }
 
+/** The text of a key; empty when it is missing or no text. */
+std::string textOf(const Json& json, const char* key)
+{
+  if (!json.is_object() || !json.contains(key) || !json.at(key).is_string()) return "";
+  return json.at(key).get<std::string>();
+}
+
 std::string headOf(const std::string& title)
 {
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
@@ -93,14 +100,13 @@ std::string reportPage(const std::string& folder, const std::optional<ReportTrut
   if (!report.is_object() || !report.contains("input"))
     throw std::runtime_error(path + ": is no report of quadmap-slam");
   const ReportTracks tracks = tracksOf(folder, report, truth);
-  const std::string recording =
-      report.at("input").is_object() ? report.at("input").value("file", std::string()) : "";
-  const std::string title = "quadmap: " + std::filesystem::path(recording).filename().string();
+  const std::filesystem::path recording = textOf(report.at("input"), "file");
+  const std::string title = "quadmap: " + recording.filename().string();
   return headOf(title) + "<body>\n" + htmlElement("h1", title) + plotsOf(tracks) +
          (truth ? truthSection(*truth) : "") + "<h2>The run</h2>\n" + runSection(report) +
          warningSection(report) + objectSection(tracks.objects) + boxSection(report) +
-         timeSection(report) + "<footer>" + htmlText(report.value("program", std::string())) + " " +
-         htmlText(report.value("version", std::string())) +
+         timeSection(report) + "<footer>" + htmlText(textOf(report, "program")) + " " +
+         htmlText(textOf(report, "version")) +
          "; every decision is in report.json.</footer>\n</body>\n</html>\n";
 }
 

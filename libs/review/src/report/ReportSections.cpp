@@ -164,9 +164,12 @@ std::string boxSection(const Json& report)
       {"why a box was rejected, or gave no cuboid (partial)", "#boxes", "of which labels"});
   const auto reasons = reasonsOf(byLabel);
   std::vector<std::pair<std::string, ReasonCount>> ranked(reasons.begin(), reasons.end());
+  const auto rank = [](const auto& reason) {
+    return std::pair{reason.first.rfind("rejected", 0) == 0, reason.second.count};
+  };
   std::stable_sort(
       ranked.begin(), ranked.end(),
-      [](const auto& a, const auto& b) { return a.second.count > b.second.count; });
+      [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
   for (const auto& [reason, sum] : ranked)
     why.addRow({reason, std::to_string(sum.count), sum.labels});
   return "<h2>What became of the boxes</h2>\n" + (why.isEmpty() ? "" : why.toHtml()) +
