@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "../page/Base64.h"
 #include "Html.h"
 #include "ReportPlots.h"
 #include "ReportSections.h"
+#include "page/Base64.h"
 #include "quadmap/base/Json.h"
 #include "quadmap/base/Sha256.h"
 #include "quadmap/evaluation/TrajectoryAlignment.h"
@@ -32,7 +32,7 @@ h2 { font-size: 17px; margin: 26px 0 6px; border-bottom: 1px solid var(--line); 
 .plots rect[stroke="#444444"] { stroke: var(--dim); }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 6px 0; }
-th, td { padding: 2px 10px 2px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; overflow-wrap: anywhere; }
+th, td { padding: 2px 10px 2px 0; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; overflow-wrap: break-word; }
 th { color: var(--dim); font-weight: 600; }
 .number { text-align: right; white-space: nowrap; }
 .bar { fill: var(--bar); }
