@@ -105,15 +105,26 @@ endfunction()
 
 add_custom_target(programs)  # all of them, without the tests
 
-# quadmap_add_program(<name> SOURCES ... LINK ...): program quadmap-<...> in bin.
+# quadmap_add_program(<name> SOURCES ... LINK ...): program quadmap-<...> in bin, with the manual page and the
+# completion for bash that it tells about itself.
 function(quadmap_add_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_compile_definitions(${name} PRIVATE QUADMAP_VERSION="${PROJECT_VERSION}")
-  target_link_libraries(${name} PRIVATE ${arg_LINK} mrpt::tclap)
+  target_link_libraries(${name} PRIVATE ${arg_LINK} quadmap_cli)
   quadmap_target_options(${name})
   add_dependencies(programs ${name})
+  set(manual ${CMAKE_BINARY_DIR}/share/man/man1/${name}.1)
+  set(completion ${CMAKE_BINARY_DIR}/share/bash-completion/completions/${name})
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/man/man1 ${CMAKE_BINARY_DIR}/share/bash-completion/completions)
+  set(ask ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:${name}> --help-as)
+  add_custom_command(TARGET ${name} POST_BUILD
+    COMMAND ${ask} man > ${manual}
+    COMMAND gzip -9nkf ${manual}
+    COMMAND ${ask} completion > ${completion})
   install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES ${manual}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endfunction()
 
 # quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ...): a GoogleTest program whose cases CTest lists one by one,

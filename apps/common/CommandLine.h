@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "HelpTable.h"
 #include "StopSignals.h"
 #include "quadmap/base/ErrorText.h"
 
@@ -72,17 +73,15 @@ class StrictOutput : public TCLAP::StdOutput
   {
     std::cout << program_ << " " << line.getVersion() << "\n";
   }
-  void usage(TCLAP::CmdLineInterface& line) override
-  {
-    line.getProgramName() = program_;  // not the whole path
-    StdOutput::usage(line);
-  }
+  void usage(TCLAP::CmdLineInterface&) override { std::cout << helpText(help); }
   void failure(TCLAP::CmdLineInterface& line, TCLAP::ArgException& e) override
   {
     const std::string missing = missingArguments(line);
     if (e.argId() == " " && !missing.empty()) throw UsageError("missing argument: " + missing);
     throw UsageError(e.argId() == " " ? e.error() : e.error() + " - " + e.argId());
   }
+
+  HelpTable help;
 
  private:
   static std::string missingArguments(TCLAP::CmdLineInterface& line)
@@ -96,14 +95,29 @@ class StrictOutput : public TCLAP::StdOutput
   std::string program_;
 };
 
-/** The arguments of a program, with --help, --version and -v LEVEL. */
+/** The arguments of a program, with --help, --version and -v LEVEL. What the arguments are for is
+ * told once, where they are declared: --help, the manual page and the completion of the shell are
+ * made from that. Builds ask for the last two by "--help-as man" and "--help-as completion". */
 class CommandLine
 {
  public:
   CommandLine(const std::string& program, const std::string& description, const char* version) :
       output_(program), line_(description, ' ', version)
   {
+    output_.help.program = program;
+    output_.help.about = description;
+    output_.help.version = version;
     line_.setOutput(&output_);
+    beginGroup("Options");
+  }
+
+  /** A heading for the named arguments that are declared next. */
+  void beginGroup(const std::string& name) { groups_.emplace_back(namedArguments(line_), name); }
+
+  /** \param what What the command does, in whole sentences. */
+  void addExample(const std::string& command, const std::string& what)
+  {
+    output_.help.examples.emplace_back(command, what);
   }
 
   /** For the constructors of TCLAP's arguments. */
@@ -113,6 +127,12 @@ class CommandLine
    *  \exception UsageError For arguments that are wrong or missing. */
   bool parse(int argc, char** argv)
   {
+    output_.help.entries = helpEntriesOf(line_, groups_);
+    if (argc == 3 && argv[1] == std::string("--help-as"))
+    {
+      std::cout << helpAs(argv[2]);
+      return false;
+    }
     rejectUnknownOptions(argc, argv);
     return line_.parse(argc, argv);
   }
@@ -128,6 +148,17 @@ class CommandLine
   }
 
  private:
+  std::string helpAs(const std::string& form) const
+  {
+    const HelpTable& help = output_.help;
+    const std::string name = help.program.substr(help.program.rfind(' ') + 1);
+    if (form == "man") return manualPage(help);
+    if (form == "man-section") return manualSection(help);
+    if (form == "completion") return completion(help);
+    if (form == "completion-section") return completionSection(help, name);
+    throw UsageError("--help-as " + form + ": must be man or completion");
+  }
+
   /** TCLAP takes a misspelt option for a file name where one is expected. */
   void rejectUnknownOptions(int argc, char** argv)
   {
@@ -153,11 +184,29 @@ class CommandLine
 
   StrictOutput output_;
   TCLAP::CmdLine line_;
+  std::vector<std::pair<std::size_t, std::string>> groups_{
+      {0, kGeneralGroup}
+  };
   std::vector<std::string> levels_{"debug", "info", "warn", "error"};
   TCLAP::ValuesConstraint<std::string> levelsConstraint_{levels_};
   mutable TCLAP::ValueArg<std::string> verbosity_{
       "v",  "verbosity", "How much to tell on the terminal.", false, "info", &levelsConstraint_,
       line_};
+};
+
+/** As a member between arguments: those after it stand below this heading. */
+struct Group
+{
+  Group(CommandLine& line, const std::string& name) { line.beginGroup(name); }
+};
+
+/** As a member: an example of the program. */
+struct Example
+{
+  Example(CommandLine& line, const std::string& command, const std::string& what)
+  {
+    line.addExample(command, what);
+  }
 };
 
 }  // namespace quadmap::cli

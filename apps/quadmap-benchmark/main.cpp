@@ -69,6 +69,8 @@ void jobsCommand(int argc, char** argv)
 {
   cli::CommandLine line(
       "quadmap-benchmark jobs", "Prints the jobs of a benchmark, one a line.", QUADMAP_VERSION);
+  line.addExample(
+      "quadmap-benchmark jobs --scenes home,office --seeds 1,2", "Lists the jobs of two scenes.");
   const auto list = [&](const char* name, const char* what, const char* standard)
   {
     return std::make_unique<TCLAP::ValueArg<std::string>>(
@@ -125,6 +127,7 @@ void machineCommand(int argc, char** argv)
   cli::CommandLine line(
       "quadmap-benchmark machine", "Prints what machine and program this is, as JSON.",
       QUADMAP_VERSION);
+  line.addExample("quadmap-benchmark machine --commit abc1234", "Prints it with a commit.");
   TCLAP::ValueArg<std::string> commit{
       "", "commit", "Which commit the programs were built from.", false, "", "ID", line.args()};
   if (!line.parse(argc, argv)) return;
@@ -134,9 +137,11 @@ void machineCommand(int argc, char** argv)
   utsname kernel{};
   uname(&kernel);
   Json json;
+  json["format"] = "quadmap-machine";
+  json["version"] = 1;
   json["processor"] = entryOf("/proc/cpuinfo", "model name", ':');
-  json["cores"] = std::to_string(sysconf(_SC_NPROCESSORS_ONLN));
-  json["memory"] = std::to_string(std::lround(memory)) + " GB";
+  json["cores"] = sysconf(_SC_NPROCESSORS_ONLN);
+  json["memory_gb"] = std::lround(memory);
   json["system"] = entryOf("/etc/os-release", "PRETTY_NAME", '=') + ", " + kernel.sysname + " " +
                    releaseNumbers(kernel.release);
 #ifdef __clang__
@@ -170,6 +175,9 @@ void mergeCommand(int argc, char** argv)
       "from "
       "all results that are there. Without --page the tables are printed.",
       QUADMAP_VERSION);
+  line.addExample(
+      "quadmap-benchmark merge results --page doc/benchmarks.md --plots doc/benchmarks",
+      "Writes tables and pictures of a page.");
   TCLAP::UnlabeledValueArg<std::string> results{
       "RESULTS", "Folder with the results.", true, "", "RESULTS", line.args()};
   TCLAP::ValueArg<std::string> page{

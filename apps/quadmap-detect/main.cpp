@@ -30,6 +30,10 @@ struct Cli
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
       "rawlog", "The recording, in either format of MRPT.", true, "", "IN.rawlog", line.args()};
+  cli::Example knowing{line, "quadmap-detect --list", "Lists the models that are known."};
+  cli::Example finding{
+      line, "quadmap-detect kitchen.rawlog --model nanodet-m", "Writes kitchen.objects.rawlog."};
+  cli::Group modelGroup{line, "Model"};
   Text model{"",         "model", "Name of a model (see --list), or a model file (.ini).",
              true,       "",      "NAME|FILE",
              line.args()};
@@ -38,12 +42,14 @@ struct Cli
       "Given alone: print the models that are known, which of them are installed, and how to get "
       "the others.",
       line.args()};
+  cli::Group outputGroup{line, "Output"};
   Text output{"o",          "output",   "The boxes (default IN.objects.rawlog).", false, "",
               "OUT.rawlog", line.args()};
   Text draw{
       "",         "draw", "Folder for a picture of each image with its boxes; made when missing.",
       false,      "",     "DIR",
       line.args()};
+  cli::Group inputGroup{line, "Input"};
   Text sensor{"", "sensor", "Use only this RGB-D sensor.", false, "", "LABEL", line.args()};
   TCLAP::SwitchArg imagesAnywhere{
       "", "images-anywhere", "Read images that lie outside the rawlog's own image folder.",

@@ -35,12 +35,19 @@ struct Cli
       "",
       "OUTDIR|MAP|EST.tum",
       line.args()};
+  cli::Example comparing{
+      line,
+      "quadmap-evaluate home --objects home.objects.gt.json --trajectory home.trajectory.gt.tum "
+      "--json home.json",
+      "Compares a map with its truth, as a table and as JSON."};
+  cli::Group truth{line, "Truth"};
   Text objects{"",         "objects", "True objects, same form as objects.json.",
                false,      "",        "objects.gt.json",
                line.args()};
   Text trajectory{"",         "trajectory", "True trajectory: time tx ty tz qx qy qz qw.",
                   false,      "",           "groundtruth.tum",
                   line.args()};
+  cli::Group comparison{line, "Comparison"};
   Text json{"", "json", "Write the figures to this file too.", false, "", "FILE", line.args()};
   Text html{"",
             "html",

@@ -42,6 +42,13 @@ struct Cli
       "",
       "OUTDIR|MAP",
       line.args()};
+  cli::Example page{
+      line, "quadmap-export home --html home.html",
+      "Makes a page for any browser, with all images and boxes."};
+  cli::Example pictures{
+      line, "quadmap-export home --png home.png --top home_top.png",
+      "Draws the map at an angle and from above, without a display."};
+  cli::Group outputs{line, "What to write"};
   Text scene{"",     "scene",    "Scene for MRPT's SceneViewer3D (.3Dscene).", false, "",
              "FILE", line.args()};
   Text png{"", "png", "Picture at an angle from above.", false, "", "FILE", line.args()};
@@ -83,6 +90,7 @@ struct Cli
   Text config{"c",        "config", "Section [dense]: how --cloud and --object-clouds are made.",
               false,      "",       "FILE.ini",
               line.args()};
+  cli::Group compared{line, "What to compare with"};
   Text truth{"",         "truth", "True objects, drawn in black. Needs --trajectory or --in-place.",
              false,      "",      "objects.gt.json",
              line.args()};
@@ -94,6 +102,7 @@ struct Cli
       "",         "compare", "Second map to show beside this one in the page, in the same frame.",
       false,      "",        "OUTDIR|MAP",
       line.args()};
+  cli::Group manner{line, "How"};
   Text three{
       "",         "three",      "Folder of three.js for --html (default that of libjs-three).",
       false,      kThreeFolder, "DIR",

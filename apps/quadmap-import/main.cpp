@@ -33,8 +33,15 @@ struct Cli
       "SOURCE", "Folder of the recording; openni2: live, the plugged-in camera, or FILE.oni.",
       true,     "",
       "SOURCE", line.args()};
+  cli::Example checking{
+      line, "quadmap-import tum my_kitchen --check",
+      "Says what is wrong with a recording, and writes nothing."};
+  cli::Example importing{
+      line, "quadmap-import tum my_kitchen -o kitchen.rawlog", "Makes a rawlog of it."};
+  cli::Group outputGroup{line, "Output"};
   TCLAP::ValueArg<std::string> output{"o",          "output",   "The rawlog to write.", false, "",
                                       "OUT.rawlog", line.args()};
+  cli::Group checkGroup{line, "Check"};
   TCLAP::SwitchArg check{
       "", "check", "Write nothing; list what is wrong with the recording.", line.args()};
   TCLAP::ValueArg<double> maxGap{
@@ -42,6 +49,7 @@ struct Cli
       "S", line.args()};
   TCLAP::ValueArg<double> maxSpeed{
       "", "max-speed", "--check: fastest plausible motion [m/s].", false, 2.0, "M/S", line.args()};
+  cli::Group conversion{line, "Conversion"};
   TCLAP::SwitchArg external{
       "", "external", "Images into OUT_Images/ instead of into the rawlog.", line.args()};
   TCLAP::ValueArg<std::string> posesAs{
@@ -53,6 +61,7 @@ struct Cli
                              "N", line.args()};
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Drop what cannot be used, say so, and go on.", line.args()};
+  cli::Group cameraGroup{line, "Camera"};
   cli::CameraArguments camera{line.args()};
 };
 

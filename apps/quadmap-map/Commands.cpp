@@ -67,6 +67,7 @@ std::string timesSeen(const CQuadricObjectMap& map)
 void infoCommand(int argc, char** argv)
 {
   cli::CommandLine line("quadmap-map info", "Shows what a map contains.", QUADMAP_VERSION);
+  line.addExample("quadmap-map info home/objects.quadmap", "Lists its objects.");
   TCLAP::UnlabeledValueArg<std::string> file(
       "MAP", std::string(kMapHelp) + " Or an objects.json.", true, "", "MAP", line.args());
   if (!line.parse(argc, argv)) return;
@@ -83,6 +84,9 @@ void infoCommand(int argc, char** argv)
 void relabelCommand(int argc, char** argv)
 {
   EditCli cli("relabel", "Gives an object another label.");
+  cli.line.addExample(
+      "quadmap-map relabel home/objects.quadmap --id 7 --label armchair -o corrected.quadmap",
+      "Calls object 7 an armchair.");
   Id id("", "id", "The object.", true, 0, "N", cli.line.args());
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
   TCLAP::SwitchArg anyLabel(
@@ -100,6 +104,9 @@ void relabelCommand(int argc, char** argv)
 void removeCommand(int argc, char** argv)
 {
   EditCli cli("remove", "Takes objects out of a map.");
+  cli.line.addExample(
+      "quadmap-map remove home/objects.quadmap --id 3 --id 5 -o corrected.quadmap",
+      "Leaves out two objects.");
   TCLAP::MultiArg<unsigned> ids(
       "", "id", "An object; may be given several times.", true, "N", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
@@ -115,6 +122,9 @@ void removeCommand(int argc, char** argv)
 void mergeCommand(int argc, char** argv)
 {
   EditCli cli("merge", "Makes one object of two that are the same.");
+  cli.line.addExample(
+      "quadmap-map merge home/objects.quadmap --keep 1 --absorb 2 -o corrected.quadmap",
+      "Makes object 2 a part of object 1.");
   Id kept("", "keep", "The object that stays.", true, 0, "N", cli.line.args());
   Id absorbed("", "absorb", "The object that goes into it.", true, 0, "N", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
@@ -130,6 +140,9 @@ void mergeCommand(int argc, char** argv)
 void applyCommand(int argc, char** argv)
 {
   EditCli cli("apply", "Makes the changes of an edit list, as the page of a map saves it.");
+  cli.line.addExample(
+      "quadmap-map apply home/objects.quadmap edits.json -o corrected.quadmap",
+      "Applies what was changed in the page.");
   TCLAP::UnlabeledValueArg<std::string> list(
       "EDITS", "The list (.json).", true, "", "EDITS", cli.line.args());
   if (!cli.line.parse(argc, argv)) return;

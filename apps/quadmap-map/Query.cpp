@@ -35,6 +35,11 @@ struct Cli
       "MAP", std::string(kMapHelp) + " Or an objects.json.", true, "", "MAP", line.args()};
   TCLAP::UnlabeledMultiArg<std::string> question{
       "QUESTION", "In a few words; quotes are not needed.", false, "QUESTION", line.args()};
+  cli::Example chairs{
+      line, "quadmap-map query home/objects.quadmap --label chair --near 0,0,0",
+      "Lists the chairs, nearest to the origin first."};
+  cli::Example asked{
+      line, "quadmap-map query home nearest chair to the tv", "Answers a question in words."};
   Text label{"", "label", "Only objects of this label.", false, "", "LABEL", line.args()};
   Text near{"",      "near",     "Nearest to this place first, with distances [m].", false, "",
             "x,y,z", line.args()};

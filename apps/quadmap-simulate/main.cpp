@@ -29,11 +29,15 @@ struct Cli
       "SCENE", "Name of an installed scene (home), or the path of a scene file.",
       true,    "",
       "SCENE", line.args()};
+  cli::Example walk{
+      line, "quadmap-simulate home -o room.rawlog --seed 7", "Walks through a furnished room."};
+  cli::Group outputGroup{line, "Output"};
   TCLAP::ValueArg<std::string> output{"o",          "output",   "The rawlog to write.", true, "",
                                       "OUT.rawlog", line.args()};
   TCLAP::ValueArg<std::string> seed{
       "",  "seed",     "Another number, another recording of the same walk.", false, "1",
       "N", line.args()};
+  cli::Group errors{line, "Errors of the sensors"};
   TCLAP::ValueArg<std::string> noise{
       "",         "noise", "Multiplies all errors of the sensors, 0 to 10; 0 = perfect sensors.",
       false,      "1",     "FACTOR",
@@ -58,6 +62,7 @@ struct Cli
       "",
       "FACTOR",
       line.args()};
+  cli::Group images{line, "Images"};
   TCLAP::ValueArg<std::string> frames{
       "",         "frames", "Images of each camera instead of the scene's, for the same walk.",
       false,      "",       "N",
@@ -74,6 +79,7 @@ struct Cli
   TCLAP::ValueArg<std::string> resolution{
       "",    "resolution", "Image size instead of the scene's, same width of view.", false, "",
       "WxH", line.args()};
+  cli::Group detector{line, "Detector"};
   TCLAP::ValueArg<std::string> detections{
       "",
       "detections",

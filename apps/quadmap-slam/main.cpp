@@ -45,6 +45,16 @@ struct Cli
       "",
       "IN.rawlog|openni2:...",
       line.args()};
+  cli::Example mapping{
+      line, "quadmap-slam home.rawlog -o home",
+      "Maps a recording with its own odometry and the boxes of home.objects.rawlog."};
+  cli::Example detecting{
+      line, "quadmap-slam openni2:live -o desk --detector nanodet-m",
+      "Maps from a camera until Ctrl-C; a neural network finds the boxes."};
+  cli::Example continuing{
+      line, "quadmap-slam today.rawlog -o today --map yesterday/objects.quadmap",
+      "Starts in an earlier map and reports what changed."};
+  cli::Group results{line, "Results and options"};
   TCLAP::ValueArg<std::string> output{
       "o", "output", "Folder for the results; made when missing.", true, "", "OUTDIR", line.args()};
   TCLAP::ValueArg<std::string> config{
@@ -54,6 +64,7 @@ struct Cli
       "", "defaults",
       "Given alone: print the options that --config takes, with their defaults and what they do.",
       line.args()};
+  cli::Group methodGroup{line, "Method"};
   TCLAP::ValueArg<std::string> method{
       "",
       "method",
@@ -95,6 +106,7 @@ struct Cli
       "",
       "MAP",
       line.args()};
+  cli::Group inputGroup{line, "Input"};
   TCLAP::ValueArg<std::string> objects{
       "", "objects", "The file with the boxes.", false, "", "FILE.rawlog", line.args()};
   TCLAP::ValueArg<std::string> detector{
@@ -111,6 +123,7 @@ struct Cli
                                       "LABEL", line.args()};
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Leave out broken records and say so, instead of failing.", line.args()};
+  cli::Group running{line, "Running"};
   TCLAP::SwitchArg replace{
       "", "replace",
       "A run that Ctrl-C stops early replaces even the result of a complete run in OUTDIR; without "
@@ -127,6 +140,7 @@ struct Cli
       0,
       "N",
       line.args()};
+  cli::Group cameraGroup{line, "Camera"};
   cli::CameraArguments camera{line.args()};
 };
 
