@@ -21,6 +21,8 @@ ObjectRecord sampleRecord()
   r.framesVisible = 12;
   r.observations = 34;
   r.existence = 0.987654321;
+  r.firstSeen = 1600000000.25;
+  r.lastSeen = 1600000044.75;
   r.labelCounts = {
       {       "bench",  2},
       {"dining table", 32}
@@ -83,6 +85,8 @@ TEST(ObjectsJson, EveryFieldSurvives)
   EXPECT_EQ(read[0].framesVisible, a.framesVisible);
   EXPECT_EQ(read[0].observations, a.observations);
   EXPECT_EQ(read[0].existence, a.existence);
+  EXPECT_EQ(read[0].firstSeen, a.firstSeen);
+  EXPECT_EQ(read[0].lastSeen, a.lastSeen);
   EXPECT_EQ(read[0].labelCounts, a.labelCounts);
   ASSERT_TRUE(read[0].covariance);
   EXPECT_EQ(*read[0].covariance, *a.covariance);
@@ -92,6 +96,21 @@ TEST(ObjectsJson, EveryFieldSurvives)
   EXPECT_FALSE(read[1].framesVisible || read[1].observations || read[1].existence);
   EXPECT_TRUE(read[1].labelCounts.empty());
   EXPECT_FALSE(read[1].covariance);
+}
+
+TEST(ObjectsJson, SaysWhatItIs)
+{
+  const std::string head = R"({"format":"quadmap-objects","version":1,"unit":"m","frame":"map",)"
+                           "\n";
+  EXPECT_EQ(objectsToJson({}).find(head), 0u) << objectsToJson({});
+  EXPECT_NE(objectsToJson({}, "world").find("\"frame\":\"world\""), std::string::npos);
+  EXPECT_TRUE(parse("{\"objects\":[]}").empty()) << "made by hand";
+  for (const char* wrong : {"\"format\":\"quadmap-edits\"", "\"version\":2", "\"unit\":\"mm\""})
+  {
+    const auto error = errorOf([&] { parse(std::string("{") + wrong + ",\"objects\":[]}"); });
+    const std::string key(wrong, std::string(wrong).find(':'));
+    EXPECT_NE(error.find(key), std::string::npos) << wrong << " must be refused: " << error;
+  }
 }
 
 TEST(ObjectsJson, TheSameObjectsGiveTheSameBytes)

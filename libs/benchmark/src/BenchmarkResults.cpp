@@ -71,7 +71,9 @@ BenchmarkResult readResult(const fs::path& folder)
   result.folder = folder.string();
   result.job = BenchmarkJob::fromLine(firstLine(folder / "job.txt"));
   const Json machine = readJson((folder / "machine.json").string());
-  for (const auto& [key, value] : machine.items()) result.machine[key] = value.get<std::string>();
+  for (const auto& [key, value] : machine.items())
+    if (key != "format" && key != "version")
+      result.machine[key] = value.is_string() ? value.get<std::string>() : jsonText(value);
   if (result.job.kind == BenchmarkKind::Observed)
   {
     const Json observation = readJson((folder / "observation.json").string());

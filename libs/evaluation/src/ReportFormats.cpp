@@ -152,6 +152,8 @@ std::string objectsTable(const ObjectEvaluation& o)
 std::string toJson(const EvaluationReport& report)
 {
   const Json json{
+      {    "format",   "quadmap-evaluation"},
+      {   "version",                      1},
       {"trajectory", trajectoryJson(report)},
       {   "objects",    objectsJson(report)},
       {   "matches",    matchesJson(report)}

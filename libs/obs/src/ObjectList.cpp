@@ -17,6 +17,9 @@ namespace
 /** Largest deviation of a stored matrix from a rotation [-]. */
 constexpr double kRotationTolerance = 1e-3;
 
+const char* const kFormat = "quadmap-objects";
+constexpr int kVersion = 1;
+
 [[noreturn]] void reject(const std::string& what) { throw std::runtime_error(what); }
 
 const Json& require(const Json& object, const char* key)
@@ -121,6 +124,9 @@ ObjectRecord readRecord(const Json& object)
   if (object.contains("observations"))
     record.observations = readCount(object["observations"], "observations");
   if (object.contains("existence")) record.existence = readFinite(object["existence"], "existence");
+  if (object.contains("first_seen"))
+    record.firstSeen = readFinite(object["first_seen"], "first_seen");
+  if (object.contains("last_seen")) record.lastSeen = readFinite(object["last_seen"], "last_seen");
   if (object.contains("label_counts"))
   {
     const Json& counts = object["label_counts"];
@@ -183,14 +189,30 @@ Json jsonOf(const ObjectRecord& record)
   if (record.to) j["to"] = *record.to;
   if (record.observations) j["observations"] = *record.observations;
   if (record.existence) j["existence"] = *record.existence;
+  if (record.firstSeen) j["first_seen"] = rounded(*record.firstSeen, 6);
+  if (record.lastSeen) j["last_seen"] = rounded(*record.lastSeen, 6);
   if (!record.labelCounts.empty()) j["label_counts"] = record.labelCounts;
   if (record.covariance) j["covariance"] = jsonOf(*record.covariance);
   return j;
 }
 
+/** Files that people or other programs made may have neither format nor version nor unit. */
+void requireKnownForm(const Json& file)
+{
+  if (file.contains("format") && file["format"] != kFormat)
+    reject("\"format\" is " + jsonText(file["format"]) + ", and not \"" + kFormat + "\"");
+  if (file.contains("version") && file["version"] != kVersion)
+    reject(
+        "\"version\" is " + jsonText(file["version"]) + "; this program reads version " +
+        std::to_string(kVersion));
+  if (file.contains("unit") && file["unit"] != "m")
+    reject("\"unit\" is " + jsonText(file["unit"]) + ", and not \"m\"");
+}
+
 std::vector<ObjectRecord> recordsOf(const Json& file)
 {
   if (!file.is_object()) reject("expected {\"objects\": [...]}");
+  requireKnownForm(file);
   const Json& objects = require(file, "objects");
   if (!objects.is_array()) reject("\"objects\" must be an array");
 
@@ -226,17 +248,26 @@ std::vector<ObjectRecord> readObjectsJson(const std::string& path)
   }
 }
 
-std::string objectsToJson(const std::vector<ObjectRecord>& objects)
+std::string objectsToJson(const std::vector<ObjectRecord>& objects, const std::string& frame)
 {
-  std::string text = "{\"objects\":[";
+  const Json head{
+      { "format",  kFormat},
+      {"version", kVersion},
+      {   "unit",      "m"},
+      {  "frame",    frame}
+  };
+  std::string text = jsonText(head);
+  text.back() = ',';  // the closing brace comes after the objects
+  text += "\n\"objects\":[";
   for (std::size_t i = 0; i < objects.size(); ++i)
     text += (i == 0 ? "\n " : ",\n ") + jsonText(jsonOf(objects[i]));
   return text + "\n]}\n";
 }
 
-void writeObjectsJson(const std::string& path, const std::vector<ObjectRecord>& objects)
+void writeObjectsJson(
+    const std::string& path, const std::vector<ObjectRecord>& objects, const std::string& frame)
 {
-  writeTextFile(path, objectsToJson(objects));
+  writeTextFile(path, objectsToJson(objects, frame));
 }
 
 }  // namespace quadmap

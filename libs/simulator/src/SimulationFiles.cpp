@@ -110,7 +110,7 @@ SimulationSummary simulateToFiles(
   summary.frames = simulator.frameCount();
   summary.truth = truthOf(simulator.scene(), framesVisible);
 
-  writeObjectsJson(writer.add(stemOf(rawlog) + ".objects.gt.json"), summary.truth);
+  writeObjectsJson(writer.add(stemOf(rawlog) + ".objects.gt.json"), summary.truth, "world");
   writeTumTrajectory(writer.add(stemOf(rawlog) + ".groundtruth.tum"), trajectory);
   writer.finish();
   return summary;

@@ -19,7 +19,7 @@ Page.save = (function () {
       return {id: idOf(o.id), label: o.label, center: o.center, size: o.size,
               rotation: [0, 1, 2].map((r) => [m[r], m[4 + r], m[8 + r]]), orientation_defined: o.oriented};
     });
-    return JSON.stringify({objects: objects}, null, 1) + "\n";
+    return JSON.stringify({format: "quadmap-objects", version: 1, unit: "m", frame: "map", objects: objects}, null, 1) + "\n";
   }
   function download(name, text) {
     const link = Page.element("a", document.body), address = URL.createObjectURL(new Blob([text], {type: "application/json"}));

@@ -156,13 +156,15 @@ TEST_F(RawlogRun, ReportSaysWhatHappened)
   EXPECT_EQ(keyframes, 6u) << "one for each keyframe";
   EXPECT_EQ(messages[mrpt::system::LVL_WARN], 1u);
   const json r = report();
-  EXPECT_EQ(r["version"], "1.2.3");
+  EXPECT_EQ(r["program_version"], "1.2.3");
   EXPECT_EQ(r["input"]["frames"], 6);
   EXPECT_EQ(r["input"]["keyframes"], 6);
   EXPECT_EQ(r["input"]["records"], 18);
   EXPECT_EQ(r["input"]["odometry"], "CObservationRobotPose odometry");
   EXPECT_EQ(r["input"]["interrupted"], false);
-  EXPECT_EQ(r["configuration"]["keyframes"]["every"], "1");
+  EXPECT_EQ(r["configuration"]["keyframes"]["every"], 1) << "numbers are numbers";
+  EXPECT_EQ(r["configuration"]["joint"]["correctPoses"], true);
+  EXPECT_EQ(r["configuration"]["slam"]["method"], "rgbd");
   EXPECT_EQ(r["boxes"]["total"], 6);
   const json& counts = r["boxes"]["by_label"]["strange thing"];
   EXPECT_EQ(

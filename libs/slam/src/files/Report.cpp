@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -68,17 +69,22 @@ Json visualOdometryJson(const OdometrySummary& odometry)
   };
 }
 
+/** Numbers and flags as such, three numbers as a list, and everything else as text. */
+Json jsonOf(const Option& option)
+{
+  std::string text = option.text();
+  const bool isNumber = option.bounds.min < option.bounds.max;
+  if (!isNumber && option.range != "true or false") return text;
+  if (text.find(' ') == std::string::npos) return Json::parse(text);
+  std::replace(text.begin(), text.end(), ' ', ',');
+  return Json::parse("[" + text + "]");
+}
+
 Json configurationJson(const SlamConfiguration& configuration)
 {
-  const auto config = configuration.toConfig();
   Json json = Json::object();
-  std::vector<std::string> sections, keys;
-  config.getAllSections(sections);
-  for (const auto& section : sections)
-  {
-    config.getAllKeys(section, keys);
-    for (const auto& key : keys) json[section][key] = config.read_string(section, key, "");
-  }
+  configuration.visitOptions([&](const std::string& section, const Option& option)
+                             { json[section][option.key] = jsonOf(option); });
   json["slam"].erase("threads");  // only times depend on it, and it is written with them
   return json;
 }
@@ -249,8 +255,10 @@ class AssociationLines
 void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, const RunRecord& run)
 {
   const Json head = {
+      {         "format",                         "quadmap-report"},
+      {        "version",                                        1},
       {        "program",                           "quadmap-slam"},
-      {        "version",                              run.version},
+      {"program_version",                              run.version},
       {          "input",                            inputJson(run,nodes.size())},
       {  "configuration",     configurationJson(run.configuration)                                        },
       {"visual_odometry",  visualOdometryJson(run.result.odometry)},

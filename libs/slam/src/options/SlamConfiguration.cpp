@@ -68,6 +68,17 @@ mrpt::config::CConfigFileMemory SlamConfiguration::toConfig() const
   return config;
 }
 
+void SlamConfiguration::visitOptions(
+    const std::function<void(const std::string&, const Option&)>& each) const
+{
+  SlamConfiguration copy = *this;
+  for (const auto& section : copy.sections())
+  {
+    const OptionList list = section.options->options();
+    for (const auto& option : list.options()) each(section.name, option);
+  }
+}
+
 std::string SlamConfiguration::documentedIni() const
 {
   std::string ini =

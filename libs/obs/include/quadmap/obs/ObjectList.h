@@ -25,6 +25,7 @@ struct ObjectRecord
   std::optional<double> from, to;
   std::optional<unsigned> observations;         //!< Map: number of measurements that made it
   std::optional<double> existence;              //!< Map: probability that it exists, in [0, 1]
+  std::optional<double> firstSeen, lastSeen;    //!< Map: times of measurements [s since 1970]
   std::map<std::string, unsigned> labelCounts;  //!< Map: how often it got which label
   /** Map: covariance of (x, y, z [m], yaw [rad], ln a, ln b, ln c). */
   std::optional<Eigen::Matrix<double, 7, 7>> covariance;
@@ -33,11 +34,16 @@ struct ObjectRecord
 /** \exception std::runtime_error On unreadable or malformed files; names file and object. */
 std::vector<ObjectRecord> readObjectsJson(const std::string& path);
 
-/** The text of objects.json. */
-std::string objectsToJson(const std::vector<ObjectRecord>& objects);
+/** The text of objects.json. \param frame Where the objects are: "map", or the "world" of the true
+ *  trajectory. */
+std::string objectsToJson(
+    const std::vector<ObjectRecord>& objects, const std::string& frame = "map");
 
 /** Writes objects.json under a temporary name and renames it when it is complete.
  * \exception std::runtime_error If the file cannot be written. */
-void writeObjectsJson(const std::string& path, const std::vector<ObjectRecord>& objects);
+void writeObjectsJson(
+    const std::string& path,
+    const std::vector<ObjectRecord>& objects,
+    const std::string& frame = "map");
 
 }  // namespace quadmap

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "quadmap/base/OptionGroup.h"
+#include "quadmap/base/OptionList.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/odometry/PoseUncertainty.h"
 #include "quadmap/odometry/VisualOdometryOptions.h"
@@ -44,6 +45,9 @@ struct SlamConfiguration
 
   /** Every option with its value. */
   mrpt::config::CConfigFileMemory toConfig() const;
+
+  /** Calls `each` with the section and the description of every option, to take texts from. */
+  void visitOptions(const std::function<void(const std::string&, const Option&)>& each) const;
 
   /** Every option with its value, its unit, its range and what it does, as the text of a file. */
   std::string documentedIni() const;
