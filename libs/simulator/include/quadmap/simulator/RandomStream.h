@@ -17,7 +17,7 @@ enum class Purpose : std::uint64_t
 
 /** Random numbers that depend on nothing but (random seed, purpose, frame). Frames may therefore be
  * made in any order and on any number of threads. The distributions are our own, because those of
- * <random> differ between standard libraries. */
+ * `random` differ between standard libraries. */
 class RandomStream
 {
  public:
