@@ -2,7 +2,7 @@
 # Sets quadmap up on Debian 12 and puts it to work. Safe to repeat: what is there is not done again.
 #   ./quickstart.sh demo      maps the bundled recording, whose odometry drifts, and shows what came of it
 #   ./quickstart.sh test      runs all tests
-#   ./quickstart.sh packages [build|test|ci]...   only installs the Debian packages that are missing
+#   ./quickstart.sh packages [build|test|ci|packages]...   only installs the Debian packages that are missing
 set -euo pipefail
 export LC_ALL=C.UTF-8
 

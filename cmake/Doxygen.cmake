@@ -27,3 +27,5 @@ set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO)
 set(DOXYGEN_QUIET YES)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
 doxygen_add_docs(doxygen ${PROJECT_SOURCE_DIR}/libs COMMENT "Making the reference of the libraries")
+
+install(DIRECTORY ${CMAKE_BINARY_DIR}/reference/html DESTINATION ${CMAKE_INSTALL_DOCDIR}/reference COMPONENT doc OPTIONAL)

@@ -35,7 +35,8 @@ foreach(component IN LISTS components)
   string(APPEND QUADMAP_COMPONENT_DEPENDENCIES
     "set(quadmap_${component}_below ${below})\nset(quadmap_${component}_packages \"${packages}\")\n")
   install(EXPORT quadmap-${component} NAMESPACE quadmap::
-    FILE quadmap-${component}-targets.cmake DESTINATION ${configDir})
+    FILE quadmap-${component}-targets.cmake DESTINATION ${configDir} COMPONENT dev)
+  list(APPEND allPackages ${packages})
 endforeach()
 string(REPLACE ";" " " QUADMAP_COMPONENTS "${components}")
 
@@ -43,20 +44,11 @@ configure_package_config_file(cmake/quadmapConfig.cmake.in quadmapConfig.cmake
   INSTALL_DESTINATION ${configDir})
 write_basic_package_version_file(quadmapConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfig.cmake
-  ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfigVersion.cmake DESTINATION ${configDir})
+  ${CMAKE_CURRENT_BINARY_DIR}/quadmapConfigVersion.cmake DESTINATION ${configDir} COMPONENT dev)
 # The pages in the places in which they point to each other.
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES rawlogs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/rawlogs)
-install(FILES libs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/libs)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(FILES rawlogs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/rawlogs COMPONENT doc)
+install(FILES libs/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/libs COMPONENT doc)
 
-set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "quadmap contributors <quadmap@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
-set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_STRIP_FILES ON)
-include(CPack)
+include(cmake/DebianPackages.cmake)

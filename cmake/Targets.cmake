@@ -93,8 +93,8 @@ function(quadmap_add_library name)
   endif()
   quadmap_target_options(quadmap_${name})
   install(TARGETS quadmap_${name} EXPORT quadmap-${name}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib NAMELINK_COMPONENT dev)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 
   set_property(GLOBAL APPEND PROPERTY QUADMAP_COMPONENTS ${name})
   # The linker looks for the libraries behind the interface, so that the package names them, too.
@@ -122,9 +122,9 @@ function(quadmap_add_program name)
     COMMAND ${ask} man > ${manual}
     COMMAND gzip -9nkf ${manual}
     COMMAND ${ask} completion > ${completion})
-  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(FILES ${manual}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+  install(FILES ${manual}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
 endfunction()
 
 # quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ...): a GoogleTest program whose cases CTest lists one by one,

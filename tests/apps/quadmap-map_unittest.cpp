@@ -344,7 +344,7 @@ TEST_F(QuadmapMap, ShowsHelpAndVersion)
   {
     const auto help = run(arguments);
     EXPECT_EQ(help.status, 0) << arguments;
-    EXPECT_NE(help.out.find("USAGE"), kNotFound) << arguments;
+    EXPECT_NE(help.out.find("Usage: quadmap-map "), kNotFound) << arguments;
   }
   EXPECT_EQ(run("--version").out.find("quadmap-map "), 0u);
 }

@@ -1,0 +1,65 @@
+# The packages that CPack makes (.ci/packages calls it), split as Debian does: the libraries, what is needed to
+# compile against them, the programs, the files of no architecture that both read, and the documentation.
+
+# quadmap_debian_package_of(<file> <output variable>): the installed Debian package that has the file, or nothing.
+function(quadmap_debian_package_of file output)
+  execute_process(COMMAND dpkg-query -S ${file} OUTPUT_VARIABLE found ERROR_QUIET RESULT_VARIABLE status)
+  set(${output} "" PARENT_SCOPE)
+  if(status EQUAL 0 AND found MATCHES "^([a-z0-9.+-]+)")
+    set(${output} ${CMAKE_MATCH_1} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# What the configuration for find_package(quadmap) finds in turn.
+find_program(DPKG_QUERY dpkg-query)
+mark_as_advanced(DPKG_QUERY)
+set(same "(= ${PROJECT_VERSION})")
+set(needed "libquadmap${PROJECT_VERSION_MAJOR} ${same}")
+list(REMOVE_DUPLICATES allPackages)
+foreach(package IN LISTS allPackages)
+  if(DPKG_QUERY AND ${package}_DIR)
+    quadmap_debian_package_of(${${package}_DIR} debianPackage)
+    list(APPEND needed ${debianPackage})
+  endif()
+endforeach()
+list(REMOVE_DUPLICATES needed)
+string(REPLACE ";" ", " needed "${needed}")
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "quadmap contributors <quadmap@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL lib dev tools data doc)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+# quadmap_debian_package(<component> <name> <section> <depends> <description>)
+macro(quadmap_debian_package component name section depends description)
+  string(TOUPPER ${component} part)
+  set(CPACK_DEBIAN_${part}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${part}_PACKAGE_SECTION ${section})
+  set(CPACK_DEBIAN_${part}_PACKAGE_DEPENDS "${depends}")
+  set(CPACK_COMPONENT_${part}_DESCRIPTION "${description}")
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+    RENAME copyright COMPONENT ${component} EXCLUDE_FROM_ALL)
+endmacro()
+
+quadmap_debian_package(lib libquadmap${PROJECT_VERSION_MAJOR} libs "quadmap-data ${same}" "The libraries.")
+set(CPACK_DEBIAN_LIB_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIB_PACKAGE_GENERATE_SHLIBS ON)
+quadmap_debian_package(dev libquadmap-dev libdevel "${needed}" "Headers, and what CMake finds them by.")
+# Pages are made with three.js, and pictures drawn by Mesa where there is no graphics card.
+quadmap_debian_package(tools quadmap-tools science
+  "libquadmap${PROJECT_VERSION_MAJOR} ${same}, libjs-three, libegl-mesa0, libgl1-mesa-dri" "The programs.")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "quadmap-doc, parallel")
+quadmap_debian_package(data quadmap-data science "" "Labels, configuration, scenes and scripts, which the libraries and the programs read.")
+quadmap_debian_package(doc quadmap-doc doc "" "Guides, formats, mathematics, and the reference of the libraries.")
+foreach(part DATA DOC)
+  set(CPACK_DEBIAN_${part}_PACKAGE_ARCHITECTURE all)
+endforeach()
+include(CPack)
