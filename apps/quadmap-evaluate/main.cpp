@@ -37,7 +37,7 @@ struct Cli
       line.args()};
   cli::Example comparing{
       line,
-      "quadmap-evaluate home --objects home.objects.gt.json --trajectory home.trajectory.gt.tum "
+      "quadmap-evaluate home --objects home.objects.gt.json --trajectory home.groundtruth.tum "
       "--json home.json",
       "Compares a map with its truth, as a table and as JSON."};
   cli::Group truth{line, "Truth"};

@@ -77,17 +77,20 @@ def check_programs():
         require_valid(out + "/report.json", report)
         require_no_numbers_in_words(out, report["configuration"])
         require_valid(out + "/objects.json", load(out + "/objects.json"))
-        run("quadmap-evaluate", out, "--objects", "x.objects.gt.json", "--trajectory", "x.trajectory.gt.tum", "--json", "e.json")
+        run("quadmap-evaluate", out, "--objects", "x.objects.gt.json", "--trajectory", "x.groundtruth.tum", "--json", "e.json")
         require_valid(out + " evaluated", load("e.json"))
     objects = load("rawlog/objects.json")
     if not all("first_seen" in o and o["first_seen"] <= o["last_seen"] for o in objects["objects"]):
         failures.append("objects.json: no time when an object was seen")
     check_objects(objects)
-    run("quadmap-evaluate", "rawlog/trajectory.tum", "--trajectory", "x.trajectory.gt.tum", "--json", "e.json")
+    run("quadmap-evaluate", "rawlog/trajectory.tum", "--trajectory", "x.groundtruth.tum", "--json", "e.json")
     require_valid("a trajectory evaluated", load("e.json"))
     run("quadmap-export", "rawlog", "--json", "o.json")
     require_valid("quadmap-export --json", load("o.json"))
     require_valid("quadmap-map query --json", json.loads(run("quadmap-map", "query", "rawlog/objects.quadmap", "--json")))
+    for question in (("nearest", "chair", "to", "the", "bed"), ("chairs",)):
+        answer = run("quadmap-map", "query", "rawlog", *question, "--json")
+        require_valid(f"answer to {question}", json.loads(answer))
     require_valid("quadmap-benchmark machine", json.loads(run("quadmap-benchmark", "machine", "--commit", "abc")))
     tables = BIN / "observation_tables"
     if tables.exists():

@@ -46,7 +46,9 @@ Json foundJson(const FoundObject& found)
 
 std::string answerToJson(const Answer& answer, const std::string& question)
 {
-  std::string text = "{\"question\":" + jsonText(Json(question)) + ",\n\"objects\":[";
+  std::string text = objectsToJson({});  // what the file is, and no objects
+  text.resize(text.find("\"objects\""));
+  text += "\"question\":" + jsonText(Json(question)) + ",\n\"objects\":[";
   const char* separator = "\n ";
   for (const FoundObject& found : answer.found)
   {
