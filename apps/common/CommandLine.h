@@ -81,7 +81,7 @@ class StrictOutput : public TCLAP::StdOutput
     throw UsageError(e.argId() == " " ? e.error() : e.error() + " - " + e.argId());
   }
 
-  HelpTable help;
+  HelpTable help;  //!< What usage() shows
 
  private:
   static std::string missingArguments(TCLAP::CmdLineInterface& line)

@@ -1,5 +1,4 @@
 #include <cctype>
-#include <sstream>
 
 #include "HelpTable.h"
 

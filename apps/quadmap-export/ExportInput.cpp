@@ -68,8 +68,6 @@ PageObject pageObjectOf(const MapObject& object)
   out.record = recordOf(object);
   out.confirmed = object.confirmed;
   out.misses = object.missCount;
-  out.firstSeen = mrpt::Clock::toDouble(object.firstSeen);
-  out.lastSeen = mrpt::Clock::toDouble(object.lastSeen);
   return out;
 }
 

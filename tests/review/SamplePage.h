@@ -31,8 +31,8 @@ inline PageObject pageObjectOf(const ObjectRecord& record)
       {      "lamp",  1}
   };
   object.record.covariance = 1e-4 * Eigen::Matrix<double, 7, 7>::Identity();
-  object.firstSeen = 100;
-  object.lastSeen = 110;
+  object.record.firstSeen = 100;
+  object.record.lastSeen = 110;
   return object;
 }
 

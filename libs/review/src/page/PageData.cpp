@@ -97,8 +97,8 @@ Json objectJson(const PageObject& object)
       {    "color",                              colorJson(r.label)},
       {"confirmed",                                object.confirmed                                               },
       {   "misses",                                   object.misses},
-      {    "first",                  numberOrNull(object.firstSeen)                                               },
-      {     "last",                   numberOrNull(object.lastSeen)},
+      {    "first",           numberOrNull(object.record.firstSeen)                                               },
+      {     "last",            numberOrNull(object.record.lastSeen)},
       {    "sigma",                                    sigmaJson(r)                                               },
       {"existence",              r.existence ? rounded(*r.existence,4) : Json()},
       {    "views", r.observations ? Json(*r.observations) : Json()                                               }

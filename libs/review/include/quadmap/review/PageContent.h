@@ -17,9 +17,8 @@ namespace quadmap
 struct PageObject
 {
   ObjectRecord record;
-  bool confirmed = true;                      //!< Has enough evidence to be reported
-  unsigned misses = 0;                        //!< Frames that should have shown it and did not
-  std::optional<double> firstSeen, lastSeen;  //!< [s since 1970]
+  bool confirmed = true;  //!< Has enough evidence to be reported
+  unsigned misses = 0;    //!< Frames that should have shown it and did not
 };
 
 /** A detector's box, and what became of it. */
