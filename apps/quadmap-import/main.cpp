@@ -1,16 +1,29 @@
-#include <algorithm>
 #include <iostream>
 
 #include "../common/CameraArguments.h"
 #include "../common/CommandLine.h"
 #include "../common/ProgressBar.h"
 #include "CameraImport.h"
-#include "TumImport.h"
-#include "quadmap/sensors/TumCheck.h"
+#include "FolderImport.h"
+#include "FolderSummary.h"
+#include "quadmap/sensors/FolderCheck.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 namespace
 {
 using namespace quadmap;
+
+constexpr const char* kOpenNi2 = "openni2";
+constexpr const char* kAuto = "auto";
+
+/** All kinds of sources. */
+std::vector<std::string> sourceKinds()
+{
+  auto kinds = folderKinds();
+  kinds.emplace_back(kOpenNi2);
+  kinds.emplace_back(kAuto);
+  return kinds;
+}
 
 /** The arguments of the program. */
 struct Cli
@@ -20,14 +33,15 @@ struct Cli
       "Turns an RGB-D recording into a rawlog that every MRPT program reads, its poses included, "
       "and the boxes of a detector into OUT.objects.rawlog beside it.",
       QUADMAP_VERSION};
-  std::vector<std::string> formats{"tum", "openni2"}, poseKinds{"odometry", "ground-truth", "none"};
-  TCLAP::ValuesConstraint<std::string> knownFormats{formats}, knownPoses{poseKinds};
-  TCLAP::UnlabeledValueArg<std::string> format{
-      "format",
-      "Layout of the recording: tum (TUM RGB-D benchmark), or openni2 (a camera by OpenNI2).",
+  std::vector<std::string> kinds = sourceKinds(), poseKinds{"odometry", "ground-truth", "none"};
+  TCLAP::ValuesConstraint<std::string> knownKinds{kinds}, knownPoses{poseKinds};
+  TCLAP::UnlabeledValueArg<std::string> kind{
+      "kind",
+      "What the recording is: a folder as downloaded from, or in the layout of, TUM RGB-D (tum); a "
+      "camera by OpenNI2 (openni2); or auto, which tells the kind of a folder by its files.",
       true,
       "",
-      &knownFormats,
+      &knownKinds,
       line.args()};
   TCLAP::UnlabeledValueArg<std::string> source{
       "SOURCE", "Folder of the recording; openni2: live, the plugged-in camera, or FILE.oni.",
@@ -55,8 +69,31 @@ struct Cli
   TCLAP::ValueArg<std::string> posesAs{
       "", "poses-as", "What the poses become.", false, "odometry", &knownPoses, line.args()};
   TCLAP::ValueArg<std::string> detections{
-      "",    "detections", "Folder of the boxes (default SOURCE/detections).", false, "",
-      "DIR", line.args()};
+      "",
+      "detections",
+      "Boxes: a folder of text files, one per image, in the form of quadmap or of YOLO's save_txt, "
+      "or a JSON file in COCO's form (default SOURCE/detections).",
+      false,
+      "",
+      "DIR|FILE.json",
+      line.args()};
+  TCLAP::ValueArg<std::string> labels{
+      "",
+      "labels",
+      "Names of the classes, one a line, for boxes that have numbers (default: a file beside them, "
+      "or COCO's).",
+      false,
+      "",
+      "FILE",
+      line.args()};
+  TCLAP::ValueArg<std::string> cameraName{
+      "",
+      "camera",
+      "The camera, when the recording does not tell: a name of share/quadmap/cameras or a file.",
+      false,
+      "",
+      "NAME|FILE",
+      line.args()};
   TCLAP::ValueArg<int> every{"",  "every",    "Take every n-th frame only.", false, 1,
                              "N", line.args()};
   TCLAP::SwitchArg keepGoing{
@@ -74,31 +111,31 @@ PosesAs posesAs(const std::string& name)
 /** Images without a file of boxes were not seen by the detector, or the files have other names.
  *  \exception std::runtime_error If no image has one, unless the import is to go on. */
 void reportMissingDetections(
-    const TumDataset& dataset, const TumImportReport& report, bool keepGoing)
+    const FrameFolder& folder, const FolderImportReport& report, bool keepGoing)
 {
   if (report.withoutDetections == 0) return;
   const std::string text = std::to_string(report.withoutDetections) + " of " +
                            std::to_string(report.frames) + " images have no file of boxes, as " +
-                           dataset.boxesFile(0) + " is the one of the first";
+                           folder.boxesFile(0) + " is the one of the first";
   if (report.withoutDetections == report.frames && !keepGoing) throw std::runtime_error(text);
   std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
 }
 
-void import(const TumDataset& dataset, Cli& cli)
+void import(const FrameFolder& folder, Cli& cli)
 {
-  TumImportOptions options;
+  FolderImportOptions options;
   options.posesAs = posesAs(cli.posesAs.getValue());
   options.every = static_cast<std::size_t>(cli.every.getValue());
   options.keepGoing = cli.keepGoing.getValue();
   RawlogWriterOptions writing;
   writing.external = cli.external.getValue();
   RawlogWriter writer(cli.output.getValue(), writing);
-  const auto report = importTum(dataset, options, writer, cli::ProgressBar());
+  const auto report = importFolder(folder, options, writer, cli::ProgressBar());
   for (const auto& what : report.dropped)
     std::cerr << "quadmap-import: dropped: " << oneLine(what) << "\n";
   if (report.frames == 0)
-    throw std::runtime_error(dataset.folder() + ": no frame could be imported");
-  reportMissingDetections(dataset, report, options.keepGoing);
+    throw std::runtime_error(folder.folder() + ": no frame could be imported");
+  reportMissingDetections(folder, report, options.keepGoing);
   writer.finish();
   std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
             << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";
@@ -106,33 +143,23 @@ void import(const TumDataset& dataset, Cli& cli)
   std::cout << "\n";
 }
 
-/** Prints the problems of a recording, by kind. \return The exit status, 1 if there are any. */
-int checkOnly(const TumDataset& dataset, Cli& cli)
+/** Prints what a recording has and what is wrong with it. \return The exit status, 1 for problems. */
+int checkOnly(const FrameFolder& folder, Cli& cli)
 {
-  constexpr std::size_t kExamples = 3;
-  TumCheckOptions options;
+  FolderCheckOptions options;
   options.maxGap = cli.maxGap.getValue();
   options.maxSpeed = cli.maxSpeed.getValue();
-  const auto problems = checkTum(dataset, options, cli::ProgressBar());
-  const auto& frames = dataset.frames();
-  std::cout << dataset.folder() << ": " << frames.size() << " frames in "
-            << frames.back().time - frames.front().time << " s, " << dataset.trajectory().size()
-            << " poses: " << (problems.empty() ? "no problem found\n" : "\n");
-  for (const auto& [kind, texts] : problems)
-  {
-    std::cout << kind << " (" << texts.size() << ")\n";
-    for (std::size_t i = 0; i < std::min(texts.size(), kExamples); ++i)
-      std::cout << "  " << oneLine(texts[i]) << "\n";
-    if (texts.size() > kExamples) std::cout << "  ...\n";
-  }
+  const auto problems = checkFolder(folder, options, cli::ProgressBar());
+  writeSummary(folder, std::cout);
+  writeProblems(problems, std::cout);
   return problems.empty() ? 0 : 1;
 }
 
 /** The kind openni2. */
 int importFromCamera(Cli& cli)
 {
-  if (cli.check.isSet() || cli.detections.isSet() || cli.posesAs.isSet())
-    throw cli::UsageError("--check, --detections, --poses-as: not for a camera");
+  if (cli.check.isSet() || cli.detections.isSet() || cli.labels.isSet() || cli.posesAs.isSet())
+    throw cli::UsageError("--check, --detections, --labels, --poses-as: not for a camera");
   CameraImportRequest request;
   request.source = cli.source.getValue();
   request.output = cli.output.getValue();
@@ -148,17 +175,25 @@ int run(Cli& cli)
   if (cli.every.getValue() < 1) throw cli::UsageError("--every: must be >= 1");
   if (!(cli.maxGap.getValue() >= 0)) throw cli::UsageError("--max-gap: must be >= 0 s");
   if (!(cli.maxSpeed.getValue() > 0)) throw cli::UsageError("--max-speed: must be > 0 m/s");
-  TumDatasetOptions reading;
-  reading.detections = cli.detections.getValue();
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
-  if (cli.format.getValue() == "openni2") return importFromCamera(cli);
+  std::string kind = cli.kind.getValue();
+  if (kind == kOpenNi2) return importFromCamera(cli);
   cli.camera.requireNone();
-  const TumDataset dataset(cli.source.getValue(), reading);
-  for (const auto& note : dataset.notes())
+  const std::string& source = cli.source.getValue();
+  if (kind == kAuto) kind = kindOfFolder(source);
+  FrameFolderOptions reading;
+  reading.detections = cli.detections.getValue();
+  reading.labels = cli.labels.getValue();
+  reading.camera = cli.cameraName.getValue();
+  const FrameFolder folder = openFrameFolder(kind, source, reading);
+  for (const auto& note : folder.notes())
     std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";
-  if (checking) return checkOnly(dataset, cli);
-  import(dataset, cli);
+  if (folder.posesCount() > 0 && !folder.camera().worldUp)
+    std::cerr << "quadmap-import: note: " << oneLine(source)
+              << ": nothing says where up is, +z is taken as up\n";
+  if (checking) return checkOnly(folder, cli);
+  import(folder, cli);
   return 0;
 }
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "../obs/TestData.h"
 #include "quadmap/detection/Detector.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 // Time of a detector per 640x480 image, on one core, beside that of its network alone in OpenCV.
 
@@ -30,7 +30,7 @@ std::vector<mrpt::img::CImage> recordedImages()
   std::vector<mrpt::img::CImage> images;
   const std::string folder = testData("kitchen_a");
   if (folder.empty()) return images;
-  const TumDataset dataset(folder);
+  const FrameFolder dataset = openFrameFolder("tum", folder);
   for (std::size_t i = 0; i < kFrames; ++i)
     images.push_back(dataset.scan(i * dataset.frames().size() / kFrames)->intensityImage);
   return images;

@@ -14,7 +14,7 @@
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/FramePerception.h"
 #include "quadmap/perception/RoomPerception.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/simulator/Simulator.h"
 
 // Time and memory of FramePerception per frame, on one core: frames are in memory, the result is
@@ -78,7 +78,7 @@ Frames recordedFrames(const std::string& name)
       fromUser ? fromUser : std::string(QUADMAP_SOURCE_DIR) + "/../shared/data";
   Frames frames;
   if (!std::filesystem::is_directory(root + "/" + name)) return frames;
-  const TumDataset dataset(root + "/" + name);
+  const FrameFolder dataset = openFrameFolder("tum", root + "/" + name);
   const std::size_t step = dataset.frames().size() / kMaxFrames + 1;
   for (std::size_t i = 0; i < dataset.frames().size(); i += step)
     addFrame(frames, dataset.scan(i), dataset.boxes(i), dataset.T_world_robot(i));

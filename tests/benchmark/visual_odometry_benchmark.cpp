@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "quadmap/odometry/VisualOdometry.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/simulator/Simulator.h"
 
 // Time of visual odometry per 640x480 image, on one core: images are in memory, one after the
@@ -39,7 +39,7 @@ Scans recordedScans(const std::string& name)
       fromUser ? fromUser : std::string(QUADMAP_SOURCE_DIR) + "/../shared/data";
   Scans scans;
   if (!std::filesystem::is_directory(root + "/" + name)) return scans;
-  const TumDataset dataset(root + "/" + name);
+  const FrameFolder dataset = openFrameFolder("tum", root + "/" + name);
   for (std::size_t i = 0; i < dataset.frames().size() && i < kFrames; ++i)
     scans.push_back(dataset.scan(i));
   return scans;

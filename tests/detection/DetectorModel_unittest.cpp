@@ -10,6 +10,7 @@
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/detection/KnownDetectors.h"
 #include "quadmap/obs/LabelTable.h"
+#include "quadmap/sensors/ClassNames.h"
 
 using namespace quadmap;
 
@@ -66,14 +67,14 @@ TEST(DetectorModel, OfTheProjectAreAllRight)
     }
     const auto labels = findModelPart(file, model.labels);
     ASSERT_TRUE(labels) << file;
-    EXPECT_EQ(readLabels(*labels).size(), 80u);
+    EXPECT_EQ(readClassNames(*labels).size(), 80u);
   }
 }
 
 TEST(DetectorModel, LabelsOfCocoAreInTheLabelTable)
 {
   const auto table = LabelTable::installed();
-  for (const auto& label : readLabels(findShareFile("detectors/coco.names")))
+  for (const auto& label : readClassNames(findShareFile("detectors/coco.names")))
     EXPECT_TRUE(table.properties(label).known) << label;
 }
 

@@ -13,7 +13,7 @@
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/sensors/RawlogSource.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/simulator/Scene.h"
 
 using namespace quadmap;
@@ -36,7 +36,7 @@ class SmallRecording
   void readWith(const std::string& name, const std::string& text) const
   {
     folder_.write(name, text);
-    const TumDataset dataset(folder_.folder().string());
+    const FrameFolder dataset = openFrameFolder("tum", folder_.folder().string());
     for (std::size_t i = 0; i < dataset.frames().size(); ++i)
     {
       dataset.boxes(i);

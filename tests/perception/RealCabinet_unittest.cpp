@@ -9,7 +9,7 @@
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/perception/RoomPerception.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 using namespace quadmap;
 
@@ -30,7 +30,7 @@ TEST(RealCabinet, EachCompleteMeasurementHasItsShape)
 {
   const auto recording = testData("tum_fr3_cabinet");
   if (recording.empty()) GTEST_SKIP() << "recording tum_fr3_cabinet is not there";
-  const TumDataset dataset(recording);
+  const FrameFolder dataset = openFrameFolder("tum", recording);
   const auto truth = readObjectsJson(recording + "/objects_gt.json").at(0);
   RoomPerception perception(PerceptionOptions(), LabelTable::installed());
   std::vector<double> shapes;

@@ -15,6 +15,7 @@
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/StderrCapture.h"
 #include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/sensors/ClassNames.h"
 
 namespace quadmap
 {
@@ -98,7 +99,7 @@ cv::Mat bgrOf(const cv::Mat& image)
 DnnDetector::DnnDetector(const DetectorModel& model, const ModelFiles& files) :
     model_(model),
     files_(files),
-    labels_(readLabels(files.labels)),
+    labels_(readClassNames(files.labels)),
     net_(loadNet(files)),
     outputNames_(net_.getUnconnectedOutLayersNames()),
     input_(formatOf(model))

@@ -6,7 +6,7 @@
 
 #include "../../obs/TestData.h"
 #include "../SceneFixture.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/simulator/SimulatedDetector.h"
 
 // Compares the default errors of the detector with those of a real one, both measured in the same
@@ -160,7 +160,7 @@ TEST(RealDetector, SimulatedBoxesErrSimilarly)
 {
   const std::string folder = testData("kitchen_a");
   if (folder.empty()) GTEST_SKIP() << "kitchen_a is not there";
-  const TumDataset data(folder);
+  const FrameFolder data = openFrameFolder("tum", folder);
   const LabelTable labels = LabelTable::installed();
   std::vector<Boxes> frames;
   for (std::size_t i = 0; i < data.frames().size(); ++i)

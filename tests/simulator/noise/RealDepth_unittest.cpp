@@ -9,7 +9,7 @@
 #include "../../obs/TestData.h"
 #include "../SceneFixture.h"
 #include "noise/DepthNoise.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 // Compares the default errors of depth with those of real cameras, both measured in the same way,
 // and with the figures of doc/guide/write-a-scene.md.
@@ -159,7 +159,7 @@ std::string rowOf(const DepthErrors& errors)
   return row;
 }
 
-DepthImage realImage(const TumDataset& data, std::size_t frame)
+DepthImage realImage(const FrameFolder& data, std::size_t frame)
 {
   const auto scan = data.scan(frame);
   DepthImage image;
@@ -190,7 +190,7 @@ TEST_P(RealDepth, SimulatedErrsAsMuchAndAsCorrelated)
   const auto [name, every, farthest] = GetParam();
   const std::string folder = testData(name);
   if (folder.empty()) GTEST_SKIP() << name << " is not there";
-  const TumDataset data(folder);
+  const FrameFolder data = openFrameFolder("tum", folder);
   DepthErrors real, simulated, withoutLateral;
   for (std::size_t i = 0; i < data.frames().size(); i += every)
   {

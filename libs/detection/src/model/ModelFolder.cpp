@@ -1,14 +1,10 @@
 #include "model/ModelFolder.h"
 
-#include <mrpt/system/string_utils.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
-#include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/detection/KnownDetectors.h"
 
@@ -90,19 +86,6 @@ std::optional<std::string> findModelPart(const std::string& modelFile, const std
        {fs::path(modelFile).parent_path(), fs::path(detectorFolder()), sharedFolder()})
     if (const fs::path path = folder / name; isFile(path)) return path.string();
   return std::nullopt;
-}
-
-std::vector<std::string> readLabels(const std::string& path)
-{
-  requireModestText(path);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read");
-  std::vector<std::string> labels;
-  for (std::string line; std::getline(file, line);)
-    if (std::string label = mrpt::system::trim(line); !label.empty())
-      labels.push_back(std::move(label));
-  if (file.bad()) throw std::runtime_error(path + ": read error");
-  return labels;
 }
 
 }  // namespace quadmap

@@ -13,8 +13,4 @@ std::vector<std::string> allModelFiles();
  * names of COCO's classes, from share/quadmap/detectors. */
 std::optional<std::string> findModelPart(const std::string& modelFile, const std::string& name);
 
-/** The lines of a file with names, without blanks around them and without empty lines.
- *  \exception std::runtime_error If it cannot be read; names it. */
-std::vector<std::string> readLabels(const std::string& path);
-
 }  // namespace quadmap

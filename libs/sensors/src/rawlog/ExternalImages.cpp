@@ -31,6 +31,34 @@ void requireCompleteJpeg(const std::string& path)
 
 void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQuality)
 {
+  moveOut(
+      scan,
+      [&](const std::string& path)
+      {
+        if (!scan.intensityImage.saveToFile(path, jpegQuality))
+          throw std::runtime_error("cannot be written");
+        requireCompleteJpeg(path);
+      });
+}
+
+void ExternalImages::moveOut(
+    mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg)
+{
+  moveOut(
+      scan,
+      [&](const std::string& path)
+      {
+        std::ofstream file(path, std::ios::binary);
+        file.write(
+            reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+        if (!file.flush()) throw std::runtime_error("cannot be written");
+      });
+}
+
+void ExternalImages::moveOut(
+    mrpt::obs::CObservation3DRangeScan& scan,
+    const std::function<void(const std::string&)>& writeColor)
+{
   const std::string name = mrpt::format(
       "%s_%06zu", mrpt::system::fileNameStripInvalidChars(scan.sensorLabel).c_str(),
       scans_[scan.sensorLabel]++);
@@ -46,10 +74,7 @@ void ExternalImages::moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQ
     if (scan.hasIntensityImage)
     {
       now = name + ".jpg";
-      const std::string path = folder_ + "/" + now;
-      if (!scan.intensityImage.saveToFile(path, jpegQuality))
-        throw std::runtime_error("cannot be written");
-      requireCompleteJpeg(path);
+      writeColor(folder_ + "/" + now);
       scan.intensityImage.setExternalStorage(now);
     }
   }

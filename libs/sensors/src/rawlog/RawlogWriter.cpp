@@ -11,6 +11,7 @@
 #include "quadmap/base/GzipStream.h"
 #include "quadmap/base/OutputSet.h"
 #include "rawlog/ExternalImages.h"
+#include "rawlog/ScanBytes.h"
 
 namespace quadmap
 {
@@ -93,8 +94,21 @@ RawlogWriter::~RawlogWriter() = default;
 void RawlogWriter::write(mrpt::obs::CObservation3DRangeScan& scan)
 {
   if (impl_->images) impl_->images->moveOut(scan, impl_->options.jpegQuality);
-  const JpegSetting jpeg(impl_->options.jpegQuality);
+  const JpegSetting setting(impl_->options.jpegQuality);
   writeTo(impl_->rawlog, scan);
+}
+
+void RawlogWriter::write(
+    mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg)
+{
+  if (impl_->images)
+  {
+    impl_->images->moveOut(scan, jpeg);
+    return writeTo(impl_->rawlog, scan);
+  }
+  const auto bytes = scanBytes(scan, jpeg);
+  impl_->rawlog.Write(bytes.data(), bytes.size());
+  impl_->rawlog.requireWritten();
 }
 
 void RawlogWriter::write(const CObservationObjects& boxes)

@@ -26,6 +26,7 @@ constexpr int kMostScans = 100;
 struct ImageSize
 {
   std::uint64_t width = 0, height = 0;
+  unsigned bits = 0, channels = 0;  // of the last segment of a JPEG that states them
 };
 
 unsigned bigEndian16(const std::uint8_t* p) { return (unsigned{p[0]} << 8) | p[1]; }
@@ -60,6 +61,8 @@ ImageSize sizeOfJpeg(const std::uint8_t* bytes, std::size_t size)
     {
       largest.height = std::max<std::uint64_t>(largest.height, bigEndian16(bytes + at + 4));
       largest.width = std::max<std::uint64_t>(largest.width, bigEndian16(bytes + at + 6));
+      largest.bits = bytes[at + 3];
+      largest.channels = bytes[at + 8];
     }
     if (kind == kScan && ++scans > kMostScans)
       throw std::runtime_error(mrpt::format("is a JPEG of more than %d passes", kMostScans));
@@ -80,7 +83,7 @@ ImageSize statedSize(const std::uint8_t* bytes, std::size_t size)
   constexpr std::size_t kPngWidth = 16, kPngHeight = 20, kPngHead = 24;
   if (isJpeg(bytes, size)) return sizeOfJpeg(bytes, size);
   if (size >= kPngHead && std::memcmp(bytes, kPng, sizeof kPng) == 0)
-    return {bigEndian32(bytes + kPngWidth), bigEndian32(bytes + kPngHeight)};
+    return {bigEndian32(bytes + kPngWidth), bigEndian32(bytes + kPngHeight), 0, 0};
   return {};
 }
 
@@ -125,7 +128,7 @@ cv::Mat decodeImage(
   return image;
 }
 
-cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPixels)
+std::vector<std::uint8_t> readImageFile(const std::string& path)
 {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -136,7 +139,25 @@ cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPi
   std::ifstream file(path, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
     throw std::runtime_error("cannot be read");
+  return bytes;
+}
+
+cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPixels)
+{
+  const auto bytes = readImageFile(path);
   return decodeImage(bytes.data(), bytes.size(), flags, mostPixels);
+}
+
+std::optional<cv::Size> sizeOfColorJpeg(
+    const std::vector<std::uint8_t>& bytes, std::uint64_t mostPixels)
+{
+  constexpr unsigned kBits = 8, kChannels = 3;
+  if (!isJpeg(bytes.data(), bytes.size())) return std::nullopt;
+  const ImageSize stated = sizeOfJpeg(bytes.data(), bytes.size());
+  if (stated.bits != kBits || stated.channels != kChannels) return std::nullopt;
+  // The eighth of each side is had without most of the work, but not without all of the bytes.
+  decodeImage(bytes.data(), bytes.size(), cv::IMREAD_REDUCED_GRAYSCALE_8, mostPixels);
+  return cv::Size(static_cast<int>(stated.width), static_cast<int>(stated.height));
 }
 
 }  // namespace quadmap

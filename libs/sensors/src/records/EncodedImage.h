@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@ namespace quadmap
  * pixels than that. */
 cv::Mat decodeImage(
     const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels);
+
+/** The bytes of an image file. \exception std::runtime_error The message does not name the file. */
+std::vector<std::uint8_t> readImageFile(const std::string& path);
+
+/** The size of a JPEG in colour, after a look at whether all of it can be decoded; nothing for
+ * other images. \exception std::runtime_error If it is damaged or has more pixels than that. */
+std::optional<cv::Size> sizeOfColorJpeg(
+    const std::vector<std::uint8_t>& bytes, std::uint64_t mostPixels);
 
 /** The same for a file. \exception std::runtime_error The message does not name the file. */
 cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPixels);

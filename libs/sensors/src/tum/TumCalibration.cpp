@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "DepthUnit.h"
+#include "folder/RigidMatrix.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "tum/TumFiles.h"
 
@@ -118,38 +119,69 @@ unsigned pixelsAt(const FlatYaml& file, const std::string& key)
   return static_cast<unsigned>(value);
 }
 
-/** The numbers between the brackets of an !!opencv-matrix or a list. */
-std::optional<Eigen::Vector3d> upAt(const FlatYaml& file)
+/** The numbers between the brackets of an !!opencv-matrix or a list; nothing without the key.
+ * \param what The matrix has so many numbers, in words. */
+std::optional<std::vector<double>> matrixAt(
+    const FlatYaml& file, const std::string& key, std::size_t size, const std::string& what)
 {
-  const std::string* text = file.find("world_up");
+  const std::string* text = file.find(key);
   if (!text) return std::nullopt;
+  const auto reject = [&] { file.reject("'" + key + "' must be a matrix of " + what + " numbers"); };
   const auto open = text->find('['), close = text->find(']');
   std::vector<std::string> words;
   if (open != std::string::npos && close != std::string::npos && open < close)
     mrpt::system::tokenize(text->substr(open + 1, close - open - 1), ", \t", words);
-  if (words.size() != 3) file.reject("'world_up' must be a matrix of three numbers");
-  Eigen::Vector3d up;
-  for (std::size_t i = 0; i < 3; ++i)
+  if (words.size() != size) reject();
+  std::vector<double> numbers;
+  for (const auto& word : words)
   {
-    const auto value = FlatYaml::yamlNumber(words[i]);
-    if (!value) file.reject("'world_up' must be a matrix of three numbers");
-    up[static_cast<Eigen::Index>(i)] = *value;
+    const auto value = FlatYaml::yamlNumber(word);
+    if (!value) reject();
+    numbers.push_back(*value);
   }
+  return numbers;
+}
+
+std::optional<Eigen::Vector3d> upAt(const FlatYaml& file)
+{
+  const auto numbers = matrixAt(file, "world_up", 3, "three");
+  if (!numbers) return std::nullopt;
+  const Eigen::Vector3d up(numbers->data());
   constexpr double kShortest = 1e-6, kLongest = 1e6;
   if (!up.allFinite() || up.norm() < kShortest || up.norm() > kLongest)
     file.reject("'world_up' must be a finite direction");
   return up.normalized();
 }
 
+/** The depth camera of images that are not registered. */
+std::optional<DepthCamera> depthCameraAt(const FlatYaml& file, const mrpt::img::TCamera& color)
+{
+  const auto T = matrixAt(file, "T_color_depth", 16, "16");
+  if (!T || !file.find("depth_raw_fx")) return std::nullopt;
+  using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  const Eigen::Matrix4d matrix = Eigen::Map<const RowMajor>(T->data());
+  if (!isRigid(matrix)) file.reject("'T_color_depth' must be a rigid transformation");
+  const double fx = file.number("depth_raw_fx"), fy = file.number("depth_raw_fy");
+  if (fx <= 0 || fy == 0) file.reject("'depth_raw_fx' must be > 0, 'depth_raw_fy' not 0");
+  DepthCamera depth;
+  depth.camera.setIntrinsicParamsFromValues(
+      fx, fy, file.number("depth_raw_cx"), file.number("depth_raw_cy"));
+  depth.camera.ncols = color.ncols;
+  depth.camera.nrows = color.nrows;
+  depth.T_color_depth = poseOf(matrix);
+  return depth;
+}
+
 }  // namespace
 
-TumCalibration readTumCalibration(const std::string& path)
+FolderCamera readTumCalibration(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
   requireModestText(path);
   const FlatYaml file(path);
-  TumCalibration calibration;
-  auto& camera = calibration.camera;
+  FolderCamera calibration;
+  calibration.origin = std::filesystem::path(path).filename().string();
+  auto& camera = calibration.color;
   const double fx = file.number("fx"), fy = file.number("fy");
   if (fx <= 0) file.reject(mrpt::format("fx=%g: must be > 0", fx));
   if (fy == 0) file.reject("fy=0: must not be 0");
@@ -171,6 +203,7 @@ TumCalibration readTumCalibration(const std::string& path)
       std::any_of(camera.dist.begin(), camera.dist.end(), [](double k) { return k != 0; });
   camera.distortion =
       distorted ? mrpt::img::DistortionModel::plumb_bob : mrpt::img::DistortionModel::none;
+  calibration.depth = depthCameraAt(file, camera);
   calibration.worldUp = upAt(file);
   return calibration;
 }

@@ -3,15 +3,12 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
-#include "quadmap/base/ConfigCheck.h"
-#include "quadmap/obs/CObservationObjects.h"
+#include "folder/FolderReader.h"
+#include "text/TextLines.h"
 
 namespace quadmap
 {
@@ -19,58 +16,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** One line of a text file, cut at blanks. */
-struct Line
-{
-  std::string place;  // "file:12"
-  std::vector<std::string> words;
-};
-
-/** Three hours of images at 30 Hz. In memory a line takes many times its length. */
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 24;
-
-/** All lines that are neither empty nor comments. */
-std::vector<Line> readLines(const std::string& path, std::size_t columns)
-{
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot open");
-  requireModestText(path, kMostBytes);
-  std::vector<Line> lines;
-  std::size_t number = 0;
-  for (std::string text; std::getline(file, text);)
-  {
-    ++number;
-    std::istringstream words(text.substr(0, text.find('#')));
-    Line line{path + ":" + std::to_string(number), {}};
-    for (std::string word; words >> word;) line.words.push_back(word);
-    if (line.words.empty()) continue;
-    if (line.words.size() != columns)
-      throw std::runtime_error(mrpt::format(
-          "%s: expected %zu columns, got %zu", line.place.c_str(), columns, line.words.size()));
-    lines.push_back(std::move(line));
-  }
-  if (file.bad()) throw std::runtime_error(path + ": read error");
-  return lines;
-}
-
-/** The number in a column. It may be NaN or infinite; the caller decides whether it can be used. */
-double numberIn(const Line& line, std::size_t column)
-{
-  const std::string& word = line.words[column];
-  double value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || stop != word.data() + word.size())
-    throw std::runtime_error(line.place + ": '" + word + "' is not a number");
-  return value;
-}
-
-double timeIn(const Line& line, std::size_t column)
-{
-  const double time = numberIn(line, column);
-  if (!std::isfinite(time) || time < 0)
-    throw std::runtime_error(line.place + ": the time " + line.words[column] + " must be >= 0 s");
-  return time;
-}
+constexpr double kDepthFactor = 5000;
 
 struct ListedImage
 {
@@ -81,12 +27,15 @@ struct ListedImage
 std::vector<ListedImage> readImageList(const std::string& path)
 {
   std::vector<ListedImage> images;
-  for (const auto& line : readLines(path, 2))
+  for (const auto& line : readTextLines(path))
+  {
+    requireColumns(line, 2);
     images.push_back({timeIn(line, 0), line.words[1], line.place});
+  }
   return images;
 }
 
-std::vector<TumFrame> associate(
+std::vector<FolderFrame> associate(
     const std::vector<ListedImage>& colors, const std::vector<ListedImage>& depths, double maxDelay)
 {
   struct Pair
@@ -118,59 +67,78 @@ std::vector<TumFrame> associate(
       used[pair.depth] = true;
       depthOf[pair.color] = pair.depth;
     }
-  std::vector<TumFrame> frames;
+  std::vector<FolderFrame> frames;
   for (std::size_t c = 0; c < colors.size(); ++c)
     if (depthOf[c] < depths.size())
     {
       const auto& depth = depths[depthOf[c]];
-      frames.push_back({depth.time, colors[c].file, depth.file, colors[c].place});
+      frames.push_back({depth.time, colors[c].file, depth.file, colors[c].place, {}});
     }
   return frames;
 }
 
+/** A line of associations.txt: colour first, or depth first as in ICL-NUIM, which the names of the
+ * files tell. */
+FolderFrame associationIn(const TextLine& line)
+{
+  requireColumns(line, 4);
+  const auto isDepth = [&](std::size_t column)
+  { return line.words[column].find("depth") != std::string::npos; };
+  const std::size_t depth = isDepth(1) && !isDepth(3) ? 0 : 2, color = 2 - depth;
+  timeIn(line, color);
+  return {timeIn(line, depth), line.words[color + 1], line.words[depth + 1], line.place, {}};
+}
 }  // namespace
 
-std::vector<TumFrame> readTumFrames(const std::string& folder, double maxDelay)
+void readTumFrames(FolderContent& content, double maxDelay)
 {
-  const auto in = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
-  std::vector<TumFrame> frames;
+  const auto in = [&](const std::string& name)
+  { return (fs::path(content.folder) / name).string(); };
+  auto& frames = content.frames;
   if (fs::exists(in("associations.txt")))
-    for (const auto& line : readLines(in("associations.txt"), 4))
-    {
-      timeIn(line, 0);
-      frames.push_back({timeIn(line, 2), line.words[1], line.words[3], line.place});
-    }
+  {
+    for (const auto& line : readTextLines(in("associations.txt")))
+      frames.push_back(associationIn(line));
+    content.association = "as associations.txt says";
+  }
   else if (fs::exists(in("rgb.txt")) && fs::exists(in("depth.txt")))
-    frames = associate(readImageList(in("rgb.txt")), readImageList(in("depth.txt")), maxDelay);
+  {
+    const auto colors = readImageList(in("rgb.txt")), depths = readImageList(in("depth.txt"));
+    frames = associate(colors, depths, maxDelay);
+    content.association = mrpt::format("by time, at most %g ms apart", 1e3 * maxDelay);
+    content.unpaired = colors.size() + depths.size() - 2 * frames.size();
+  }
   else
-    throw std::runtime_error(folder + ": has neither associations.txt nor rgb.txt and depth.txt");
+    throw std::runtime_error(
+        content.folder + ": has neither associations.txt nor rgb.txt and depth.txt");
   if (frames.empty())
-    throw std::runtime_error(folder + ": lists no colour image with a depth image");
+    throw std::runtime_error(content.folder + ": lists no colour image with a depth image");
   for (auto& frame : frames)
   {
     frame.color = in(frame.color);
     frame.depth = in(frame.depth);
   }
-  return frames;
 }
 
-std::vector<DetectedObject> readDetections(const std::string& path)
+bool isTumFolder(const std::string& folder)
 {
-  std::vector<DetectedObject> objects;
-  for (const auto& line : readLines(path, 7))
-  {
-    numberIn(line, 0);
-    DetectedObject object;
-    object.label = line.words[1];
-    object.score = numberIn(line, 2);
-    object.box = {numberIn(line, 3), numberIn(line, 4), numberIn(line, 5), numberIn(line, 6)};
-    objects.push_back(std::move(object));
-  }
-  if (objects.size() > CObservationObjects::kMostObjects)
-    throw std::runtime_error(mrpt::format(
-        "%s: %zu boxes in one image, at most %u can be used", path.c_str(), objects.size(),
-        CObservationObjects::kMostObjects));
-  return objects;
+  const auto has = [&](const char* name) { return fs::exists(fs::path(folder) / name); };
+  return has("associations.txt") || (has("rgb.txt") && has("depth.txt"));
+}
+
+FolderContent readTumFolder(const std::string& folder, const FrameFolderOptions& options)
+{
+  FolderContent content;
+  content.folder = folder;
+  content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
+  content.camera.depth.reset();  // the benchmark's images are registered
+  readTumFrames(content, options.maxAssociationDelay);
+  const std::string poses = (fs::path(folder) / "groundtruth.txt").string();
+  if (fs::exists(poses))
+    takePoses(content, poses, options.maxPoseGap);
+  else
+    content.notes.push_back(folder + ": no groundtruth.txt, hence no poses");
+  return content;
 }
 
 }  // namespace quadmap

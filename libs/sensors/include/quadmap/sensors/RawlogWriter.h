@@ -3,8 +3,10 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/sensors/RawlogNames.h"
@@ -32,6 +34,11 @@ class RawlogWriter
 
   /** Writes a scan. \param scan With external images it only keeps the names of their files. */
   void write(mrpt::obs::CObservation3DRangeScan& scan);
+
+  /** Writes a scan whose colour image is this JPEG file, as it is.
+   *  \param scan Without colour pixels; it has the names of external files afterwards.
+   *  \param jpeg Of 3 x 8 bits, of the size that the scan's cameraParamsIntensity state. */
+  void write(mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg);
 
   /** Writes boxes to the sidecar. */
   void write(const CObservationObjects& boxes);

@@ -1,4 +1,4 @@
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string withValue(const std::string& key, const std::string& value)
 
 std::string errorOfOpening(const SampleRecording& recording)
 {
-  return errorOf([&] { TumDataset dataset(recording.folder()); });
+  return errorOf([&] { openFrameFolder("tum", recording.folder()); });
 }
 
 void expectIn(const std::string& text, const std::string& part)
@@ -35,10 +35,10 @@ void expectIn(const std::string& text, const std::string& part)
 }
 }  // namespace
 
-TEST(TumDataset, ReadsImagesCalibrationAndBoxes)
+TEST(TumFolder, ReadsImagesCalibrationAndBoxes)
 {
   const SampleRecording recording;
-  const TumDataset dataset(recording.folder());
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(dataset.frames().size(), 6u);
   EXPECT_DOUBLE_EQ(dataset.frames()[2].time, 100.2);
   const auto scan = dataset.scan(2);
@@ -63,12 +63,12 @@ TEST(TumDataset, ReadsImagesCalibrationAndBoxes)
   EXPECT_TRUE(dataset.notes().empty());
 }
 
-TEST(TumDataset, TurnsTheWorldUpright)
+TEST(TumFolder, TurnsTheWorldUpright)
 {
   // The recording's camera looks along the world's z and has the world's -y as up; in ours it has
   // to look horizontally, with z up, and to move along its right (-y of the robot).
   const SampleRecording recording;
-  const TumDataset dataset(recording.folder());
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   const auto first = dataset.T_world_robot(0), last = dataset.T_world_robot(5);
   ASSERT_TRUE(first && last);
   const auto axis = [&](int column)
@@ -80,13 +80,13 @@ TEST(TumDataset, TurnsTheWorldUpright)
   EXPECT_LT((motion + 0.25 * axis(1)).norm(), 1e-9) << "0.25 m to the right";
 }
 
-TEST(TumDataset, LeavesAnUprightWorldAlone)
+TEST(TumFolder, LeavesAnUprightWorldAlone)
 {
   const SampleRecording recording;
   auto calibration = std::string(SampleRecording::kCalibration);
   calibration.replace(calibration.find("0., -1., 0."), 11, "0., 0., 1.");
   recording.writeCalibration(calibration);
-  const auto T = TumDataset(recording.folder()).T_world_robot(2);
+  const auto T = openFrameFolder("tum", recording.folder()).T_world_robot(2);
   ASSERT_TRUE(T);
   EXPECT_DOUBLE_EQ(T->x(), 0.1);
   // The camera looks up: robot x along z, robot z along -y.
@@ -95,17 +95,17 @@ TEST(TumDataset, LeavesAnUprightWorldAlone)
   EXPECT_NEAR(R(1, 2), -1, 1e-9);
 }
 
-TEST(TumDataset, SaysWhenUpIsUnknown)
+TEST(TumFolder, SaysWhenUpIsUnknown)
 {
   const SampleRecording recording;
   auto calibration = std::string(SampleRecording::kCalibration);
   recording.writeCalibration(calibration.substr(0, calibration.find("world_up")));
-  const TumDataset dataset(recording.folder());
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(dataset.notes().size(), 1u);
   expectIn(dataset.notes()[0], "no world_up");
   std::filesystem::remove(recording.files.path("groundtruth.txt"));
   std::filesystem::remove_all(recording.files.path("detections"));
-  const TumDataset blind(recording.folder());
+  const FrameFolder blind = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(blind.notes().size(), 2u);
   expectIn(blind.notes()[0], "no groundtruth.txt");
   expectIn(blind.notes()[1], "no detections");
@@ -113,7 +113,7 @@ TEST(TumDataset, SaysWhenUpIsUnknown)
   EXPECT_FALSE(blind.boxes(0));
 }
 
-TEST(TumDataset, AssociatesByTimeWithoutAssociations)
+TEST(TumFolder, AssociatesByTimeWithoutAssociations)
 {
   const SampleRecording recording;
   std::filesystem::remove(recording.files.path("associations.txt"));
@@ -122,43 +122,43 @@ TEST(TumDataset, AssociatesByTimeWithoutAssociations)
       "# time file\n1.00 rgb/f0.png\n1.03 rgb/f1.png\n1.06 rgb/f2.png\n2.0 rgb/f3.png\n");
   // f1 is 5 ms from the second depth image, f2 25 ms: too far; f0's depth comes before it.
   recording.files.write("depth.txt", "0.99 depth/f0.png\n1.035 depth/f1.png\n3.0 depth/f2.png\n");
-  const auto frames = TumDataset(recording.folder()).frames();
+  const auto frames = openFrameFolder("tum", recording.folder()).frames();
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_DOUBLE_EQ(frames[0].time, 0.99) << "the time of the depth image";
   EXPECT_EQ(frames[1].color, recording.files.path("rgb/f1.png"));
   EXPECT_EQ(frames[1].depth, recording.files.path("depth/f1.png"));
 }
 
-TEST(TumDataset, InterpolatesPosesAtTheFramesTimes)
+TEST(TumFolder, InterpolatesPosesAtTheFramesTimes)
 {
   const SampleRecording recording;
   std::string poses;
   for (int i = -1; i < SampleRecording::kFrames - 1; ++i)
     poses += mrpt::format("%.4f %.4f 0 0 0 0 0 1\n", 100.05 + 0.1 * i, 0.1 * i);
   recording.files.write("groundtruth.txt", poses);
-  const TumDataset dataset(recording.folder());
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   const auto T2 = dataset.T_world_robot(2);
   ASSERT_TRUE(T2);
   // x of the recording's world stays x: the minimal rotation turns about it.
   EXPECT_NEAR(T2->x(), 0.15, 1e-9);
   EXPECT_FALSE(dataset.T_world_robot(5)) << "after the last pose";
-  TumDatasetOptions impatient;
+  FrameFolderOptions impatient;
   impatient.maxPoseGap = 0.05;
-  EXPECT_FALSE(TumDataset(recording.folder(), impatient).T_world_robot(2)) << "0.1 s apart";
+  EXPECT_FALSE(openFrameFolder("tum", recording.folder(), impatient).T_world_robot(2)) << "0.1 s apart";
 }
 
-TEST(TumDataset, KeepsNegativeFyAndDistortion)
+TEST(TumFolder, KeepsNegativeFyAndDistortion)
 {
   const SampleRecording recording;
   recording.writeCalibration("k1: 0.1\n" + withValue("fy", "-62.0"));
-  const TumDataset dataset(recording.folder());
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.fy(), -62.0);
   EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.dist[0], 0.1);
   ASSERT_EQ(dataset.notes().size(), 1u);
   expectIn(dataset.notes()[0], "distortion");
 }
 
-TEST(TumDataset, RejectsBadCalibrations)
+TEST(TumFolder, RejectsBadCalibrations)
 {
   const auto expect = [](const std::string& calibration, const std::string& what)
   {
@@ -190,7 +190,7 @@ TEST(TumDataset, RejectsBadCalibrations)
   expect("fx: 1\nfx: 1\n", "the key 'fx' stands there twice");
 }
 
-TEST(TumDataset, RejectsMissingAndMalformedLists)
+TEST(TumFolder, RejectsMissingAndMalformedLists)
 {
   const auto expect = [](const std::string& file, const char* content, const std::string& what)
   {
@@ -214,22 +214,22 @@ TEST(TumDataset, RejectsMissingAndMalformedLists)
   expect(
       "groundtruth.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
       "groundtruth.txt: pose 1: time goes back from 2.000000 to 1.000000 s");
-  EXPECT_EQ(errorOf([] { TumDataset dataset("/no/such"); }), "/no/such: no such folder");
+  EXPECT_EQ(errorOf([] { openFrameFolder("tum", "/no/such"); }), "/no/such: no such folder");
   const SampleRecording recording;
-  TumDatasetOptions options;
+  FrameFolderOptions options;
   options.detections = "/no/such";
   expectIn(
-      errorOf([&] { TumDataset dataset(recording.folder(), options); }),
+      errorOf([&] { openFrameFolder("tum", recording.folder(), options); }),
       "/no/such: no such folder");
 }
 
-TEST(TumDataset, RejectsBadImages)
+TEST(TumFolder, RejectsBadImages)
 {
   const auto expect = [](const auto& spoil, const std::string& what)
   {
     const SampleRecording recording;
     spoil(recording);
-    const TumDataset dataset(recording.folder());
+    const FrameFolder dataset = openFrameFolder("tum", recording.folder());
     expectIn(errorOf([&] { dataset.scan(1); }), what);
     EXPECT_TRUE(dataset.scan(2)) << "the others can be read";
   };
@@ -252,13 +252,13 @@ TEST(TumDataset, RejectsBadImages)
       "depth/f1.png: is no depth image (one channel of 16 bits)");
 }
 
-TEST(TumDataset, RejectsMalformedDetections)
+TEST(TumFolder, RejectsMalformedDetections)
 {
   const auto expect = [](const std::string& text, const std::string& what)
   {
     const SampleRecording recording;
     recording.files.write(SampleRecording::boxesFile(1), text);
-    const TumDataset dataset(recording.folder());
+    const FrameFolder dataset = openFrameFolder("tum", recording.folder());
     expectIn(errorOf([&] { dataset.boxes(1); }), what);
   };
   expect("56 chair 0.8 1 2 3\n", "detections/f1.txt:1: expected 7 columns, got 6");
@@ -266,11 +266,11 @@ TEST(TumDataset, RejectsMalformedDetections)
   expect("\n56 chair 0,8 1 2 3 4\n", "detections/f1.txt:2: '0,8' is not a number");
 }
 
-TEST(TumDataset, ReadsTheRealRecordings)
+TEST(TumFolder, ReadsTheRealRecordings)
 {
   const auto kitchen = testData("kitchen_a"), cabinet = testData("tum_fr3_cabinet");
   if (kitchen.empty() || cabinet.empty()) GTEST_SKIP() << "the recordings are not here";
-  const TumDataset k(kitchen), c(cabinet);
+  const FrameFolder k = openFrameFolder("tum", kitchen), c = openFrameFolder("tum", cabinet);
   EXPECT_EQ(k.frames().size(), 250u);
   EXPECT_EQ(c.frames().size(), 58u);
   std::size_t boxes = 0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "quadmap/sensors/RawlogWriter.h"
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FrameFolder.h"
 
 namespace quadmap
 {
@@ -18,17 +18,18 @@ enum class PosesAs
   None
 };
 
-struct TumImportOptions
+struct FolderImportOptions
 {
   PosesAs posesAs = PosesAs::Odometry;
   std::size_t every = 1;   //!< Only every n-th frame, >= 1
   bool keepGoing = false;  //!< Leave out what cannot be used instead of throwing
 };
 
-struct TumImportReport
+struct FolderImportReport
 {
   std::size_t frames = 0, poses = 0, boxes = 0;  //!< Numbers of what was written
-  std::size_t withoutDetections = 0;  //!< Number of frames that have no file in the folder of boxes
+  std::size_t withoutDetections = 0;  //!< Number of frames that the files of boxes lack
+  std::size_t copiedImages = 0;       //!< Number of colour images that were not encoded anew
   std::vector<std::string> dropped;   //!< One text for each that keepGoing left out
 };
 
@@ -37,9 +38,9 @@ using ProgressCallback = std::function<void(double)>;
 
 /** Writes a recording into a rawlog, which the caller finishes.
  * \exception std::runtime_error For a frame that cannot be used. The message names its file. */
-TumImportReport importTum(
-    const TumDataset& dataset,
-    const TumImportOptions& options,
+FolderImportReport importFolder(
+    const FrameFolder& folder,
+    const FolderImportOptions& options,
     RawlogWriter& writer,
     const ProgressCallback& progress);
 

@@ -1,4 +1,4 @@
-#include "quadmap/sensors/TumCheck.h"
+#include "quadmap/sensors/FolderCheck.h"
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>
@@ -53,12 +53,12 @@ std::size_t quantile(const DepthCounts& counts, double share)
   return value;
 }
 
-void checkBoxes(const TumDataset& dataset, std::size_t frame, TumProblems& problems)
+void checkBoxes(const FrameFolder& folder, std::size_t frame, FolderProblems& problems)
 try
 {
-  if (!dataset.hasDetections()) return;
-  const std::string file = dataset.boxesFile(frame);
-  const auto boxes = dataset.boxes(frame);
+  if (!folder.hasDetections()) return;
+  const std::string file = folder.boxesFile(frame);
+  const auto boxes = folder.boxes(frame);
   if (!boxes) return problems["missing file"].push_back(file);
   for (const auto& object : boxes->objects)
     if (const auto why = whyUnusable(
@@ -71,9 +71,9 @@ catch (const std::exception& e)
 }
 
 void checkImages(
-    const TumDataset& dataset, std::size_t index, DepthCounts& depths, TumProblems& problems)
+    const FrameFolder& folder, std::size_t index, DepthCounts& depths, FolderProblems& problems)
 {
-  const auto& frame = dataset.frames()[index];
+  const auto& frame = folder.frames()[index];
   bool complete = true;
   for (const auto& file : {frame.color, frame.depth})
     if (!std::filesystem::is_regular_file(file))
@@ -84,7 +84,7 @@ void checkImages(
   if (!complete) return;
   try
   {
-    if (!countDepths(*dataset.scan(index), depths))
+    if (!countDepths(*folder.scan(index), depths))
       problems["no depth"].push_back(frame.depth + ": no pixel has a depth");
   }
   catch (const std::exception& e)
@@ -94,25 +94,26 @@ void checkImages(
 }
 
 void checkDepthScale(
-    const TumDataset& dataset,
+    const FrameFolder& folder,
     const DepthCounts& depths,
-    const TumCheckOptions& options,
-    TumProblems& problems)
+    const FolderCheckOptions& options,
+    FolderProblems& problems)
 {
-  const double factor = dataset.calibration().depthFactor;
+  const double factor = folder.camera().depthFactor;
   const double nearest = static_cast<double>(quantile(depths, kNearShare)) / factor;  // [m]
   const double farthest = static_cast<double>(quantile(depths, kFarShare)) / factor;  // [m]
   const bool measured = farthest > 0;
   if (!measured || (nearest >= options.minDepth && farthest <= options.maxDepth)) return;
   problems["depth scale"].push_back(mrpt::format(
-      "98 %% of the depths are between %.3g and %.3g m: depth_factor %g of calibration.yaml looks "
-      "wrong (plausible: %g..%g m)",
-      nearest, farthest, factor, options.minDepth, options.maxDepth));
+      "98 %% of the depths are between %.3g and %.3g m: depth_factor %g of %s looks wrong "
+      "(plausible: %g..%g m)",
+      nearest, farthest, factor, folder.camera().origin.c_str(), options.minDepth,
+      options.maxDepth));
 }
 
-void checkTimes(const TumDataset& dataset, const TumCheckOptions& options, TumProblems& problems)
+void checkTimes(const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
-  const auto& frames = dataset.frames();
+  const auto& frames = folder.frames();
   std::vector<double> intervals;  // [s]
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (frames[i].time > frames[i - 1].time)
@@ -137,22 +138,22 @@ struct Motion
   double speed, turnRate;  // from the frame before [m/s], [rad/s]
 };
 
-std::vector<Motion> motionsOf(const TumDataset& dataset, TumProblems& problems)
+std::vector<Motion> motionsOf(const FrameFolder& folder, FolderProblems& problems)
 {
   std::vector<Motion> motions;
   std::optional<std::size_t> previous;
   std::optional<mrpt::poses::CPose3D> T_world_previous;
-  for (std::size_t i = 0; i < dataset.frames().size(); ++i)
+  for (std::size_t i = 0; i < folder.frames().size(); ++i)
   {
-    const auto T_world_robot = dataset.T_world_robot(i);
+    const auto T_world_robot = folder.T_world_robot(i);
     if (!T_world_robot)
     {
       problems["no pose"].push_back(mrpt::format(
-          "%s: groundtruth.txt does not cover %.6f s", dataset.frames()[i].listed.c_str(),
-          dataset.frames()[i].time));
+          "%s: %s does not cover %.6f s", folder.frames()[i].listed.c_str(),
+          folder.poses().c_str(), folder.frames()[i].time));
       continue;
     }
-    const double dt = previous ? dataset.frames()[i].time - dataset.frames()[*previous].time : 0;
+    const double dt = previous ? folder.frames()[i].time - folder.frames()[*previous].time : 0;
     if (dt > 0)
     {
       const auto T_previous_robot = *T_world_robot - *T_world_previous;
@@ -165,10 +166,10 @@ std::vector<Motion> motionsOf(const TumDataset& dataset, TumProblems& problems)
   return motions;
 }
 
-void checkMotion(const TumDataset& dataset, const TumCheckOptions& options, TumProblems& problems)
+void checkMotion(const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
-  if (dataset.trajectory().empty()) return;
-  const auto motions = motionsOf(dataset, problems);
+  if (folder.poses().empty()) return;
+  const auto motions = motionsOf(folder, problems);
   std::vector<double> speeds, turnRates;
   for (const auto& m : motions)
   {
@@ -182,11 +183,11 @@ void checkMotion(const TumDataset& dataset, const TumCheckOptions& options, TumP
     if (m.speed > speedLimit || m.turnRate > turnLimit)
       problems["pose jumps"].push_back(mrpt::format(
           "%s: %.2f m/s, %.0f deg/s since the frame before (limits %.2f, %.0f)",
-          dataset.frames()[m.frame].listed.c_str(), m.speed, mrpt::RAD2DEG(m.turnRate), speedLimit,
+          folder.frames()[m.frame].listed.c_str(), m.speed, mrpt::RAD2DEG(m.turnRate), speedLimit,
           mrpt::RAD2DEG(turnLimit)));
 }
 
-void check(const TumCheckOptions& o)
+void check(const FolderCheckOptions& o)
 {
   const auto require = [](bool good, const char* what, double value)
   {
@@ -201,24 +202,24 @@ void check(const TumCheckOptions& o)
 }
 }  // namespace
 
-TumProblems checkTum(
-    const TumDataset& dataset,
-    const TumCheckOptions& options,
+FolderProblems checkFolder(
+    const FrameFolder& folder,
+    const FolderCheckOptions& options,
     const std::function<void(double)>& progress)
 {
   check(options);
-  TumProblems problems;
+  FolderProblems problems;
   DepthCounts depths(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
-  const std::size_t frames = dataset.frames().size();
+  const std::size_t frames = folder.frames().size();
   for (std::size_t i = 0; i < frames; ++i)
   {
     progress(static_cast<double>(i) / static_cast<double>(frames));
-    checkImages(dataset, i, depths, problems);
-    checkBoxes(dataset, i, problems);
+    checkImages(folder, i, depths, problems);
+    checkBoxes(folder, i, problems);
   }
-  checkDepthScale(dataset, depths, options, problems);
-  checkTimes(dataset, options, problems);
-  checkMotion(dataset, options, problems);
+  checkDepthScale(folder, depths, options, problems);
+  checkTimes(folder, options, problems);
+  checkMotion(folder, options, problems);
   progress(1.0);
   return problems;
 }

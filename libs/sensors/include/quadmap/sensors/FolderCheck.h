@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "quadmap/sensors/TumDataset.h"
+#include "quadmap/sensors/FrameFolder.h"
 
 namespace quadmap
 {
 /** What counts as suspicious in a recording. */
-struct TumCheckOptions
+struct FolderCheckOptions
 {
   double maxGap = 0;  //!< Longest time between frames [s], >= 0; 0 for 5 medians
   /** Least plausible 1st percentile of all depths [m], > 0. Depth cameras see from about 0.4 m on.
@@ -27,16 +27,16 @@ struct TumCheckOptions
 };
 
 /** One text per problem, by kind ("missing file", "depth scale", ...). */
-using TumProblems = std::map<std::string, std::vector<std::string>>;
+using FolderProblems = std::map<std::string, std::vector<std::string>>;
 
 /** Looks at every file of a recording. It finds missing files, wrong image sizes, an implausible
  * depth scale, depth images without a measurement, gaps and backward jumps in time, boxes that
  * cannot be used, frames without a pose, and poses that jump.
  * \param progress Called with the share that is done, in [0, 1].
  * \exception std::invalid_argument For options out of range. */
-TumProblems checkTum(
-    const TumDataset& dataset,
-    const TumCheckOptions& options,
+FolderProblems checkFolder(
+    const FrameFolder& folder,
+    const FolderCheckOptions& options,
     const std::function<void(double)>& progress);
 
 }  // namespace quadmap

@@ -1,4 +1,4 @@
-#include "TumImport.h"
+#include "FolderImport.h"
 
 #include <mrpt/core/format.h>
 
@@ -14,24 +14,24 @@ namespace
 {
 struct LoadedFrame
 {
-  mrpt::obs::CObservation3DRangeScan::Ptr scan;
+  RecordedFrame images;
   CObservationObjects::Ptr boxes;  // null when no detector looked
 };
 
 /** Notes what is left out with keepGoing, and throws without it. */
-void drop(TumImportReport& report, const TumImportOptions& options, const std::string& what)
+void drop(FolderImportReport& report, const FolderImportOptions& options, const std::string& what)
 {
   if (!options.keepGoing) throw std::runtime_error(what);
   report.dropped.push_back(what);
 }
 
 CObservationObjects::Ptr loadBoxes(
-    const TumDataset& dataset,
+    const FrameFolder& folder,
     std::size_t frame,
-    const TumImportOptions& options,
-    TumImportReport& report)
+    const FolderImportOptions& options,
+    FolderImportReport& report)
 {
-  const auto boxes = dataset.boxes(frame);
+  const auto boxes = folder.boxes(frame);
   if (!boxes) return nullptr;
   std::vector<DetectedObject> usable;
   for (const auto& object : boxes->objects)
@@ -39,7 +39,7 @@ CObservationObjects::Ptr loadBoxes(
     const auto& camera = boxes->cameraParams;
     const auto why = whyUnusable(object.box, object.score, camera.ncols, camera.nrows);
     if (why)
-      drop(report, options, dataset.boxesFile(frame) + ": " + object.label + " " + *why);
+      drop(report, options, folder.boxesFile(frame) + ": " + object.label + " " + *why);
     else
       usable.push_back(object);
   }
@@ -48,13 +48,13 @@ CObservationObjects::Ptr loadBoxes(
 }
 
 std::optional<LoadedFrame> load(
-    const TumDataset& dataset,
+    const FrameFolder& folder,
     std::size_t frame,
-    const TumImportOptions& options,
-    TumImportReport& report)
+    const FolderImportOptions& options,
+    FolderImportReport& report)
 try
 {
-  return LoadedFrame{dataset.scan(frame), loadBoxes(dataset, frame, options, report)};
+  return LoadedFrame{folder.recorded(frame), loadBoxes(folder, frame, options, report)};
 }
 catch (const std::exception& e)
 {
@@ -63,14 +63,14 @@ catch (const std::exception& e)
 }
 }  // namespace
 
-TumImportReport importTum(
-    const TumDataset& dataset,
-    const TumImportOptions& options,
+FolderImportReport importFolder(
+    const FrameFolder& folder,
+    const FolderImportOptions& options,
     RawlogWriter& writer,
     const ProgressCallback& progress)
 {
-  TumImportReport report;
-  const auto& frames = dataset.frames();
+  FolderImportReport report;
+  const auto& frames = folder.frames();
   std::optional<double> lastTime;  // of a frame [s]
   for (std::size_t i = 0; i < frames.size(); i += options.every)
   {
@@ -84,20 +84,25 @@ TumImportReport importTum(
               frames[i].time));
       continue;
     }
-    const auto loaded = load(dataset, i, options, report);
+    const auto loaded = load(folder, i, options, report);
     if (!loaded) continue;
     lastTime = frames[i].time;
-    const auto T_world_robot = dataset.T_world_robot(i);
+    const auto T_world_robot = folder.T_world_robot(i);
     if (T_world_robot && options.posesAs != PosesAs::None)
     {
       const bool odometry = options.posesAs == PosesAs::Odometry;
       writer.writePose(
-          loaded->scan->timestamp, odometry ? kOdometryLabel : kGroundTruthLabel, *T_world_robot);
+          loaded->images.scan->timestamp, odometry ? kOdometryLabel : kGroundTruthLabel, *T_world_robot);
       ++report.poses;
     }
-    writer.write(*loaded->scan);
+    const auto& [scan, jpeg] = loaded->images;
+    if (jpeg.empty())
+      writer.write(*scan);
+    else
+      writer.write(*scan, jpeg);
+    report.copiedImages += jpeg.empty() ? 0 : 1;
     ++report.frames;
-    if (!loaded->boxes && !dataset.boxesFile(i).empty()) ++report.withoutDetections;
+    if (!loaded->boxes && !folder.boxesFile(i).empty()) ++report.withoutDetections;
     if (!loaded->boxes) continue;
     writer.write(*loaded->boxes);
     report.boxes += loaded->boxes->objects.size();

@@ -1,4 +1,4 @@
-#include "quadmap/sensors/TumCheck.h"
+#include "quadmap/sensors/FolderCheck.h"
 
 #include <gtest/gtest.h>
 
@@ -6,18 +6,19 @@
 
 #include "../../obs/TestData.h"
 #include "../SampleRecording.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 using namespace quadmap;
 
 namespace
 {
-TumProblems check(const SampleRecording& recording, TumCheckOptions options = {})
+FolderProblems check(const SampleRecording& recording, FolderCheckOptions options = {})
 {
-  return checkTum(TumDataset(recording.folder()), options, [](double) {});
+  return checkFolder(openFrameFolder("tum", recording.folder()), options, [](double) {});
 }
 
 /** Expects exactly one problem, of this kind and with this text. */
-void expectOnly(const TumProblems& problems, const std::string& kind, const std::string& part)
+void expectOnly(const FolderProblems& problems, const std::string& kind, const std::string& part)
 {
   ASSERT_EQ(problems.size(), 1u) << problems.begin()->first;
   ASSERT_EQ(problems.count(kind), 1u) << problems.begin()->first;
@@ -27,17 +28,17 @@ void expectOnly(const TumProblems& problems, const std::string& kind, const std:
 }
 }  // namespace
 
-TEST(TumCheck, FindsNothingInAGoodRecording)
+TEST(FolderCheck, FindsNothingInAGoodRecording)
 {
   double last = -1;
   const SampleRecording recording;
   const auto problems =
-      checkTum(TumDataset(recording.folder()), {}, [&](double share) { last = share; });
+      checkFolder(openFrameFolder("tum", recording.folder()), {}, [&](double share) { last = share; });
   EXPECT_TRUE(problems.empty()) << problems.begin()->first;
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 
-TEST(TumCheck, FindsMissingFiles)
+TEST(FolderCheck, FindsMissingFiles)
 {
   const SampleRecording recording;
   for (const char* file : {"rgb/f1.png", "depth/f2.png", "detections/f3.txt"})
@@ -49,7 +50,7 @@ TEST(TumCheck, FindsMissingFiles)
   EXPECT_NE(problems.at("missing file")[0].find("associations.txt:2"), std::string::npos);
 }
 
-TEST(TumCheck, FindsAWrongDepthScale)
+TEST(FolderCheck, FindsAWrongDepthScale)
 {
   const SampleRecording recording;
   const auto withFactor = [&](const std::string& factor)
@@ -67,13 +68,13 @@ TEST(TumCheck, FindsAWrongDepthScale)
   expectOnly(withFactor("1000.0"), "depth scale", "between 5 and 18 m: depth_factor 1000 ");
   expectOnly(withFactor("25000.0"), "depth scale", "between 0.2 and 0.72 m: depth_factor 25000 ");
   EXPECT_TRUE(withFactor("5000.0").empty());
-  TumCheckOptions small;
+  FolderCheckOptions small;
   small.minDepth = 0.04;
   withFactor("100000.0");
   EXPECT_TRUE(check(recording, small).empty());
 }
 
-TEST(TumCheck, DoesNotTakeAFewWrongPixelsForAWrongDepthScale)
+TEST(FolderCheck, DoesNotTakeAFewWrongPixelsForAWrongDepthScale)
 {
   const SampleRecording recording;
   const auto withPixels = [&](int columns, int value)
@@ -90,21 +91,21 @@ TEST(TumCheck, DoesNotTakeAFewWrongPixelsForAWrongDepthScale)
   expectOnly(withPixels(64, 500), "depth scale", "between 0.1 and 2 m");
 }
 
-TEST(TumCheck, FindsDepthImagesWithoutMeasurement)
+TEST(FolderCheck, FindsDepthImagesWithoutMeasurement)
 {
   const SampleRecording recording;
   recording.writeDepth(4, 0);
   expectOnly(check(recording), "no depth", "depth/f4.png");
 }
 
-TEST(TumCheck, FindsImagesOfAnotherSize)
+TEST(FolderCheck, FindsImagesOfAnotherSize)
 {
   const SampleRecording recording;
   recording.writeColor(4, 63, 48);
   expectOnly(check(recording), "image", "rgb/f4.png: is 63x48");
 }
 
-TEST(TumCheck, FindsGapsAndStepsBackInTime)
+TEST(FolderCheck, FindsGapsAndStepsBackInTime)
 {
   const SampleRecording recording;
   std::string lines;
@@ -114,7 +115,7 @@ TEST(TumCheck, FindsGapsAndStepsBackInTime)
   std::filesystem::remove(recording.files.path("groundtruth.txt"));
   auto problems = check(recording);
   expectOnly(problems, "time going backwards", "associations.txt:4: 0.050000 s before");
-  TumCheckOptions options;
+  FolderCheckOptions options;
   options.maxGap = 0.5;
   problems = check(recording, options);
   ASSERT_EQ(problems.size(), 2u);
@@ -122,7 +123,7 @@ TEST(TumCheck, FindsGapsAndStepsBackInTime)
   EXPECT_NE(problems.at("gap in time")[0].find("associations.txt:6: 0.600 s"), std::string::npos);
 }
 
-TEST(TumCheck, ComparesGapsWithTheMedianInterval)
+TEST(FolderCheck, ComparesGapsWithTheMedianInterval)
 {
   const SampleRecording recording;
   std::string lines;
@@ -133,7 +134,7 @@ TEST(TumCheck, ComparesGapsWithTheMedianInterval)
   expectOnly(check(recording), "gap in time", "associations.txt:4: 0.550 s");
 }
 
-TEST(TumCheck, FindsUnusableBoxes)
+TEST(FolderCheck, FindsUnusableBoxes)
 {
   const SampleRecording recording;
   recording.files.write(
@@ -150,7 +151,7 @@ TEST(TumCheck, FindsUnusableBoxes)
     EXPECT_NE(boxes[i].find(parts[i]), std::string::npos) << boxes[i];
 }
 
-TEST(TumCheck, FindsPosesThatJump)
+TEST(FolderCheck, FindsPosesThatJump)
 {
   const SampleRecording recording;
   const auto withPoses = [&](const std::string& fourth)
@@ -171,7 +172,7 @@ TEST(TumCheck, FindsPosesThatJump)
   EXPECT_TRUE(withPoses(SampleRecording::pose(3, 0.2)).empty()) << "1 m/s is no jump";
 }
 
-TEST(TumCheck, FindsFramesWithoutPose)
+TEST(FolderCheck, FindsFramesWithoutPose)
 {
   const SampleRecording recording;
   std::string poses;
@@ -180,34 +181,34 @@ TEST(TumCheck, FindsFramesWithoutPose)
   expectOnly(check(recording), "no pose", "associations.txt:6");
 }
 
-TEST(TumCheck, RejectsOptionsOutOfRange)
+TEST(FolderCheck, RejectsOptionsOutOfRange)
 {
   const SampleRecording recording;
-  const auto expect = [&](double TumCheckOptions::*member, double value)
+  const auto expect = [&](double FolderCheckOptions::*member, double value)
   {
-    TumCheckOptions options;
+    FolderCheckOptions options;
     options.*member = value;
     EXPECT_THROW(check(recording, options), std::invalid_argument);
   };
-  expect(&TumCheckOptions::maxGap, -1);
-  expect(&TumCheckOptions::minDepth, 0);
-  expect(&TumCheckOptions::maxDepth, 0.1);
-  expect(&TumCheckOptions::jumpFactor, 1);
-  expect(&TumCheckOptions::maxSpeed, 0);
-  expect(&TumCheckOptions::maxTurnRate_deg, 0);
+  expect(&FolderCheckOptions::maxGap, -1);
+  expect(&FolderCheckOptions::minDepth, 0);
+  expect(&FolderCheckOptions::maxDepth, 0.1);
+  expect(&FolderCheckOptions::jumpFactor, 1);
+  expect(&FolderCheckOptions::maxSpeed, 0);
+  expect(&FolderCheckOptions::maxTurnRate_deg, 0);
 }
 
-TEST(TumCheck, FindsNothingInTheRealRecordings)
+TEST(FolderCheck, FindsNothingInTheRealRecordings)
 {
   for (const char* name : {"tum_fr3_cabinet", "kitchen_a"})
   {
     const auto folder = testData(name);
     if (folder.empty()) GTEST_SKIP() << "the recordings are not here";
-    EXPECT_TRUE(checkTum(TumDataset(folder), {}, [](double) {}).empty()) << name;
+    EXPECT_TRUE(checkFolder(openFrameFolder("tum", folder), {}, [](double) {}).empty()) << name;
   }
 }
 
-TEST(TumCheck, FindsOtherDepthFactorsInTheRealRecordings)
+TEST(FolderCheck, FindsOtherDepthFactorsInTheRealRecordings)
 {
   namespace fs = std::filesystem;
   for (const char* name : {"tum_fr3_cabinet", "kitchen_a"})
@@ -229,7 +230,7 @@ TEST(TumCheck, FindsOtherDepthFactorsInTheRealRecordings)
          {std::pair("5000.0", false), std::pair("1000.0", true), std::pair("25000.0", true)})
     {
       folder.write("calibration.yaml", std::string(calibration).replace(at, 6, factor));
-      const auto problems = checkTum(TumDataset(folder.folder().string()), {}, [](double) {});
+      const auto problems = checkFolder(openFrameFolder("tum", folder.folder().string()), {}, [](double) {});
       EXPECT_EQ(problems.count("depth scale") > 0, isWrong) << name << " " << factor;
     }
   }

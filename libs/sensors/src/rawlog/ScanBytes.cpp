@@ -1,0 +1,63 @@
+#include "rawlog/ScanBytes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "quadmap/base/GzipStream.h"
+
+namespace quadmap
+{
+namespace
+{
+/** The name of an external image that stands where the JPEG goes. */
+const std::string kPlaceholder = "quadmap: the place of a colour image";
+
+void append(std::vector<std::uint8_t>& to, std::uint32_t number)
+{
+  for (int byte = 0; byte < 4; ++byte)
+    to.push_back(static_cast<std::uint8_t>(number >> (8 * byte)));
+}
+
+/** What MRPT writes of an external image: that it is one, and its name. */
+std::vector<std::uint8_t> externalImage()
+{
+  std::vector<std::uint8_t> bytes{1};
+  append(bytes, static_cast<std::uint32_t>(kPlaceholder.size()));
+  bytes.insert(bytes.end(), kPlaceholder.begin(), kPlaceholder.end());
+  return bytes;
+}
+
+/** What MRPT writes of a colour image that it compresses. */
+std::vector<std::uint8_t> embeddedImage(
+    const mrpt::img::TCamera& camera, const std::vector<std::uint8_t>& jpeg)
+{
+  std::vector<std::uint8_t> bytes{0, 1};  // not external, in colour
+  bytes.reserve(bytes.size() + 3 * sizeof(std::uint32_t) + jpeg.size());
+  append(bytes, camera.ncols);
+  append(bytes, camera.nrows);
+  append(bytes, static_cast<std::uint32_t>(jpeg.size()));
+  bytes.insert(bytes.end(), jpeg.begin(), jpeg.end());
+  return bytes;
+}
+}  // namespace
+
+std::vector<std::uint8_t> scanBytes(
+    const mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg)
+{
+  mrpt::obs::CObservation3DRangeScan marked = scan;
+  marked.hasIntensityImage = true;
+  marked.intensityImage.setExternalStorage(kPlaceholder);
+  std::vector<std::uint8_t> bytes = archiveBytes(marked);
+
+  const auto external = externalImage();
+  // Depth comes first and is long, so that looking from the end is quicker.
+  const auto at = std::find_end(bytes.begin(), bytes.end(), external.begin(), external.end());
+  if (at == bytes.end()) throw std::logic_error("MRPT archives images in another form");
+  const auto embedded = embeddedImage(scan.cameraParamsIntensity, jpeg);
+  const auto rest = bytes.erase(at, at + static_cast<std::ptrdiff_t>(external.size()));
+  bytes.insert(rest, embedded.begin(), embedded.end());
+  return bytes;
+}
+
+}  // namespace quadmap

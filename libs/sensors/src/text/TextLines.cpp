@@ -1,0 +1,65 @@
+#include "text/TextLines.h"
+
+#include <mrpt/core/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "quadmap/base/ConfigCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+/** In memory a line takes many times its length. */
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 24;
+}  // namespace
+
+std::vector<TextLine> readTextLines(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot open");
+  requireModestText(path, kMostBytes);
+  std::vector<TextLine> lines;
+  std::size_t number = 0;
+  for (std::string text; std::getline(file, text);)
+  {
+    ++number;
+    std::istringstream words(text.substr(0, text.find('#')));
+    TextLine line{path + ":" + std::to_string(number), {}};
+    for (std::string word; words >> word;) line.words.push_back(word);
+    if (!line.words.empty()) lines.push_back(std::move(line));
+  }
+  if (file.bad()) throw std::runtime_error(path + ": read error");
+  return lines;
+}
+
+void requireColumns(const TextLine& line, std::size_t columns)
+{
+  if (line.words.size() != columns)
+    throw std::runtime_error(mrpt::format(
+        "%s: expected %zu columns, got %zu", line.place.c_str(), columns, line.words.size()));
+}
+
+double numberIn(const TextLine& line, std::size_t column)
+{
+  const std::string& word = line.words[column];
+  double value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || stop != word.data() + word.size())
+    throw std::runtime_error(line.place + ": '" + word + "' is not a number");
+  return value;
+}
+
+double timeIn(const TextLine& line, std::size_t column)
+{
+  const double time = numberIn(line, column);
+  if (!std::isfinite(time) || time < 0)
+    throw std::runtime_error(line.place + ": the time " + line.words[column] + " must be >= 0 s");
+  return time;
+}
+
+}  // namespace quadmap
