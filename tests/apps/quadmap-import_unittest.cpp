@@ -67,6 +67,66 @@ TEST_F(QuadmapImport, WritesRawlogAndBoxes)
   EXPECT_NEAR(frames[5].T_odom_robot->x(), 0.25, 1e-9);
 }
 
+TEST_F(QuadmapImport, TellsTheKindOfAFolder)
+{
+  EXPECT_EQ(run("auto IN -o OUT/x.rawlog").status, 0);
+  EXPECT_EQ(readAll(out_.path("x.rawlog")).size(), 6u);
+  EXPECT_NE(run("auto IN --check").out.find(" (tum)\n"), kNotFound);
+  expectFailure(run("auto OUT -o OUT/y.rawlog"), "is of no known kind (tum has associations.txt");
+}
+
+TEST_F(QuadmapImport, SaysWhatIsThere)
+{
+  std::filesystem::remove(recording_.files.path("detections/f1.txt"));
+  const auto result = run("tum IN --check");
+  for (const char* part :
+       {"frames: 6 in 0.5 s, colour and depth as associations.txt says\n",
+        "camera: calibration.yaml, 64x48, fx 60, fy 62, cx 31.5, cy 23.5\n",
+        "poses: 6 of 6 frames, of groundtruth.txt\n", "detections (a line per box), 5 boxes; "
+        "missing for 1 images\n", "missing file (1)\n"})
+    EXPECT_NE(result.out.find(part), kNotFound) << "'" << part << "' is not in " << result.out;
+  std::filesystem::remove(recording_.files.path("groundtruth.txt"));
+  std::filesystem::remove_all(recording_.files.path("detections"));
+  const auto less = run("tum IN --check");
+  EXPECT_EQ(less.status, 0) << less.out;
+  EXPECT_NE(less.out.find("poses: none\n  detections: none\n"), kNotFound) << less.out;
+}
+
+TEST_F(QuadmapImport, TakesTheCameraByNameOrFile)
+{
+  recording_.files.write(
+      "my.ini", "[camera]\nwidth = 64\nheight = 48\nfx = 50\nfy = 50\ncx = 31\ncy = 23\n");
+  EXPECT_EQ(run("tum IN -o OUT/x.rawlog --camera IN/my.ini").status, 0);
+  EXPECT_DOUBLE_EQ(readAll(out_.path("x.rawlog")).at(0).scan->cameraParams.fx(), 50);
+  EXPECT_EQ(run("tum IN -o OUT/x.rawlog --camera IN/calibration.yaml").status, 0);
+  EXPECT_DOUBLE_EQ(readAll(out_.path("x.rawlog")).at(0).scan->cameraParams.fx(), 60);
+  expectFailure(run("tum IN -o OUT/y.rawlog --camera kinekt"), "kinekt: no such camera; known are");
+}
+
+TEST_F(QuadmapImport, SaysThatUpIsNotKnown)
+{
+  auto calibration = std::string(SampleRecording::kCalibration);
+  recording_.writeCalibration(calibration.substr(0, calibration.find("world_up")));
+  const auto result = run("tum IN -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("nothing says where up is, +z is taken as up"), kNotFound);
+}
+
+TEST_F(QuadmapImport, ReadsBoxesOfOtherForms)
+{
+  const TemporaryFolder boxes;
+  for (int i = 0; i < SampleRecording::kFrames; ++i)
+    boxes.write(mrpt::format("f%d.txt", i), "1 0.5 0.5 0.5 0.5 0.75\n");
+  boxes.write("my.names", "desk\noffice chair\n");
+  const std::string folder = boxes.folder().string();
+  const auto result = run(
+      "tum IN -o OUT/x.rawlog --detections " + folder + " --labels " + boxes.path("my.names"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto object = readAll(out_.path("x.rawlog")).at(5).objects->objects.at(0);
+  EXPECT_EQ(object.label, "office chair");
+  EXPECT_NEAR(object.box.x1, 16, 1e-6);
+}
+
 TEST_F(QuadmapImport, TakesPosesAsAsked)
 {
   ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);
@@ -240,7 +300,8 @@ TEST_F(QuadmapImport, WrongUsageIsStatus2)
        {"", "tum", "tum IN", "tom IN -o OUT/x.rawlog", "tum IN -o OUT/x.rawlog --every 0",
         "tum IN -o OUT/x.rawlog --every -1", "tum IN -o OUT/x.rawlog --every two",
         "tum IN -o OUT/x.rawlog --poses-as truth", "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o",
-        "tum IN --check --max-gap -1", "tum IN --check --max-speed 0"})
+        "tum IN --check --max-gap -1", "tum IN --check --max-speed 0",
+        "openni2 live -o OUT/x.rawlog --labels IN/x"})
   {
     const auto result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
@@ -253,7 +314,8 @@ TEST_F(QuadmapImport, ShowsHelpAndVersion)
 {
   const auto help = run("--help");
   EXPECT_EQ(help.status, 0);
-  for (const char* option : {"--output", "--check", "--external", "--poses-as", "--detections"})
+  for (const char* option :
+       {"--output", "--check", "--external", "--poses-as", "--detections", "--labels", "--camera"})
     EXPECT_NE(help.out.find(option), kNotFound) << option;
   const auto version = run("--version");
   EXPECT_EQ(version.status, 0);

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CRawlog.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 #include "../SampleRawlog.h"
@@ -15,6 +18,16 @@ using mrpt::poses::CPose3D;
 namespace
 {
 constexpr int kFrames = 3;
+
+std::string unpacked(const std::string& path)
+{
+  const gzFile file = gzopen(path.c_str(), "rb");
+  std::string content(1 << 20, '\0');
+  content.resize(static_cast<std::size_t>(
+      std::max(0, gzread(file, content.data(), static_cast<unsigned>(content.size())))));
+  gzclose(file);
+  return content;
+}
 
 void writeSample(const std::string& file, RawlogWriterOptions options = {}, bool boxes = true)
 {
@@ -86,6 +99,46 @@ TEST(RawlogWriter, StockReadersReadTheRawlog)
   mrpt::obs::CRawlog rawlog;
   ASSERT_TRUE(rawlog.loadFromRawLogFile(folder.path("x.rawlog")));
   EXPECT_EQ(rawlog.size(), 2u * kFrames);
+}
+
+TEST(RawlogWriter, WritesAJpegAsItIs)
+{
+  const TemporaryFolder folder;
+  const auto sample = sampleScan(kStart);
+  cv::imwrite(folder.path("image.jpg"), sample->intensityImage.asCvMatRef());
+  const std::string jpeg = readFile(folder.path("image.jpg"));
+  for (const bool external : {false, true})
+  {
+    const std::string file = folder.path(external ? "e.rawlog" : "x.rawlog");
+    RawlogWriterOptions options;
+    options.external = external;
+    RawlogWriter writer(file, options);
+    for (int i = 0; i < kFrames; ++i)
+    {
+      auto scan = sampleScan(kStart + i);
+      scan->intensityImage = mrpt::img::CImage();
+      writer.write(*scan, std::vector<std::uint8_t>(jpeg.begin(), jpeg.end()));
+    }
+    writer.finish();
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile(file));
+    ASSERT_EQ(rawlog.size(), std::size_t{kFrames});
+    if (external)
+    {
+      EXPECT_EQ(readFile(folder.path("e_Images/camera_000002.jpg")), jpeg);
+      continue;
+    }
+    const auto frames = readAll(file);
+    ASSERT_EQ(frames.size(), std::size_t{kFrames});
+    const cv::Mat decoded = cv::imread(folder.path("image.jpg"));
+    for (const auto& frame : frames)
+    {
+      const cv::Mat image = frame.scan->intensityImage.asCvMatRef();
+      EXPECT_EQ(cv::norm(image, decoded, cv::NORM_INF), 0) << "no second loss";
+      EXPECT_EQ(frame.scan->rangeImage, sample->rangeImage);
+    }
+    EXPECT_NE(unpacked(file).find(jpeg), std::string::npos);
+  }
 }
 
 TEST(RawlogWriter, SameInputGivesTheSameBytes)

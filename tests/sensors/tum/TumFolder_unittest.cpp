@@ -95,20 +95,28 @@ TEST(TumFolder, LeavesAnUprightWorldAlone)
   EXPECT_NEAR(R(1, 2), -1, 1e-9);
 }
 
-TEST(TumFolder, SaysWhenUpIsUnknown)
+TEST(TumFolder, KnowsWhenUpIsUnknown)
 {
   const SampleRecording recording;
   auto calibration = std::string(SampleRecording::kCalibration);
   recording.writeCalibration(calibration.substr(0, calibration.find("world_up")));
-  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
-  ASSERT_EQ(dataset.notes().size(), 1u);
-  expectIn(dataset.notes()[0], "no world_up");
+  FrameFolder dataset = openFrameFolder("tum", recording.folder());
+  EXPECT_FALSE(dataset.camera().worldUp);
+  EXPECT_DOUBLE_EQ(dataset.T_world_robot(0)->getRotationMatrix()(1, 2), -1) << "+z is up";
+  dataset.turnUp(-Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(dataset.T_world_robot(0)->getRotationMatrix()(2, 2), 1, 1e-9);
+}
+
+TEST(TumFolder, SaysWhatIsMissing)
+{
+  const SampleRecording recording;
   std::filesystem::remove(recording.files.path("groundtruth.txt"));
   std::filesystem::remove_all(recording.files.path("detections"));
   const FrameFolder blind = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(blind.notes().size(), 2u);
   expectIn(blind.notes()[0], "no groundtruth.txt");
   expectIn(blind.notes()[1], "no detections");
+  EXPECT_EQ(blind.posesCount(), 0u);
   EXPECT_FALSE(blind.T_world_robot(0));
   EXPECT_FALSE(blind.boxes(0));
 }
@@ -122,8 +130,10 @@ TEST(TumFolder, AssociatesByTimeWithoutAssociations)
       "# time file\n1.00 rgb/f0.png\n1.03 rgb/f1.png\n1.06 rgb/f2.png\n2.0 rgb/f3.png\n");
   // f1 is 5 ms from the second depth image, f2 25 ms: too far; f0's depth comes before it.
   recording.files.write("depth.txt", "0.99 depth/f0.png\n1.035 depth/f1.png\n3.0 depth/f2.png\n");
-  const auto frames = openFrameFolder("tum", recording.folder()).frames();
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
+  const auto& frames = dataset.frames();
   ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(dataset.unpaired(), 3u) << "f0 and f3 of colour, f2 of depth";
   EXPECT_DOUBLE_EQ(frames[0].time, 0.99) << "the time of the depth image";
   EXPECT_EQ(frames[1].color, recording.files.path("rgb/f1.png"));
   EXPECT_EQ(frames[1].depth, recording.files.path("depth/f1.png"));
@@ -147,15 +157,57 @@ TEST(TumFolder, InterpolatesPosesAtTheFramesTimes)
   EXPECT_FALSE(openFrameFolder("tum", recording.folder(), impatient).T_world_robot(2)) << "0.1 s apart";
 }
 
-TEST(TumFolder, KeepsNegativeFyAndDistortion)
+TEST(TumFolder, KeepsANegativeFy)
 {
   const SampleRecording recording;
-  recording.writeCalibration("k1: 0.1\n" + withValue("fy", "-62.0"));
+  recording.writeCalibration(withValue("fy", "-62.0"));
   const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.fy(), -62.0);
-  EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.dist[0], 0.1);
+}
+
+TEST(TumFolder, TakesTheDistortionOutOfImagesAndBoxes)
+{
+  const SampleRecording recording;
+  recording.writeCalibration("k1: 0.1\n" + std::string(SampleRecording::kCalibration));
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(dataset.notes().size(), 1u);
-  expectIn(dataset.notes()[0], "distortion");
+  expectIn(dataset.notes()[0], "rectified, as the lens of calibration.yaml distorts");
+  const auto scan = dataset.scan(0);
+  EXPECT_EQ(scan->cameraParams.distortion, mrpt::img::DistortionModel::none);
+  EXPECT_DOUBLE_EQ(scan->cameraParams.dist[0], 0);
+  EXPECT_EQ(scan->rangeImage(0, 0), 0) << "the lens bends outwards, so it did not see the corner";
+  EXPECT_EQ(scan->rangeImage(24, 32), 10000);
+  // 21.5 px from the centre are 0.358 at depth 1, which the lens bends by a factor of 1.013.
+  EXPECT_NEAR(dataset.boxes(0)->objects.at(0).box.x1, 10.0, 0.5);
+  EXPECT_GT(dataset.boxes(0)->objects.at(0).box.x1, 10.2);
+  EXPECT_TRUE(dataset.recorded(0).jpeg.empty());
+}
+
+TEST(TumFolder, NamesTheCamerasWhenNothingTellsWhichItIs)
+{
+  const SampleRecording recording;
+  std::filesystem::remove(recording.files.path("calibration.yaml"));
+  expectIn(errorOfOpening(recording), "--camera gives one: 7scenes, fr1, fr2, fr3, icl, kinect");
+  FrameFolderOptions options;
+  options.camera = "fr9";
+  expectIn(
+      errorOf([&] { openFrameFolder("tum", recording.folder(), options); }),
+      "fr9: no such camera; known are 7scenes, fr1");
+  options.camera = "kinect";
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder(), options);
+  EXPECT_DOUBLE_EQ(dataset.camera().depthFactor, 5000) << "as usual in this layout";
+  expectIn(
+      errorOf([&] { dataset.scan(0); }), "rgb/f0.png: is 64x48, camera kinect is for 640x480");
+}
+
+TEST(TumFolder, PairsDepthFirstAssociations)
+{
+  const SampleRecording recording;
+  recording.files.write("associations.txt", "7 depth/f1.png 7.01 rgb/f2.png\n");
+  const auto content = openFrameFolder("tum", recording.folder());
+  EXPECT_EQ(content.frames()[0].color, recording.files.path("rgb/f2.png"));
+  EXPECT_EQ(content.frames()[0].depth, recording.files.path("depth/f1.png"));
+  EXPECT_DOUBLE_EQ(content.frames()[0].time, 7);
 }
 
 TEST(TumFolder, RejectsBadCalibrations)

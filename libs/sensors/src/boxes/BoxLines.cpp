@@ -42,7 +42,13 @@ class BoxLines : public BoxReader
 
   std::string fileOf(const FolderFrame& frame) const override
   {
-    return (fs::path(folder_) / (fs::path(frame.color).stem().string() + ".txt")).string();
+    std::string file;
+    for (const auto& name : namesOf(frame))
+    {
+      file = (fs::path(folder_) / (name + ".txt")).string();
+      if (fs::exists(file)) break;
+    }
+    return file;
   }
 
  protected:

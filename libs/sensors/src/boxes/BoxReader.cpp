@@ -7,6 +7,13 @@
 
 namespace quadmap
 {
+std::vector<std::string> namesOf(const FolderFrame& frame)
+{
+  const std::filesystem::path name = std::filesystem::path(frame.color).stem();
+  if (name.extension() != ".color") return {name.string()};
+  return {name.string(), name.stem().string()};
+}
+
 std::unique_ptr<const BoxReader> openBoxes(const std::string& place, const std::string& labels)
 {
   namespace fs = std::filesystem;

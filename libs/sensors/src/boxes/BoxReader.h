@@ -25,6 +25,10 @@ class BoxReader
   virtual std::string description() const = 0;  //!< Form and place, for messages
 };
 
+/** The names that boxes of an image may go by: that of its file without the extension, and in
+ * 7-Scenes, whose images are NAME.color.png, also NAME. */
+std::vector<std::string> namesOf(const FolderFrame& frame);
+
 /** A reader for what is there: files of boxes in the project's own form or in that of YOLO's
  * save_txt, or a JSON file of COCO.
  * \param place Folder of text files, or the JSON file.

@@ -105,10 +105,12 @@ class CocoBoxes : public BoxReader
   std::optional<std::vector<DetectedObject>> boxes(
       const FolderFrame& frame, const mrpt::img::TCamera&) const override
   {
-    const std::string name = fs::path(frame.color).stem().string();
-    auto found = boxesOf_.find(name);
-    if (found == boxesOf_.end() && isResults_) found = boxesOf_.find(numberAtEnd(name));
-    if (found != boxesOf_.end()) return found->second;
+    for (const auto& name : namesOf(frame))
+    {
+      auto found = boxesOf_.find(name);
+      if (found == boxesOf_.end() && isResults_) found = boxesOf_.find(numberAtEnd(name));
+      if (found != boxesOf_.end()) return found->second;
+    }
     // Results do not say at which images the detector looked in vain.
     if (isResults_) return std::vector<DetectedObject>();
     return std::nullopt;

@@ -96,7 +96,7 @@ void CameraPreset::describe(OptionList& list)
   list.vector(
       "worldUp", worldUp.data(), {-1e3, 1e3}, "",
       "Where up is in the world of the recording's poses. 0 0 0: not known.");
-  list.require([this] { return color[1] != 0; }, "fy must not be 0");
+  list.require([this] { return color[0] == 0 || color[1] != 0; }, "fy must not be 0");
   list.require(
       [this] { return isZero(depth.data(), 4) || (depth[0] > 0 && depth[1] != 0); },
       "depthFx must be > 0 and depthFy not 0, or both must be missing");

@@ -64,16 +64,12 @@ FrameImages loadImages(const FolderFrame& frame, const FolderContent& content)
   const auto& camera = content.camera;
   FrameImages images;
   if (content.images)
-  {
     images = content.images->read(frame);
-    images.depth = registered(images.depth, frame.depth, camera);
-  }
   else
-  {
     images.color = loadImage(frame.color, cv::IMREAD_COLOR);
-    images.depth = loadDepth(frame, camera);
-  }
   requireSize(images.color.size(), frame.color, camera.color, camera.origin);
+  images.depth = content.images ? registered(images.depth, frame.depth, camera)
+                                : loadDepth(frame, camera);
   return images;
 }
 

@@ -1,0 +1,161 @@
+#include "boxes/BoxReader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "../../obs/TemporaryFolder.h"
+
+using namespace quadmap;
+
+namespace
+{
+/** Files of boxes for images of 640 x 480 pixels. */
+class BoxFiles : public testing::Test
+{
+ protected:
+  BoxFiles() { camera_.ncols = 640, camera_.nrows = 480; }
+
+  std::optional<std::vector<DetectedObject>> read(
+      const std::string& image, const std::string& place = "", const std::string& labels = "") const
+  {
+    FolderFrame frame;
+    frame.color = "/recording/rgb/" + image;
+    return openBoxes(files_.path(place), labels)->boxes(frame, camera_);
+  }
+  std::string errorOfReading(
+      const std::string& image, const std::string& place = "", const std::string& labels = "") const
+  {
+    return errorOf([&] { read(image, place, labels); });
+  }
+
+  TemporaryFolder files_;
+  mrpt::img::TCamera camera_;
+};
+
+void expectBox(const DetectedObject& o, const std::string& label, double score, const ImageBox& b)
+{
+  EXPECT_EQ(o.label, label);
+  EXPECT_DOUBLE_EQ(o.score, score);
+  EXPECT_NEAR(o.box.x1, b.x1, 1e-9);
+  EXPECT_NEAR(o.box.y1, b.y1, 1e-9);
+  EXPECT_NEAR(o.box.x2, b.x2, 1e-9);
+  EXPECT_NEAR(o.box.y2, b.y2, 1e-9);
+}
+
+void expectIn(const std::string& text, const std::string& part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+}
+}  // namespace
+
+TEST_F(BoxFiles, OwnFormHasNamesWithBlanks)
+{
+  files_.write("a.txt", "40 wine glass 0.5 1 2 3 4\n41 cup 0.25 5 6 7 8\n");
+  const auto boxes = read("a.jpg");
+  ASSERT_TRUE(boxes);
+  ASSERT_EQ(boxes->size(), 2u);
+  expectBox(boxes->at(0), "wine glass", 0.5, {1, 2, 3, 4});
+  expectBox(boxes->at(1), "cup", 0.25, {5, 6, 7, 8});
+  EXPECT_FALSE(read("b.jpg")) << "no file: the detector did not look";
+}
+
+TEST_F(BoxFiles, MayBeNamedWithoutTheWordColor)
+{
+  files_.write("frame-000016.txt", "41 cup 0.25 5 6 7 8\n");
+  EXPECT_TRUE(read("frame-000016.color.png")) << "the images of 7-Scenes";
+}
+
+TEST_F(BoxFiles, YoloFormHasSharesOfTheImage)
+{
+  files_.write("a.txt", "56 0.5 0.25 0.1 0.2\n39 0.25 0.5 0.5 1 0.75\n");
+  files_.write("none.txt", "");
+  const auto boxes = read("a.png");
+  ASSERT_TRUE(boxes);
+  ASSERT_EQ(boxes->size(), 2u);
+  expectBox(boxes->at(0), "chair", 1.0, {288, 72, 352, 168});
+  expectBox(boxes->at(1), "bottle", 0.75, {0, 0, 320, 480});
+  EXPECT_TRUE(read("none.png")->empty());
+}
+
+TEST_F(BoxFiles, YoloNamesAreTakenFromAFile)
+{
+  files_.write("a.txt", "1 0.5 0.5 0.5 0.5\n");
+  const auto names = files_.write("my.names", "shelf\noffice chair\n");
+  EXPECT_EQ(read("a.png", "", names)->at(0).label, "office chair");
+  EXPECT_EQ(read("a.png")->at(0).label, "bicycle") << "of COCO";
+  files_.write("classes.txt", "a b\nsofa bed\n");
+  EXPECT_EQ(read("a.png")->at(0).label, "sofa bed") << "the file beside the boxes";
+  std::filesystem::create_directory(files_.path("labels"));
+  files_.write("labels/a.txt", "0 0.5 0.5 0.5 0.5\n");
+  EXPECT_EQ(read("a.png", "labels")->at(0).label, "a b") << "the file in the folder above";
+}
+
+TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
+{
+  files_.write("a.txt", "0 0.5 0.5 0.5 0.5\n");
+  const auto expect = [&](const std::string& text, const std::string& what)
+  {
+    files_.write("b.txt", text);
+    expectIn(errorOfReading("b.png"), "b.txt:" + what);
+  };
+  expect("0 0.5 0.5 0.5\n", "1: expected 5 columns, got 4");
+  expect("0 0.5 0.5 0.5 0.5\n80 0.5 0.5 0.5 0.5\n", "2: class 80 is none of the 80 of ");
+  expect("1.5 0.5 0.5 0.5 0.5\n", "1: class 1.5 is none");
+  expect("0 0.5 0.5 0.5 0.5x\n", "1: '0.5x' is not a number");
+  // Outlines, as YOLO writes them for masks, are not boxes.
+  expect("0 0.1 0.1 0.2 0.1 0.2 0.2 0.1 0.2\n", "1: expected 5 columns, got 9");
+  expectIn(errorOfReading("a.png", "", files_.path("no.names")), "no.names: cannot be read");
+}
+
+TEST_F(BoxFiles, CocoDataSetsHaveTheirOwnNames)
+{
+  files_.write("x.json", R"({"images": [{"id": 7, "file_name": "rgb/a.jpg"}, {"id": 8, "file_name": "b.jpg"}],
+    "categories": [{"id": 3, "name": "wine glass"}],
+    "annotations": [{"id": 1, "image_id": 7, "category_id": 3, "bbox": [10, 20, 30, 40], "area": 1},
+                    {"id": 2, "image_id": 7, "category_id": 3, "bbox": [1, 2, 3, 4], "score": 0.5}]})");
+  const auto boxes = read("a.png", "x.json");
+  ASSERT_TRUE(boxes);
+  ASSERT_EQ(boxes->size(), 2u);
+  expectBox(boxes->at(0), "wine glass", 1.0, {10, 20, 40, 60});
+  expectBox(boxes->at(1), "wine glass", 0.5, {1, 2, 4, 6});
+  EXPECT_TRUE(read("b.png", "x.json")->empty()) << "listed, without a box";
+  EXPECT_FALSE(read("c.png", "x.json")) << "not listed";
+}
+
+TEST_F(BoxFiles, CocoResultsHaveNumbersOfImagesAndClasses)
+{
+  files_.write("r.json", R"([{"image_id": 16, "category_id": 62, "bbox": [1, 2, 3, 4], "score": 0.5},
+    {"image_id": "b", "category_id": 90, "bbox": [1, 2, 3, 4], "score": 0.25}])");
+  ASSERT_EQ(read("frame-000016.jpg", "r.json")->size(), 1u);
+  expectBox(read("frame-000016.jpg", "r.json")->at(0), "chair", 0.5, {1, 2, 4, 6});
+  expectBox(read("frame-000016.color.jpg", "r.json")->at(0), "chair", 0.5, {1, 2, 4, 6});
+  expectBox(read("b.jpg", "r.json")->at(0), "toothbrush", 0.25, {1, 2, 4, 6});
+  EXPECT_TRUE(read("c.jpg", "r.json")->empty());
+  files_.write("own.json", R"([{"image_id": 0, "category_id": 1, "bbox": [1, 2, 3, 4]}])");
+  const auto names = files_.write("names", "desk\nlamp\n");
+  EXPECT_EQ(read("0.png", "own.json", names)->at(0).label, "lamp") << "counted from 0";
+}
+
+TEST_F(BoxFiles, TellsWhatIsWrongInCocoFiles)
+{
+  const auto expect = [&](const std::string& text, const std::string& what)
+  {
+    files_.write("x.json", text);
+    const auto error = errorOfReading("a.png", "x.json");
+    EXPECT_EQ(error.find(files_.path("x.json")), 0u) << error;
+    expectIn(error, what);
+  };
+  expect("7", "is neither a list of results nor a data set of COCO");
+  expect("{", "x.json");
+  expect("{}", "'images' is missing or of another type");
+  expect(R"([{"image_id": 1, "category_id": 12, "bbox": [1, 2, 3, 4]}])", "result 0: class 12 is none");
+  expect(R"([{"image_id": 1, "category_id": 91, "bbox": [1, 2, 3, 4]}])", "result 0: class 91 is none");
+  expect(R"([{"image_id": 1, "category_id": 1, "bbox": [1, 2, 3]}])", "'bbox' must have 4 numbers");
+  expect(R"([{"image_id": 1, "category_id": "x", "bbox": [1, 2, 3, 4]}])", "result 0: 'category_id'");
+  expect(R"([{"image_id": 1.5, "category_id": 1, "bbox": [1, 2, 3, 4]}])", "must be a name or a whole");
+  expect(
+      R"({"images": [], "categories": [], "annotations": [{"image_id": 1, "category_id": 1, "bbox": []}]})",
+      "annotation 0: is of an image or a category that is not there");
+  expectIn(errorOfReading("a.png", "no"), "no: no such folder (of detections)");
+}
