@@ -92,7 +92,8 @@ FolderImportReport importFolder(
     {
       const bool odometry = options.posesAs == PosesAs::Odometry;
       writer.writePose(
-          loaded->images.scan->timestamp, odometry ? kOdometryLabel : kGroundTruthLabel, *T_world_robot);
+          loaded->images.scan->timestamp, odometry ? kOdometryLabel : kGroundTruthLabel,
+          *T_world_robot);
       ++report.poses;
     }
     const auto& [scan, jpeg] = loaded->images;

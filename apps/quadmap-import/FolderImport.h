@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "quadmap/sensors/RawlogWriter.h"
 #include "quadmap/sensors/FrameFolder.h"
+#include "quadmap/sensors/RawlogWriter.h"
 
 namespace quadmap
 {
@@ -28,9 +28,9 @@ struct FolderImportOptions
 struct FolderImportReport
 {
   std::size_t frames = 0, poses = 0, boxes = 0;  //!< Numbers of what was written
-  std::size_t withoutDetections = 0;  //!< Number of frames that the files of boxes lack
-  std::size_t copiedImages = 0;       //!< Number of colour images that were not encoded anew
-  std::vector<std::string> dropped;   //!< One text for each that keepGoing left out
+  std::size_t withoutDetections = 0;             //!< Number of frames that the files of boxes lack
+  std::size_t copiedImages = 0;      //!< Number of colour images that were not encoded anew
+  std::vector<std::string> dropped;  //!< One text for each that keepGoing left out
 };
 
 /** Called with the share that is done, in [0, 1]. */

@@ -20,7 +20,8 @@ void writeCamera(const FrameFolder& folder, std::ostream& out)
   if (c.isDistorted()) out << "; distorted, hence rectified";
   if (c.depth) out << "; depth is registered to colour by the import";
   const auto& r = folder.rectifiedCamera();
-  if (r.ncols != c.color.ncols) out << mrpt::format("; colour is scaled to %ux%u", r.ncols, r.nrows);
+  if (r.ncols != c.color.ncols)
+    out << mrpt::format("; colour is scaled to %ux%u", r.ncols, r.nrows);
   out << "\n";
 }
 
@@ -32,8 +33,7 @@ void writeDetections(const FrameFolder& folder, std::ostream& out)
     return;
   }
   std::size_t boxes = 0, without = 0, unreadable = 0;
-  for (std::size_t i = 0; i < folder.frames().size(); ++i)
-    try
+  for (std::size_t i = 0; i < folder.frames().size(); ++i) try
     {
       const auto found = folder.boxes(i);
       boxes += found ? found->objects.size() : 0;
@@ -54,8 +54,8 @@ void writeSummary(const FrameFolder& folder, std::ostream& out)
 {
   const auto& frames = folder.frames();
   out << oneLine(folder.folder()) << " (" << folder.kind() << ")\n  frames: " << frames.size()
-      << mrpt::format(" in %g s", frames.back().time - frames.front().time)
-      << ", colour and depth " << folder.association();
+      << mrpt::format(" in %g s", frames.back().time - frames.front().time) << ", colour and depth "
+      << folder.association();
   if (folder.unpaired() > 0) out << "; " << folder.unpaired() << " images without a partner";
   out << "\n";
   writeCamera(folder, out);

@@ -121,6 +121,14 @@ void reportMissingDetections(
   std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
 }
 
+/** Frames without a pose are mapped only where the poses around them are known. */
+void reportMissingPoses(const FrameFolder& folder, const FolderImportReport& report)
+{
+  if (report.poses > 0 && report.poses < report.frames)
+    std::cerr << "quadmap-import: warning: " << report.frames - report.poses << " of "
+              << report.frames << " frames have no pose in " << oneLine(folder.poses()) << "\n";
+}
+
 void import(const FrameFolder& folder, Cli& cli)
 {
   FolderImportOptions options;
@@ -136,6 +144,7 @@ void import(const FrameFolder& folder, Cli& cli)
   if (report.frames == 0)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
   reportMissingDetections(folder, report, options.keepGoing);
+  reportMissingPoses(folder, report);
   writer.finish();
   std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
             << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";
@@ -143,7 +152,8 @@ void import(const FrameFolder& folder, Cli& cli)
   std::cout << "\n";
 }
 
-/** Prints what a recording has and what is wrong with it. \return The exit status, 1 for problems. */
+/** Prints what a recording has and what is wrong with it. \return The exit status, 1 for problems.
+ */
 int checkOnly(const FrameFolder& folder, Cli& cli)
 {
   FolderCheckOptions options;

@@ -12,8 +12,8 @@
 #include "Fuzz.h"
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/sensors/FolderKinds.h"
+#include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/simulator/Scene.h"
 
 using namespace quadmap;

@@ -110,7 +110,9 @@ TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
 
 TEST_F(BoxFiles, CocoDataSetsHaveTheirOwnNames)
 {
-  files_.write("x.json", R"({"images": [{"id": 7, "file_name": "rgb/a.jpg"}, {"id": 8, "file_name": "b.jpg"}],
+  files_.write(
+      "x.json",
+      R"({"images": [{"id": 7, "file_name": "rgb/a.jpg"}, {"id": 8, "file_name": "b.jpg"}],
     "categories": [{"id": 3, "name": "wine glass"}],
     "annotations": [{"id": 1, "image_id": 7, "category_id": 3, "bbox": [10, 20, 30, 40], "area": 1},
                     {"id": 2, "image_id": 7, "category_id": 3, "bbox": [1, 2, 3, 4], "score": 0.5}]})");
@@ -125,7 +127,8 @@ TEST_F(BoxFiles, CocoDataSetsHaveTheirOwnNames)
 
 TEST_F(BoxFiles, CocoResultsHaveNumbersOfImagesAndClasses)
 {
-  files_.write("r.json", R"([{"image_id": 16, "category_id": 62, "bbox": [1, 2, 3, 4], "score": 0.5},
+  files_.write(
+      "r.json", R"([{"image_id": 16, "category_id": 62, "bbox": [1, 2, 3, 4], "score": 0.5},
     {"image_id": "b", "category_id": 90, "bbox": [1, 2, 3, 4], "score": 0.25}])");
   ASSERT_EQ(read("frame-000016.jpg", "r.json")->size(), 1u);
   expectBox(read("frame-000016.jpg", "r.json")->at(0), "chair", 0.5, {1, 2, 4, 6});
@@ -149,11 +152,18 @@ TEST_F(BoxFiles, TellsWhatIsWrongInCocoFiles)
   expect("7", "is neither a list of results nor a data set of COCO");
   expect("{", "x.json");
   expect("{}", "'images' is missing or of another type");
-  expect(R"([{"image_id": 1, "category_id": 12, "bbox": [1, 2, 3, 4]}])", "result 0: class 12 is none");
-  expect(R"([{"image_id": 1, "category_id": 91, "bbox": [1, 2, 3, 4]}])", "result 0: class 91 is none");
+  expect(
+      R"([{"image_id": 1, "category_id": 12, "bbox": [1, 2, 3, 4]}])",
+      "result 0: class 12 is none");
+  expect(
+      R"([{"image_id": 1, "category_id": 91, "bbox": [1, 2, 3, 4]}])",
+      "result 0: class 91 is none");
   expect(R"([{"image_id": 1, "category_id": 1, "bbox": [1, 2, 3]}])", "'bbox' must have 4 numbers");
-  expect(R"([{"image_id": 1, "category_id": "x", "bbox": [1, 2, 3, 4]}])", "result 0: 'category_id'");
-  expect(R"([{"image_id": 1.5, "category_id": 1, "bbox": [1, 2, 3, 4]}])", "must be a name or a whole");
+  expect(
+      R"([{"image_id": 1, "category_id": "x", "bbox": [1, 2, 3, 4]}])", "result 0: 'category_id'");
+  expect(
+      R"([{"image_id": 1.5, "category_id": 1, "bbox": [1, 2, 3, 4]}])",
+      "must be a name or a whole");
   expect(
       R"({"images": [], "categories": [], "annotations": [{"image_id": 1, "category_id": 1, "bbox": []}]})",
       "annotation 0: is of an image or a category that is not there");

@@ -32,8 +32,8 @@ TEST(FolderCheck, FindsNothingInAGoodRecording)
 {
   double last = -1;
   const SampleRecording recording;
-  const auto problems =
-      checkFolder(openFrameFolder("tum", recording.folder()), {}, [&](double share) { last = share; });
+  const auto problems = checkFolder(
+      openFrameFolder("tum", recording.folder()), {}, [&](double share) { last = share; });
   EXPECT_TRUE(problems.empty()) << problems.begin()->first;
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
@@ -230,7 +230,8 @@ TEST(FolderCheck, FindsOtherDepthFactorsInTheRealRecordings)
          {std::pair("5000.0", false), std::pair("1000.0", true), std::pair("25000.0", true)})
     {
       folder.write("calibration.yaml", std::string(calibration).replace(at, 6, factor));
-      const auto problems = checkFolder(openFrameFolder("tum", folder.folder().string()), {}, [](double) {});
+      const auto problems =
+          checkFolder(openFrameFolder("tum", folder.folder().string()), {}, [](double) {});
       EXPECT_EQ(problems.count("depth scale") > 0, isWrong) << name << " " << factor;
     }
   }

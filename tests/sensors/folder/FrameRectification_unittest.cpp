@@ -23,10 +23,10 @@ std::vector<double> distortionOf(const mrpt::img::TCamera& c)
 cv::Point2d seenAt(const cv::Point2d& ideal, const mrpt::img::TCamera& c)
 {
   const std::vector<cv::Point3d> point{
-      {(ideal.x - c.cx()) / c.fx(), (ideal.y - c.cy()) / c.fy(), 1}};
+      {(ideal.x - c.cx()) / c.fx(), (ideal.y - c.cy()) / c.fy(), 1}
+  };
   std::vector<cv::Point2d> pixels;
-  cv::projectPoints(
-      point, cv::Vec3d(), cv::Vec3d(), matrixOf(c), distortionOf(c), pixels);
+  cv::projectPoints(point, cv::Vec3d(), cv::Vec3d(), matrixOf(c), distortionOf(c), pixels);
   return pixels[0];
 }
 }  // namespace
@@ -42,8 +42,8 @@ TEST(FrameRectification, ShowsWhatAnIdealCameraWouldShow)
     for (int y = 0; y < 480; ++y)
       for (int x = 0; x < 640; ++x)
       {
-        image.at<cv::Vec3b>(y, x) = cv::Vec3b(
-            static_cast<unsigned char>(x / 4), static_cast<unsigned char>(y / 4), 200);
+        image.at<cv::Vec3b>(y, x) =
+            cv::Vec3b(static_cast<unsigned char>(x / 4), static_cast<unsigned char>(y / 4), 200);
         depth.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(1000 + 10 * x);
       }
     const cv::Mat color = rectification.color(image), range = rectification.depth(depth);
@@ -65,7 +65,8 @@ TEST(FrameRectification, BringsBoxesToWhereTheObjectIs)
   const FrameRectification rectification(camera);
   // The lens shows the corners of an ideal box here, and its sides bent: the box around what the
   // detector sees is a little larger.
-  const cv::Point2d first = seenAt({420, 60}, camera.color), last = seenAt({560, 150}, camera.color);
+  const cv::Point2d first = seenAt({420, 60}, camera.color),
+                    last = seenAt({560, 150}, camera.color);
   const ImageBox box = rectification.box({first.x, first.y, last.x, last.y});
   EXPECT_NEAR(box.x1, 420, 4);
   EXPECT_NEAR(box.y1, 60, 4);

@@ -1,11 +1,10 @@
-#include "quadmap/sensors/FolderKinds.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
 #include "../../obs/TestData.h"
 #include "../SampleRecording.h"
+#include "quadmap/sensors/FolderKinds.h"
 
 using namespace quadmap;
 
@@ -154,7 +153,8 @@ TEST(TumFolder, InterpolatesPosesAtTheFramesTimes)
   EXPECT_FALSE(dataset.T_world_robot(5)) << "after the last pose";
   FrameFolderOptions impatient;
   impatient.maxPoseGap = 0.05;
-  EXPECT_FALSE(openFrameFolder("tum", recording.folder(), impatient).T_world_robot(2)) << "0.1 s apart";
+  EXPECT_FALSE(openFrameFolder("tum", recording.folder(), impatient).T_world_robot(2))
+      << "0.1 s apart";
 }
 
 TEST(TumFolder, KeepsANegativeFy)
@@ -196,8 +196,7 @@ TEST(TumFolder, NamesTheCamerasWhenNothingTellsWhichItIs)
   options.camera = "kinect";
   const FrameFolder dataset = openFrameFolder("tum", recording.folder(), options);
   EXPECT_DOUBLE_EQ(dataset.camera().depthFactor, 5000) << "as usual in this layout";
-  expectIn(
-      errorOf([&] { dataset.scan(0); }), "rgb/f0.png: is 64x48, camera kinect is for 640x480");
+  expectIn(errorOf([&] { dataset.scan(0); }), "rgb/f0.png: is 64x48, camera kinect is for 640x480");
 }
 
 TEST(TumFolder, PairsDepthFirstAssociations)

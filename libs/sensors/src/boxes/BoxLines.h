@@ -7,8 +7,8 @@
 
 namespace quadmap
 {
-/** Files of boxes, NAME.txt of the image NAME, with lines of `class_id class_name score x1 y1 x2 y2`
- * [px]. Names may have blanks. */
+/** Files of boxes, NAME.txt of the image NAME, with lines of `class_id class_name score x1 y1 x2
+ * y2` [px]. Names may have blanks. */
 std::unique_ptr<const BoxReader> openNamedBoxes(const std::string& folder);
 
 /** Files of boxes as YOLO's save_txt writes them, NAME.txt of the image NAME, with lines of
@@ -25,9 +25,9 @@ bool hasYoloBoxes(const std::string& folder);
 /** Boxes of a JSON file in the form of COCO: either whole, with `images`, `annotations` (which may
  * have a `score`) and `categories`; or a list of results, whose `image_id` is the image's name
  * or the number at its end.
- * \param labels Names of the classes of results, counted from 0. When it is empty, the ids are those
- * of COCO itself, from 1 to 90.
- * \exception std::runtime_error If it cannot be read, or is not in this form. */
+ * \param labels Names of the classes of results, counted from 0. When it is empty, the ids are
+ * those of COCO itself, from 1 to 90. \exception std::runtime_error If it cannot be read, or is not
+ * in this form. */
 std::unique_ptr<const BoxReader> openCocoBoxes(const std::string& file, const std::string& labels);
 
 /** \exception std::runtime_error If there are more than a record can have; names the place. */

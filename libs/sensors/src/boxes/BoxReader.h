@@ -22,7 +22,7 @@ class BoxReader
       const FolderFrame& frame, const mrpt::img::TCamera& camera) const = 0;
 
   virtual std::string fileOf(const FolderFrame& frame) const = 0;  //!< That has or should have them
-  virtual std::string description() const = 0;  //!< Form and place, for messages
+  virtual std::string description() const = 0;                     //!< Form and place, for messages
 };
 
 /** The names that boxes of an image may go by: that of its file without the extension, and in

@@ -79,8 +79,8 @@ class ResultNames
   {
     constexpr int kLeftOut[] = {12, 26, 29, 30, 45, 66, 68, 69, 71, 83};
     if (std::find(std::begin(kLeftOut), std::end(kLeftOut), id) != std::end(kLeftOut)) return -1;
-    return id - 1 - std::count_if(
-                        std::begin(kLeftOut), std::end(kLeftOut), [id](int k) { return k < id; });
+    return id - 1 -
+           std::count_if(std::begin(kLeftOut), std::end(kLeftOut), [id](int k) { return k < id; });
   }
 
   bool isCoco_;
@@ -159,7 +159,10 @@ class CocoBoxes : public BoxReader
 
   /** Adds a box, which COCO states by its upper left corner and its size. */
   void add(
-      const std::string& image, const Json& json, const std::string& label, const std::string& place)
+      const std::string& image,
+      const Json& json,
+      const std::string& label,
+      const std::string& place)
   {
     const auto box = valueOf<std::vector<double>>(json, "bbox", place);
     if (box.size() != 4) throw std::runtime_error(place + ": 'bbox' must have 4 numbers");

@@ -6,12 +6,15 @@
 namespace quadmap
 {
 cv::Mat registeredDepth(
-    const cv::Mat& raw, const DepthCamera& depth, const mrpt::img::TCamera& color, double depthFactor)
+    const cv::Mat& raw,
+    const DepthCamera& depth,
+    const mrpt::img::TCamera& color,
+    double depthFactor)
 {
   const Eigen::Matrix3d R = depth.T_color_depth.getRotationMatrix().asEigen();
   const Eigen::Vector3d t =  // in steps of the depth image, as the depths are
-      depthFactor * Eigen::Vector3d(
-                        depth.T_color_depth.x(), depth.T_color_depth.y(), depth.T_color_depth.z());
+      depthFactor *
+      Eigen::Vector3d(depth.T_color_depth.x(), depth.T_color_depth.y(), depth.T_color_depth.z());
   const auto& from = depth.camera;
   constexpr double kDeepest = std::numeric_limits<std::uint16_t>::max();
   cv::Mat registered(

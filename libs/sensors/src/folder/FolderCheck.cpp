@@ -111,7 +111,8 @@ void checkDepthScale(
       options.maxDepth));
 }
 
-void checkTimes(const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
+void checkTimes(
+    const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
   const auto& frames = folder.frames();
   std::vector<double> intervals;  // [s]
@@ -149,8 +150,8 @@ std::vector<Motion> motionsOf(const FrameFolder& folder, FolderProblems& problem
     if (!T_world_robot)
     {
       problems["no pose"].push_back(mrpt::format(
-          "%s: %s does not cover %.6f s", folder.frames()[i].listed.c_str(),
-          folder.poses().c_str(), folder.frames()[i].time));
+          "%s: %s does not cover %.6f s", folder.frames()[i].listed.c_str(), folder.poses().c_str(),
+          folder.frames()[i].time));
       continue;
     }
     const double dt = previous ? folder.frames()[i].time - folder.frames()[*previous].time : 0;
@@ -166,7 +167,8 @@ std::vector<Motion> motionsOf(const FrameFolder& folder, FolderProblems& problem
   return motions;
 }
 
-void checkMotion(const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
+void checkMotion(
+    const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
   if (folder.poses().empty()) return;
   const auto motions = motionsOf(folder, problems);

@@ -6,6 +6,9 @@
 #include <stdexcept>
 
 #include "folder/FolderReader.h"
+#include "icl/IclFolder.h"
+#include "scannet/ScanNetFolder.h"
+#include "sevenscenes/SevenScenesFolder.h"
 #include "tum/TumFiles.h"
 
 namespace quadmap
@@ -16,7 +19,11 @@ namespace fs = std::filesystem;
 
 /** In the order in which they are tried. */
 constexpr FolderReader kReaders[] = {
-    {"tum", "associations.txt, or rgb.txt and depth.txt", isTumFolder, readTumFolder},
+    {    "icl",                                     "*.gt.freiburg",         isIclFolder,readIclFolder                                                                                         },
+    {    "tum",        "associations.txt, or rgb.txt and depth.txt",         isTumFolder,     readTumFolder},
+    {"7scenes", "frame-*.color.png (or .jpg) and frame-*.depth.png", isSevenScenesFolder,
+     readSevenScenesFolder                                                                                 },
+    {"scannet",                          "color/, depth/ and pose/",     isScanNetFolder, readScanNetFolder},
 };
 
 const FolderReader& readerOf(const std::string& kind)

@@ -27,20 +27,27 @@ FolderCamera cameraOfFolder(
     const std::string& usual,
     double depthFactor);
 
-/** Sets the poses of the frames to those of a trajectory, interpolated at their times, and says in
- * the notes for how many there is none.
+/** Sets the poses of the frames to those of a trajectory, interpolated at their times.
  * \exception std::runtime_error If the file's times go back; names it. */
 void takePoses(FolderContent& content, const std::string& file, double maxGap);
 
-/** Colour images and depth images with equal names, such as rgb/7.png and depth/7.png: pairs in
- * the order of the numbers in their names, at `rate` images a second. Only the files are set, and
- * the times. */
-std::vector<FolderFrame> framesByName(
-    const std::string& colorFolder, const std::string& depthFolder, double rate);
+/** Adds the frames of two folders inside the recording, which have images of equal names, such as
+ * rgb/7.png and depth/7.png. The number at the end of the name gives order and time.
+ * \param rate Images per second.
+ * \exception std::runtime_error If there is none. */
+void framesByName(
+    FolderContent& content,
+    const std::string& colorFolder,
+    const std::string& depthFolder,
+    double rate);
 
-/** The pose of a text file with the 4x4 matrix of the camera in the world; nothing when it is
- * missing, or says by numbers that are not finite or zero that it is not known.
+/** The pose of a text file with the 4x4 matrix of the camera in the world; nothing when it says by
+ * numbers that are not finite, or all zero, that it is not known.
  * \exception std::runtime_error If it is no rigid transformation. Names the file. */
 std::optional<mrpt::poses::CPose3D> readMatrixPose(const std::string& path);
+
+/** The matrix of a text file with 4 lines of 4 numbers, some of which may not be finite.
+ * \exception std::runtime_error If it is none. Names file and line. */
+Eigen::Matrix4d readMatrix(const std::string& path);
 
 }  // namespace quadmap

@@ -43,8 +43,7 @@ void requireSize(
 
 cv::Mat loadImage(const std::string& path, int flags)
 {
-  return readNamed(
-      path, [&] { return decodeImageFile(path, flags, RecordLimits().imagePixels); });
+  return readNamed(path, [&] { return decodeImageFile(path, flags, RecordLimits().imagePixels); });
 }
 
 cv::Mat registered(cv::Mat depth, const std::string& file, const FolderCamera& camera)
@@ -68,9 +67,14 @@ FrameImages loadImages(const FolderFrame& frame, const FolderContent& content)
   else
     images.color = loadImage(frame.color, cv::IMREAD_COLOR);
   requireSize(images.color.size(), frame.color, camera.color, camera.origin);
-  images.depth = content.images ? registered(images.depth, frame.depth, camera)
-                                : loadDepth(frame, camera);
+  images.depth =
+      content.images ? registered(images.depth, frame.depth, camera) : loadDepth(frame, camera);
   return images;
+}
+
+cv::Size sizeOfImage(const std::string& file)
+{
+  return loadImage(file, cv::IMREAD_UNCHANGED).size();
 }
 
 cv::Mat loadDepth(const FolderFrame& frame, const FolderCamera& camera)

@@ -25,9 +25,13 @@ class FrameImageReader
 };
 
 /** The images of a frame as the camera has them, with depth registered to the colour camera at the
- * size of rectifiedCameraOf() it. \exception std::runtime_error If they cannot be read, have another
- * size than the camera, or depth is no depth image. The message names the file. */
+ * size of rectifiedCameraOf() it. \exception std::runtime_error If they cannot be read, have
+ * another size than the camera, or depth is no depth image. The message names the file. */
 FrameImages loadImages(const FolderFrame& frame, const FolderContent& content);
+
+/** The size of an image file. \exception std::runtime_error If it cannot be read. Names the file.
+ */
+cv::Size sizeOfImage(const std::string& file);
 
 /** Only the depth image, from its file. \exception std::runtime_error As loadImages(). */
 cv::Mat loadDepth(const FolderFrame& frame, const FolderCamera& camera);

@@ -69,7 +69,8 @@ mrpt::img::TCamera rectifiedCameraOf(const FolderCamera& camera)
   c.dist.fill(0);
   if (!camera.depth) return c;
   const unsigned columns = camera.depth->camera.ncols, rows = camera.depth->camera.nrows;
-  const double sx = static_cast<double>(columns) / c.ncols, sy = static_cast<double>(rows) / c.nrows;
+  const double sx = static_cast<double>(columns) / c.ncols,
+               sy = static_cast<double>(rows) / c.nrows;
   c.setIntrinsicParamsFromValues(
       sx * c.fx(), sy * c.fy(), sx * (c.cx() + 0.5) - 0.5, sy * (c.cy() + 0.5) - 0.5);
   c.ncols = columns;

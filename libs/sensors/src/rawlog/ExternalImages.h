@@ -24,8 +24,7 @@ class ExternalImages
   void moveOut(mrpt::obs::CObservation3DRangeScan& scan, int jpegQuality);
 
   /** The same for a scan whose colour image is this JPEG file, as it is. */
-  void moveOut(
-      mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg);
+  void moveOut(mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg);
 
  private:
   /** \param writeColor Writes the colour image to a path. */

@@ -126,7 +126,8 @@ std::optional<std::vector<double>> matrixAt(
 {
   const std::string* text = file.find(key);
   if (!text) return std::nullopt;
-  const auto reject = [&] { file.reject("'" + key + "' must be a matrix of " + what + " numbers"); };
+  const auto reject = [&]
+  { file.reject("'" + key + "' must be a matrix of " + what + " numbers"); };
   const auto open = text->find('['), close = text->find(']');
   std::vector<std::string> words;
   if (open != std::string::npos && close != std::string::npos && open < close)

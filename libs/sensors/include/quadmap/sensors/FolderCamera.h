@@ -23,13 +23,13 @@ struct FolderCamera
 {
   /** Where this is from, for messages: "calibration.yaml", "camera fr1". */
   std::string origin;
-  mrpt::img::TCamera color;  //!< Calibration of the images as they are in the files
+  mrpt::img::TCamera color;   //!< Calibration of the images as they are in the files
   double depthFactor = 5000;  //!< Depth [m] = pixel value / depthFactor
   /** A pixel value that means no measurement, as 0 always does. */
   std::uint16_t noDepth = 0;
   /** Set when the depth images are not registered to the colour images. */
   std::optional<DepthCamera> depth;
-  bool posesAreOfDepth = false;  //!< The poses of the recording are those of `depth`
+  bool posesAreOfDepth = false;            //!< The poses of the recording are those of `depth`
   std::optional<Eigen::Vector3d> worldUp;  //!< Unit vector in the world of the recording's poses
 
   bool isDistorted() const { return color.distortion != mrpt::img::DistortionModel::none; }

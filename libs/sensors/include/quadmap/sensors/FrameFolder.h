@@ -82,8 +82,8 @@ class FrameFolder
   const std::vector<FolderFrame>& frames() const { return content_.frames; }
   const std::string& association() const { return content_.association; }
   std::size_t unpaired() const { return content_.unpaired; }
-  std::size_t posesCount() const;                                 //!< Number of frames with a pose
-  const std::string& poses() const { return content_.poses; }     //!< Where they are from
+  std::size_t posesCount() const;                              //!< Number of frames with a pose
+  const std::string& poses() const { return content_.poses; }  //!< Where they are from
   bool hasDetections() const { return boxes_ != nullptr; }
   std::string detections() const;  //!< Where boxes are from, and in which form; may be ""
   /** What a user should know, although it is no error. */
