@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "quadmap/sensors/FrameFolder.h"
+#include "quadmap/folders/FrameFolder.h"
 #include "quadmap/sensors/RawlogWriter.h"
 
 namespace quadmap

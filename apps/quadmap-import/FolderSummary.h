@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "quadmap/sensors/FolderCheck.h"
+#include "quadmap/folders/FolderCheck.h"
 
 namespace quadmap
 {

@@ -6,8 +6,8 @@
 #include "CameraImport.h"
 #include "FolderImport.h"
 #include "FolderSummary.h"
-#include "quadmap/sensors/FolderCheck.h"
-#include "quadmap/sensors/FolderKinds.h"
+#include "quadmap/folders/FolderCheck.h"
+#include "quadmap/folders/FolderKinds.h"
 
 namespace
 {

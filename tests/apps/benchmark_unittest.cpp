@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "../sensors/SampleRecording.h"
+#include "../folders/SampleRecording.h"
 #include "RunProgram.h"
 
 using namespace quadmap;

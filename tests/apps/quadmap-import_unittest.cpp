@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "../folders/SampleRecording.h"
 #include "../obs/TestData.h"
 #include "../sensors/SampleRawlog.h"
-#include "../sensors/SampleRecording.h"
 #include "RunProgram.h"
 
 using namespace quadmap;

@@ -8,7 +8,7 @@
 
 #include "../obs/TestData.h"
 #include "quadmap/detection/Detector.h"
-#include "quadmap/sensors/FolderKinds.h"
+#include "quadmap/folders/FolderKinds.h"
 
 // Time of a detector per 640x480 image, on one core, beside that of its network alone in OpenCV.
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/folders/FolderKinds.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/FramePerception.h"
 #include "quadmap/perception/RoomPerception.h"
-#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/simulator/Simulator.h"
 
 // Time and memory of FramePerception per frame, on one core: frames are in memory, the result is

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/folders/FolderKinds.h"
 #include "quadmap/odometry/VisualOdometry.h"
-#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/simulator/Simulator.h"
 
 // Time of visual odometry per 640x480 image, on one core: images are in memory, one after the

@@ -9,8 +9,8 @@
 #include "model/ModelFolder.h"
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/detection/KnownDetectors.h"
+#include "quadmap/folders/ClassNames.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/sensors/ClassNames.h"
 
 using namespace quadmap;
 

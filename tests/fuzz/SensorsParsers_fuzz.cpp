@@ -11,8 +11,8 @@
 #include "../sensors/SampleRawlog.h"
 #include "Fuzz.h"
 #include "quadmap/base/ShareFiles.h"
+#include "quadmap/folders/FolderKinds.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/sensors/FolderKinds.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/simulator/Scene.h"
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "../obs/TestData.h"
+#include "quadmap/folders/FolderKinds.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/perception/RoomPerception.h"
-#include "quadmap/sensors/FolderKinds.h"
 
 using namespace quadmap;
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "../sensors/SampleRecording.h"
+#include "../folders/SampleRecording.h"
 #include "../slam/SyntheticRoom.h"
 #include "Damages.h"
 

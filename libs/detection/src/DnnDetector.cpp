@@ -14,8 +14,8 @@
 #include "model/ModelFolder.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/StderrCapture.h"
+#include "quadmap/folders/ClassNames.h"
 #include "quadmap/obs/CObservationObjects.h"
-#include "quadmap/sensors/ClassNames.h"
 
 namespace quadmap
 {

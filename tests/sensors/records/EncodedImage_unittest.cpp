@@ -1,4 +1,4 @@
-#include "records/EncodedImage.h"
+#include "quadmap/sensors/EncodedImage.h"
 
 #include <gtest/gtest.h>
 

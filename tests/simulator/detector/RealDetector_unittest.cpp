@@ -6,7 +6,7 @@
 
 #include "../../obs/TestData.h"
 #include "../SceneFixture.h"
-#include "quadmap/sensors/FolderKinds.h"
+#include "quadmap/folders/FolderKinds.h"
 #include "quadmap/simulator/SimulatedDetector.h"
 
 // Compares the default errors of the detector with those of a real one, both measured in the same

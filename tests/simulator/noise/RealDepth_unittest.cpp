@@ -9,7 +9,7 @@
 #include "../../obs/TestData.h"
 #include "../SceneFixture.h"
 #include "noise/DepthNoise.h"
-#include "quadmap/sensors/FolderKinds.h"
+#include "quadmap/folders/FolderKinds.h"
 
 // Compares the default errors of depth with those of real cameras, both measured in the same way,
 // and with the figures of doc/guide/write-a-scene.md.

@@ -7,11 +7,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "DepthUnit.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/sensors/BoxCheck.h"
-#include "records/EncodedImage.h"
+#include "quadmap/sensors/DepthUnit.h"
+#include "quadmap/sensors/EncodedImage.h"
 
 namespace quadmap
 {

@@ -1,4 +1,4 @@
-#include "records/EncodedImage.h"
+#include "quadmap/sensors/EncodedImage.h"
 
 #include <mrpt/core/format.h>
 
@@ -23,7 +23,7 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28;
 /** Most passes of a progressive JPEG. Encoders use about ten; thousands take minutes to decode. */
 constexpr int kMostScans = 100;
 
-struct ImageSize
+struct StatedSize
 {
   std::uint64_t width = 0, height = 0;
   unsigned bits = 0, channels = 0;  // of the last segment of a JPEG that states them
@@ -44,10 +44,10 @@ bool isStartOfFrame(unsigned marker)
 /** Walks the segments of a JPEG: the mark 0xFF, the kind, two bytes of length, the content. Behind
  * the head of a scan its data follow, which are passed by to the next mark.
  * \return The largest size that any segment states. */
-ImageSize sizeOfJpeg(const std::uint8_t* bytes, std::size_t size)
+StatedSize sizeOfJpeg(const std::uint8_t* bytes, std::size_t size)
 {
   constexpr unsigned kScan = 0xDA, kFirstPlain = 0xD0, kLastPlain = 0xD9, kFrameHead = 9;
-  ImageSize largest;
+  StatedSize largest;
   int scans = 0;
   for (std::size_t at = 2; at + 4 <= size;)
   {
@@ -77,7 +77,7 @@ bool isJpeg(const std::uint8_t* bytes, std::size_t size)
 }
 
 /** Zero when the image has another format or does not tell. */
-ImageSize statedSize(const std::uint8_t* bytes, std::size_t size)
+StatedSize statedSize(const std::uint8_t* bytes, std::size_t size)
 {
   constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G'};
   constexpr std::size_t kPngWidth = 16, kPngHeight = 20, kPngHead = 24;
@@ -112,7 +112,7 @@ std::pair<cv::Mat, std::string> decodedWithReason(
 cv::Mat decodeImage(
     const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels)
 {
-  const ImageSize stated = statedSize(bytes, size);
+  const StatedSize stated = statedSize(bytes, size);
   if (stated.width == 0 || stated.height == 0)
     throw std::runtime_error("cannot be read as an image: is neither a JPEG nor a PNG file");
   if (stated.height > mostPixels / stated.width)
@@ -148,16 +148,16 @@ cv::Mat decodeImageFile(const std::string& path, int flags, std::uint64_t mostPi
   return decodeImage(bytes.data(), bytes.size(), flags, mostPixels);
 }
 
-std::optional<cv::Size> sizeOfColorJpeg(
+std::optional<ImageSize> sizeOfColorJpeg(
     const std::vector<std::uint8_t>& bytes, std::uint64_t mostPixels)
 {
   constexpr unsigned kBits = 8, kChannels = 3;
   if (!isJpeg(bytes.data(), bytes.size())) return std::nullopt;
-  const ImageSize stated = sizeOfJpeg(bytes.data(), bytes.size());
+  const StatedSize stated = sizeOfJpeg(bytes.data(), bytes.size());
   if (stated.bits != kBits || stated.channels != kChannels) return std::nullopt;
   // The eighth of each side is had without most of the work, but not without all of the bytes.
   decodeImage(bytes.data(), bytes.size(), cv::IMREAD_REDUCED_GRAYSCALE_8, mostPixels);
-  return cv::Size(static_cast<int>(stated.width), static_cast<int>(stated.height));
+  return ImageSize{static_cast<unsigned>(stated.width), static_cast<unsigned>(stated.height)};
 }
 
 }  // namespace quadmap

@@ -2,7 +2,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "records/EncodedImage.h"
+#include "quadmap/sensors/EncodedImage.h"
 #include "records/RecordLayouts.h"
 
 namespace quadmap

@@ -1,0 +1,178 @@
+#include "boxes/BoxLines.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include "quadmap/base/ShareFiles.h"
+#include "quadmap/folders/ClassNames.h"
+#include "quadmap/obs/CObservationObjects.h"
+#include "text/TextLines.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::size_t kYoloColumns = 5;  // without a score
+/** Files with the names of classes, in the order in which they are looked for. */
+const std::vector<std::string> kNameFiles = {"classes.txt", "obj.names", "names.txt", "coco.names"};
+
+/** Text files beside each other, one per image. */
+class BoxLines : public BoxReader
+{
+ public:
+  explicit BoxLines(std::string folder) : folder_(std::move(folder)) {}
+
+  std::optional<std::vector<DetectedObject>> boxes(
+      const FolderFrame& frame, const mrpt::img::TCamera& camera) const override
+  {
+    const std::string file = fileOf(frame);
+    if (!fs::exists(file)) return std::nullopt;
+    std::vector<DetectedObject> objects;
+    for (const auto& line : readTextLines(file)) objects.push_back(boxIn(line, camera));
+    requireFewBoxes(objects.size(), file);
+    return objects;
+  }
+
+  std::string fileOf(const FolderFrame& frame) const override
+  {
+    std::string file;
+    for (const auto& name : namesOf(frame))
+    {
+      file = (fs::path(folder_) / (name + ".txt")).string();
+      if (fs::exists(file)) break;
+    }
+    return file;
+  }
+
+ protected:
+  virtual DetectedObject boxIn(const TextLine& line, const mrpt::img::TCamera& camera) const = 0;
+
+  std::string folder_;
+};
+
+class NamedBoxes : public BoxLines
+{
+ public:
+  using BoxLines::BoxLines;
+  std::string description() const override { return folder_ + " (a line per box)"; }
+
+ private:
+  DetectedObject boxIn(const TextLine& line, const mrpt::img::TCamera&) const override
+  {
+    constexpr std::size_t kColumns = 7, kBehindName = 5;
+    if (line.words.size() < kColumns) requireColumns(line, kColumns);
+    numberIn(line, 0);
+    const std::size_t end = line.words.size() - kBehindName;
+    DetectedObject object;
+    object.label = line.words[1];
+    for (std::size_t i = 2; i < end; ++i) object.label += " " + line.words[i];
+    object.score = numberIn(line, end);
+    object.box = {
+        numberIn(line, end + 1), numberIn(line, end + 2), numberIn(line, end + 3),
+        numberIn(line, end + 4)};
+    return object;
+  }
+};
+
+class YoloBoxes : public BoxLines
+{
+ public:
+  YoloBoxes(const std::string& folder, std::string namesFile) :
+      BoxLines(folder), namesFile_(std::move(namesFile)), names_(readClassNames(namesFile_))
+  {
+  }
+  std::string description() const override
+  {
+    return folder_ + " (YOLO's save_txt, names of " + namesFile_ + ")";
+  }
+
+ private:
+  DetectedObject boxIn(const TextLine& line, const mrpt::img::TCamera& camera) const override
+  {
+    if (line.words.size() != kYoloColumns + 1) requireColumns(line, kYoloColumns);
+    const double id = numberIn(line, 0);
+    if (!(id >= 0 && id < static_cast<double>(names_.size()) && id == std::floor(id)))
+      throw std::runtime_error(mrpt::format(
+          "%s: class %s is none of the %zu of %s", line.place.c_str(), line.words[0].c_str(),
+          names_.size(), namesFile_.c_str()));
+    DetectedObject object;
+    object.label = names_[static_cast<std::size_t>(id)];
+    object.score = line.words.size() > kYoloColumns ? numberIn(line, kYoloColumns) : 1.0;
+    const double x = numberIn(line, 1) * camera.ncols, y = numberIn(line, 2) * camera.nrows,
+                 halfWidth = 0.5 * numberIn(line, 3) * camera.ncols,
+                 halfHeight = 0.5 * numberIn(line, 4) * camera.nrows;
+    object.box = {x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight};
+    return object;
+  }
+
+  std::string namesFile_;
+  std::vector<std::string> names_;
+};
+
+std::string findNames(const std::string& folder, const std::string& labels)
+{
+  if (!labels.empty()) return labels;
+  for (const fs::path& place : {fs::path(folder), fs::path(folder) / ".."})
+    for (const auto& name : kNameFiles)
+      if (fs::is_regular_file(place / name)) return (place / name).lexically_normal().string();
+  return findShareFile("detectors/coco.names");
+}
+
+bool isNumber(const TextLine& line, std::size_t column)
+{
+  try
+  {
+    numberIn(line, column);
+    return true;
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+}  // namespace
+
+void requireFewBoxes(std::size_t boxes, const std::string& place)
+{
+  if (boxes > CObservationObjects::kMostObjects)
+    throw std::runtime_error(mrpt::format(
+        "%s: %zu boxes in one image, at most %u can be used", place.c_str(), boxes,
+        CObservationObjects::kMostObjects));
+}
+
+bool hasYoloBoxes(const std::string& folder)
+{
+  std::set<std::string> files;  // in order, so that every run looks at the same one first
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".txt" &&
+        std::find(kNameFiles.begin(), kNameFiles.end(), entry.path().filename()) ==
+            kNameFiles.end())
+      files.insert(entry.path().string());
+  for (const auto& file : files)
+  {
+    const auto lines = readTextLines(file);
+    if (lines.empty()) continue;
+    const auto columns = lines[0].words.size();
+    return (columns == kYoloColumns || columns == kYoloColumns + 1) && isNumber(lines[0], 1);
+  }
+  return false;
+}
+
+std::unique_ptr<const BoxReader> openNamedBoxes(const std::string& folder)
+{
+  return std::make_unique<NamedBoxes>(folder);
+}
+
+std::unique_ptr<const BoxReader> openYoloBoxes(const std::string& folder, const std::string& labels)
+{
+  return std::make_unique<YoloBoxes>(folder, findNames(folder, labels));
+}
+
+}  // namespace quadmap

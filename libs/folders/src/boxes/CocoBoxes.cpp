@@ -1,0 +1,189 @@
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "boxes/BoxLines.h"
+#include "quadmap/base/Json.h"
+#include "quadmap/base/ShareFiles.h"
+#include "quadmap/folders/ClassNames.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** The value of a key. \exception std::runtime_error If it is missing or of another type. */
+template <typename T>
+T valueOf(const Json& object, const char* key, const std::string& place)
+{
+  try
+  {
+    return object.at(key).get<T>();
+  }
+  catch (const nlohmann::json::exception&)
+  {
+    throw std::runtime_error(place + ": '" + key + "' is missing or of another type");
+  }
+}
+
+/** An image's name without its extension; of a number, its digits. */
+std::string nameOf(const Json& imageId, const std::string& place)
+{
+  if (imageId.is_string()) return fs::path(imageId.get<std::string>()).stem().string();
+  if (imageId.is_number_integer()) return std::to_string(imageId.get<long long>());
+  throw std::runtime_error(place + ": 'image_id' must be a name or a whole number");
+}
+
+/** The digits at the end of a name without leading zeros; empty when there are none. */
+std::string numberAtEnd(const std::string& name)
+{
+  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const auto begin = std::find_if_not(name.rbegin(), name.rend(), isDigit).base();
+  const std::string digits(begin, name.end());
+  if (digits.empty()) return digits;
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
+}
+
+/** The names of results by their `category_id`. */
+class ResultNames
+{
+ public:
+  explicit ResultNames(const std::string& labels) :
+      isCoco_(labels.empty()),
+      file_(isCoco_ ? findShareFile("detectors/coco.names") : labels),
+      names_(readClassNames(file_))
+  {
+  }
+
+  /** \exception std::runtime_error If no class has this number. */
+  const std::string& of(long long id, const std::string& place) const
+  {
+    const long long index = isCoco_ ? indexOfCoco(id) : id;
+    if (index < 0 || index >= static_cast<long long>(names_.size()))
+      throw std::runtime_error(mrpt::format(
+          "%s: class %lld is none of the %zu of %s", place.c_str(), id, names_.size(),
+          file_.c_str()));
+    return names_[static_cast<std::size_t>(index)];
+  }
+
+ private:
+  /** COCO counts its classes from 1 and has left out those that its images do not show. */
+  static long long indexOfCoco(long long id)
+  {
+    constexpr int kLeftOut[] = {12, 26, 29, 30, 45, 66, 68, 69, 71, 83};
+    if (std::find(std::begin(kLeftOut), std::end(kLeftOut), id) != std::end(kLeftOut)) return -1;
+    return id - 1 -
+           std::count_if(std::begin(kLeftOut), std::end(kLeftOut), [id](int k) { return k < id; });
+  }
+
+  bool isCoco_;
+  std::string file_;
+  std::vector<std::string> names_;
+};
+
+class CocoBoxes : public BoxReader
+{
+ public:
+  CocoBoxes(std::string file, const std::string& labels) : file_(std::move(file))
+  {
+    const Json json = readJson(file_);
+    if (json.is_array())
+      readResults(json, labels);
+    else if (json.is_object())
+      readDataset(json);
+    else
+      throw std::runtime_error(file_ + ": is neither a list of results nor a data set of COCO");
+  }
+
+  std::optional<std::vector<DetectedObject>> boxes(
+      const FolderFrame& frame, const mrpt::img::TCamera&) const override
+  {
+    for (const auto& name : namesOf(frame))
+    {
+      auto found = boxesOf_.find(name);
+      if (found == boxesOf_.end() && isResults_) found = boxesOf_.find(numberAtEnd(name));
+      if (found != boxesOf_.end()) return found->second;
+    }
+    // Results do not say at which images the detector looked in vain.
+    if (isResults_) return std::vector<DetectedObject>();
+    return std::nullopt;
+  }
+
+  std::string fileOf(const FolderFrame&) const override { return file_; }
+  std::string description() const override { return file_ + " (COCO's JSON)"; }
+
+ private:
+  void readResults(const Json& results, const std::string& labels)
+  {
+    isResults_ = true;
+    const ResultNames names(labels);
+    for (std::size_t i = 0; i < results.size(); ++i)
+    {
+      const std::string place = mrpt::format("%s: result %zu", file_.c_str(), i);
+      const auto& label = names.of(valueOf<long long>(results[i], "category_id", place), place);
+      add(nameOf(valueOf<Json>(results[i], "image_id", place), place), results[i], label, place);
+    }
+  }
+
+  void readDataset(const Json& json)
+  {
+    std::map<long long, std::string> images, names;
+    for (const auto& image : valueOf<Json>(json, "images", file_))
+    {
+      const std::string place = file_ + ": an image";
+      const auto name = fs::path(valueOf<std::string>(image, "file_name", place)).stem().string();
+      images[valueOf<long long>(image, "id", place)] = name;
+      boxesOf_[name];
+    }
+    for (const auto& category : valueOf<Json>(json, "categories", file_))
+      names[valueOf<long long>(category, "id", file_ + ": a category")] =
+          valueOf<std::string>(category, "name", file_ + ": a category");
+    std::size_t number = 0;
+    for (const auto& annotation : valueOf<Json>(json, "annotations", file_))
+    {
+      const std::string place = mrpt::format("%s: annotation %zu", file_.c_str(), number++);
+      const auto image = images.find(valueOf<long long>(annotation, "image_id", place));
+      const auto label = names.find(valueOf<long long>(annotation, "category_id", place));
+      if (image == images.end() || label == names.end())
+        throw std::runtime_error(place + ": is of an image or a category that is not there");
+      add(image->second, annotation, label->second, place);
+    }
+  }
+
+  /** Adds a box, which COCO states by its upper left corner and its size. */
+  void add(
+      const std::string& image,
+      const Json& json,
+      const std::string& label,
+      const std::string& place)
+  {
+    const auto box = valueOf<std::vector<double>>(json, "bbox", place);
+    if (box.size() != 4) throw std::runtime_error(place + ": 'bbox' must have 4 numbers");
+    DetectedObject object;
+    object.label = label;
+    if (json.contains("score")) object.score = valueOf<double>(json, "score", place);
+    object.box = {box[0], box[1], box[0] + box[2], box[1] + box[3]};
+    auto& objects = boxesOf_[image];
+    objects.push_back(std::move(object));
+    requireFewBoxes(objects.size(), file_ + ": " + image);
+  }
+
+  std::string file_;
+  bool isResults_ = false;
+  std::map<std::string, std::vector<DetectedObject>> boxesOf_;  // by the names of images
+};
+}  // namespace
+
+std::unique_ptr<const BoxReader> openCocoBoxes(const std::string& file, const std::string& labels)
+{
+  return std::make_unique<CocoBoxes>(file, labels);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,81 @@
+#include "quadmap/folders/FolderKinds.h"
+
+#include <mrpt/core/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "frames/FolderReader.h"
+#include "icl/IclFolder.h"
+#include "scannet/ScanNetFolder.h"
+#include "sevenscenes/SevenScenesFolder.h"
+#include "tum/TumFiles.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** In the order in which they are tried. */
+constexpr FolderReader kReaders[] = {
+    {    "icl",                                     "*.gt.freiburg",         isIclFolder,readIclFolder                                                                                         },
+    {    "tum",        "associations.txt, or rgb.txt and depth.txt",         isTumFolder,     readTumFolder},
+    {"7scenes", "frame-*.color.png (or .jpg) and frame-*.depth.png", isSevenScenesFolder,
+     readSevenScenesFolder                                                                                 },
+    {"scannet",                          "color/, depth/ and pose/",     isScanNetFolder, readScanNetFolder},
+};
+
+const FolderReader& readerOf(const std::string& kind)
+{
+  for (const auto& reader : kReaders)
+    if (kind == reader.kind) return reader;
+  throw std::invalid_argument(kind + ": no such kind of folder");
+}
+
+void requireFolder(const std::string& folder)
+{
+  if (!fs::is_directory(folder)) throw std::runtime_error(folder + ": no such folder");
+}
+
+void check(const FrameFolderOptions& o)
+{
+  if (!(o.maxAssociationDelay > 0))
+    throw std::invalid_argument(
+        mrpt::format("maxAssociationDelay=%g: must be > 0 s", o.maxAssociationDelay));
+  if (!(o.maxPoseGap > 0))
+    throw std::invalid_argument(mrpt::format("maxPoseGap=%g: must be > 0 s", o.maxPoseGap));
+}
+}  // namespace
+
+std::vector<std::string> folderKinds()
+{
+  std::vector<std::string> kinds;
+  for (const auto& reader : kReaders) kinds.emplace_back(reader.kind);
+  return kinds;
+}
+
+std::string kindOfFolder(const std::string& folder)
+{
+  requireFolder(folder);
+  std::string layouts;
+  for (const auto& reader : kReaders)
+  {
+    if (reader.matches(folder)) return reader.kind;
+    layouts += std::string(layouts.empty() ? "" : "; ") + reader.kind + " has " + reader.layout;
+  }
+  throw std::runtime_error(folder + ": is of no known kind (" + layouts + ")");
+}
+
+FrameFolder openFrameFolder(
+    const std::string& kind, const std::string& folder, const FrameFolderOptions& options)
+{
+  check(options);
+  const FolderReader& reader = readerOf(kind);
+  requireFolder(folder);
+  FolderContent content = reader.read(folder, options);
+  content.kind = kind;
+  return FrameFolder(std::move(content), options);
+}
+
+}  // namespace quadmap

@@ -1,0 +1,138 @@
+#include "frames/FolderReader.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+#include "frames/RigidMatrix.h"
+#include "quadmap/obs/Trajectory.h"
+#include "text/TextLines.h"
+#include "tum/TumFiles.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+FolderCamera givenCamera(const std::string& what)
+{
+  return fs::path(what).extension() == ".yaml" ? readTumCalibration(what) : cameraPreset(what);
+}
+
+FolderCamera findCamera(
+    const std::string& folder, const FrameFolderOptions& options, const std::string& usual)
+{
+  if (!options.camera.empty()) return givenCamera(options.camera);
+  const std::string file = (fs::path(folder) / "calibration.yaml").string();
+  if (fs::exists(file)) return readTumCalibration(file);
+  if (!usual.empty()) return cameraPreset(usual);
+  if (const auto name = presetOfFolder(folder)) return cameraPreset(*name);
+  std::string known;
+  for (const auto& name : cameraPresetNames()) known += (known.empty() ? "" : ", ") + name;
+  throw std::runtime_error(
+      file + ": no such file, and the folder's name tells no camera; --camera gives one: " + known +
+      ", or a file");
+}
+
+/** The JPEG and PNG files of a folder by the number at the end of their names. */
+std::map<unsigned long, std::string> imagesIn(const fs::path& folder)
+{
+  std::map<unsigned long, std::string> images;
+  if (!fs::is_directory(folder)) return images;
+  for (const auto& entry : fs::directory_iterator(folder))
+  {
+    const std::string name = entry.path().stem().string(),
+                      extension = entry.path().extension().string();
+    if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") continue;
+    const auto digits = name.find_last_not_of("0123456789") + 1;  // npos + 1 is 0
+    unsigned long number = 0;
+    const auto result = std::from_chars(name.data() + digits, name.data() + name.size(), number);
+    if (result.ec == std::errc()) images[number] = entry.path().string();
+  }
+  return images;
+}
+
+void requireInOrder(const Trajectory& trajectory, const std::string& file)
+{
+  for (std::size_t i = 1; i < trajectory.size(); ++i)
+    if (trajectory[i].time < trajectory[i - 1].time)
+      throw std::runtime_error(mrpt::format(
+          "%s: pose %zu: time goes back from %.6f to %.6f s", file.c_str(), i,
+          trajectory[i - 1].time, trajectory[i].time));
+}
+}  // namespace
+
+FolderCamera cameraOfFolder(
+    const std::string& folder,
+    const FrameFolderOptions& options,
+    const std::string& usual,
+    double depthFactor)
+{
+  FolderCamera camera = findCamera(folder, options, usual);
+  if (camera.depthFactor == 0) camera.depthFactor = depthFactor;
+  return camera;
+}
+
+void takePoses(FolderContent& content, const std::string& file, double maxGap)
+{
+  const Trajectory trajectory = readTumTrajectory(file);
+  requireInOrder(trajectory, file);
+  content.poses = fs::path(file).filename().string();
+  for (auto& frame : content.frames) frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
+}
+
+void framesByName(
+    FolderContent& content,
+    const std::string& colorFolder,
+    const std::string& depthFolder,
+    double rate)
+{
+  const auto colors = imagesIn(fs::path(content.folder) / colorFolder),
+             depths = imagesIn(fs::path(content.folder) / depthFolder);
+  for (const auto& [number, color] : colors)
+    if (const auto depth = depths.find(number); depth != depths.end())
+      content.frames.push_back(
+          {static_cast<double>(number) / rate,
+           color,
+           depth->second,
+           colorFolder + "/" + fs::path(color).filename().string(),
+           {}});
+  if (content.frames.empty())
+    throw std::runtime_error(
+        content.folder + ": has no images of equal numbers in " + colorFolder + "/ and " +
+        depthFolder + "/");
+  content.unpaired = colors.size() + depths.size() - 2 * content.frames.size();
+  content.association = "of equal numbers";
+}
+
+Eigen::Matrix4d readMatrix(const std::string& path)
+{
+  const auto lines = readTextLines(path);
+  if (lines.size() != 4)
+    throw std::runtime_error(
+        mrpt::format("%s: expected 4 lines, got %zu", path.c_str(), lines.size()));
+  Eigen::Matrix4d matrix;
+  for (int row = 0; row < 4; ++row)
+  {
+    const auto& line = lines[static_cast<std::size_t>(row)];
+    requireColumns(line, 4);
+    for (int column = 0; column < 4; ++column)
+      matrix(row, column) = numberIn(line, static_cast<std::size_t>(column));
+  }
+  return matrix;
+}
+
+std::optional<mrpt::poses::CPose3D> readMatrixPose(const std::string& path)
+{
+  const Eigen::Matrix4d matrix = readMatrix(path);
+  if (!matrix.allFinite() || matrix.isZero(0)) return std::nullopt;
+  if (!isRigid(matrix)) throw std::runtime_error(path + ": is no rigid transformation");
+  return poseOf(matrix);
+}
+
+}  // namespace quadmap

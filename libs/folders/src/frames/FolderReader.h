@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+
+#include "quadmap/folders/FrameFolder.h"
+
+namespace quadmap
+{
+/** How one kind of folder is recognised and read. */
+struct FolderReader
+{
+  const char* kind;
+  const char* layout;  //!< What such a folder has, for messages
+  bool (*matches)(const std::string& folder);
+  /** \exception std::runtime_error Names file and line. */
+  FolderContent (*read)(const std::string& folder, const FrameFolderOptions& options);
+};
+
+/** The camera of a folder: the one of the options, that of calibration.yaml in the folder, or the
+ * one that the folder's name stands for.
+ * \param usual The name of the camera of all recordings of this kind; may be empty.
+ * \param depthFactor That of all recordings of this kind, for cameras that do not tell.
+ * \exception std::runtime_error If there is none, or it cannot be read. */
+FolderCamera cameraOfFolder(
+    const std::string& folder,
+    const FrameFolderOptions& options,
+    const std::string& usual,
+    double depthFactor);
+
+/** Sets the poses of the frames to those of a trajectory, interpolated at their times.
+ * \exception std::runtime_error If the file's times go back; names it. */
+void takePoses(FolderContent& content, const std::string& file, double maxGap);
+
+/** Adds the frames of two folders inside the recording, which have images of equal names, such as
+ * rgb/7.png and depth/7.png. The number at the end of the name gives order and time.
+ * \param rate Images per second.
+ * \exception std::runtime_error If there is none. */
+void framesByName(
+    FolderContent& content,
+    const std::string& colorFolder,
+    const std::string& depthFolder,
+    double rate);
+
+/** The pose of a text file with the 4x4 matrix of the camera in the world; nothing when it says by
+ * numbers that are not finite, or all zero, that it is not known.
+ * \exception std::runtime_error If it is no rigid transformation. Names the file. */
+std::optional<mrpt::poses::CPose3D> readMatrixPose(const std::string& path);
+
+/** The matrix of a text file with 4 lines of 4 numbers, some of which may not be finite.
+ * \exception std::runtime_error If it is none. Names file and line. */
+Eigen::Matrix4d readMatrix(const std::string& path);
+
+}  // namespace quadmap

@@ -1,0 +1,124 @@
+#include "frames/FrameRectification.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace quadmap
+{
+namespace
+{
+/** A point of the plane at depth 1 as the lens bends it: doc/mathematics.md, (22.2). */
+Eigen::Vector2d distorted(const Eigen::Vector2d& p, const mrpt::img::TCamera& camera)
+{
+  const double k1 = camera.dist[0], k2 = camera.dist[1], p1 = camera.dist[2], p2 = camera.dist[3],
+               k3 = camera.dist[4];
+  const double x = p.x(), y = p.y(), r2 = p.squaredNorm();
+  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return {
+      x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+      y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+}
+
+/** The point that distorted() takes to `bent`. Each step takes away the bend of the point so far;
+ * lenses bend by some percent, so that the error falls as quickly. */
+Eigen::Vector2d undistorted(const Eigen::Vector2d& bent, const mrpt::img::TCamera& camera)
+{
+  constexpr int kSteps = 30;
+  Eigen::Vector2d p = bent;
+  for (int i = 0; i < kSteps; ++i) p += bent - distorted(p, camera);
+  return p;
+}
+
+Eigen::Vector2d rayOf(const Eigen::Vector2d& pixel, const mrpt::img::TCamera& camera)
+{
+  return {
+      (pixel.x() - camera.cx()) / camera.fx(),  // at depth 1
+      (pixel.y() - camera.cy()) / camera.fy()};
+}
+
+Eigen::Vector2d pixelOf(const Eigen::Vector2d& ray, const mrpt::img::TCamera& camera)
+{
+  return {camera.fx() * ray.x() + camera.cx(), camera.fy() * ray.y() + camera.cy()};
+}
+
+/** The bounds of what rectification makes of a box's outline. The lens bends its sides, whose
+ * farthest point may be between the corners. */
+ImageBox boundsOfOutline(
+    const ImageBox& box, const mrpt::img::TCamera& from, const mrpt::img::TCamera& to)
+{
+  constexpr int kSteps = 8;  // along each side
+  Eigen::AlignedBox2d bounds;
+  for (int i = 0; i <= kSteps; ++i)
+  {
+    const double s = static_cast<double>(i) / kSteps;
+    const double x = box.x1 + s * box.width(), y = box.y1 + s * box.height();
+    for (const Eigen::Vector2d& p :
+         {Eigen::Vector2d(x, box.y1), Eigen::Vector2d(x, box.y2), Eigen::Vector2d(box.x1, y),
+          Eigen::Vector2d(box.x2, y)})
+      bounds.extend(pixelOf(undistorted(rayOf(p, from), from), to));
+  }
+  return {bounds.min().x(), bounds.min().y(), bounds.max().x(), bounds.max().y()};
+}
+}  // namespace
+
+mrpt::img::TCamera rectifiedCameraOf(const FolderCamera& camera)
+{
+  mrpt::img::TCamera c = camera.color;
+  c.distortion = mrpt::img::DistortionModel::none;
+  c.dist.fill(0);
+  if (!camera.depth) return c;
+  const unsigned columns = camera.depth->camera.ncols, rows = camera.depth->camera.nrows;
+  const double sx = static_cast<double>(columns) / c.ncols,
+               sy = static_cast<double>(rows) / c.nrows;
+  c.setIntrinsicParamsFromValues(
+      sx * c.fx(), sy * c.fy(), sx * (c.cx() + 0.5) - 0.5, sy * (c.cy() + 0.5) - 0.5);
+  c.ncols = columns;
+  c.nrows = rows;
+  return c;
+}
+
+FrameRectification::FrameRectification(const FolderCamera& camera) :
+    from_(camera.color), to_(rectifiedCameraOf(camera))
+{
+  const int rows = static_cast<int>(to_.nrows), columns = static_cast<int>(to_.ncols);
+  mapX_.create(rows, columns, CV_32FC1);
+  mapY_.create(rows, columns, CV_32FC1);
+  for (int v = 0; v < rows; ++v)
+    for (int u = 0; u < columns; ++u)
+    {
+      const Eigen::Vector2d p = pixelOf(distorted(rayOf({u, v}, to_), from_), from_);
+      mapX_.at<float>(v, u) = static_cast<float>(p.x());
+      mapY_.at<float>(v, u) = static_cast<float>(p.y());
+    }
+}
+
+cv::Mat FrameRectification::color(const cv::Mat& image) const
+{
+  cv::Mat rectified;
+  cv::remap(image, rectified, mapX_, mapY_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  return rectified;
+}
+
+cv::Mat FrameRectification::depth(const cv::Mat& image) const
+{
+  // Between two depths there need be nothing, so none are interpolated.
+  cv::Mat rectified;
+  cv::remap(image, rectified, mapX_, mapY_, cv::INTER_NEAREST, cv::BORDER_CONSTANT);
+  return rectified;
+}
+
+ImageBox FrameRectification::box(const ImageBox& box) const
+{
+  constexpr double kAtBorder = 2;  // detectors round [px]
+  if (!box.isValid()) return box;  // left to those who say why
+  const double right = to_.ncols - 1.0, bottom = to_.nrows - 1.0;
+  ImageBox b = boundsOfOutline(box, from_, to_);
+  if (box.x1 <= kAtBorder) b.x1 = std::min(b.x1, 0.0);
+  if (box.y1 <= kAtBorder) b.y1 = std::min(b.y1, 0.0);
+  if (box.x2 >= from_.ncols - 1.0 - kAtBorder) b.x2 = std::max(b.x2, right);
+  if (box.y2 >= from_.nrows - 1.0 - kAtBorder) b.y2 = std::max(b.y2, bottom);
+  return b;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,102 @@
+#include "sevenscenes/SevenScenesFolder.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "frames/FolderReader.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr double kDepthFactor = 1000;
+constexpr std::uint16_t kNoDepth = 65535;
+constexpr double kImagesPerSecond = 30;
+const std::string kPrefix = "frame-";
+
+/** The number of an image of a folder by the end of its name, such as 16 of
+ * "frame-000016.depth.png" and ".depth.png"; nothing for other files. */
+std::optional<int> numberOf(const fs::path& file, const std::string& end)
+{
+  const std::string name = file.filename().string();
+  if (name.size() <= kPrefix.size() + end.size() || name.rfind(kPrefix, 0) != 0 ||
+      name.compare(name.size() - end.size(), end.size(), end) != 0)
+    return std::nullopt;
+  int number = 0;
+  const char* const last = name.data() + name.size() - end.size();
+  const auto [stop, error] = std::from_chars(name.data() + kPrefix.size(), last, number);
+  if (error != std::errc() || stop != last || number < 0) return std::nullopt;
+  return number;
+}
+
+/** The files of a folder whose names end like this, by their numbers. */
+std::map<int, std::string> filesOf(const std::string& folder, const std::string& end)
+{
+  std::map<int, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const auto number = numberOf(entry.path(), end)) files[*number] = entry.path().string();
+  return files;
+}
+
+std::map<int, std::string> colorFilesOf(const std::string& folder)
+{
+  auto files = filesOf(folder, ".color.png");
+  files.merge(filesOf(folder, ".color.jpg"));
+  return files;
+}
+
+void readPoses(FolderContent& content, const std::map<int, std::string>& files)
+{
+  content.poses = "frame-*.pose.txt";
+  for (auto& frame : content.frames)
+  {
+    const auto file = files.find(static_cast<int>(std::lround(frame.time * kImagesPerSecond)));
+    if (file == files.end()) continue;
+    frame.T_world_optical = readMatrixPose(file->second);
+    if (frame.T_world_optical && content.camera.posesAreOfDepth)
+      frame.T_world_optical = *frame.T_world_optical + (-content.camera.depth->T_color_depth);
+  }
+}
+}  // namespace
+
+bool isSevenScenesFolder(const std::string& folder)
+{
+  return !colorFilesOf(folder).empty() && !filesOf(folder, ".depth.png").empty();
+}
+
+FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolderOptions& options)
+{
+  FolderContent content;
+  content.folder = folder;
+  content.camera = cameraOfFolder(folder, options, "7scenes", kDepthFactor);
+  content.camera.depthFactor = kDepthFactor;
+  content.camera.noDepth = kNoDepth;
+  content.camera.posesAreOfDepth = content.camera.depth.has_value();
+  const auto colors = colorFilesOf(folder), depths = filesOf(folder, ".depth.png");
+  for (const auto& [number, color] : colors)
+    if (const auto depth = depths.find(number); depth != depths.end())
+      content.frames.push_back(
+          {number / kImagesPerSecond,
+           color,
+           depth->second,
+           fs::path(color).filename().string(),
+           {}});
+  if (content.frames.empty())
+    throw std::runtime_error(
+        folder + ": has no pair of frame-*.color.png (or .jpg) and frame-*.depth.png");
+  content.unpaired = colors.size() + depths.size() - 2 * content.frames.size();
+  content.association = "of equal numbers";
+  if (const auto poses = filesOf(folder, ".pose.txt"); !poses.empty())
+    readPoses(content, poses);
+  else
+    content.notes.push_back(folder + ": no frame-*.pose.txt, hence no poses");
+  return content;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,212 @@
+#include <mrpt/core/format.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+#include "frames/RigidMatrix.h"
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/sensors/DepthUnit.h"
+#include "tum/TumFiles.h"
+
+namespace quadmap
+{
+namespace
+{
+using mrpt::system::trim;
+
+/** The top level of a YAML file as OpenCV writes it: lines of `key: value`. Indented lines below a
+ * key belong to its value. OpenCV's own reader is not used because it never returns for some
+ * damaged files, such as one with a line that is indented by mistake. */
+class FlatYaml
+{
+ public:
+  explicit FlatYaml(const std::string& path) : path_(path)
+  {
+    std::ifstream file(path);
+    if (!file) reject("cannot be read");
+    std::string* value = nullptr;  // value of the last key
+    std::size_t number = 0;
+    for (std::string line; std::getline(file, line);)
+    {
+      ++number;
+      line = withoutComment(line);
+      const std::string text = trim(line);
+      if (text.empty() || line[0] == '%' || text == "---" || text == "...") continue;
+      if (line[0] != ' ')
+        value = addKey(line, number);
+      else if (value)
+        *value += " " + text;
+      else
+        rejectLine(number);
+    }
+    if (file.bad()) reject("read error");
+  }
+
+  [[noreturn]] void reject(const std::string& what) const
+  {
+    throw std::runtime_error(path_ + ": " + what);
+  }
+
+  const std::string* find(const std::string& key) const
+  {
+    const auto found = values_.find(key);
+    return found == values_.end() ? nullptr : &found->second;
+  }
+
+  /** \exception std::runtime_error If a required key is missing or its value is no finite number.
+   */
+  double number(const std::string& key, std::optional<double> fallback = std::nullopt) const
+  {
+    const std::string* text = find(key);
+    if (!text && fallback) return *fallback;
+    if (!text) reject("the key '" + key + "' is missing");
+    const auto value = yamlNumber(*text);
+    if (!value) reject("'" + key + "' is not a number");
+    if (!std::isfinite(*value)) reject("'" + key + "' is not finite");
+    return *value;
+  }
+
+  /** A number of YAML, which writes `.Nan` and `-.Inf`. */
+  static std::optional<double> yamlNumber(std::string text)
+  {
+    const auto dot = text.find(".");
+    if (dot != std::string::npos && dot + 1 < text.size() &&
+        std::isalpha(static_cast<unsigned char>(text[dot + 1])))
+      text.erase(dot, 1);
+    return parseNumber(text);
+  }
+
+ private:
+  static std::string withoutComment(const std::string& line)
+  {
+    for (std::size_t i = line.find('#'); i != std::string::npos; i = line.find('#', i + 1))
+      if (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t') return line.substr(0, i);
+    return line;
+  }
+
+  [[noreturn]] void rejectLine(std::size_t number) const
+  {
+    reject("is not YAML as OpenCV writes it (line " + std::to_string(number) + ")");
+  }
+
+  std::string* addKey(const std::string& line, std::size_t number)
+  {
+    const auto colon = line.find(':');
+    const std::string key = trim(line.substr(0, colon));
+    if (colon == std::string::npos || key.empty() || line[0] == '\t') rejectLine(number);
+    const auto [at, isNew] = values_.emplace(key, trim(line.substr(colon + 1)));
+    if (!isNew) reject("the key '" + key + "' stands there twice");
+    return &at->second;
+  }
+
+  std::string path_;
+  std::map<std::string, std::string> values_;
+};
+
+unsigned pixelsAt(const FlatYaml& file, const std::string& key)
+{
+  constexpr double kMaxPixels = 20000;
+  const double value = file.number(key);
+  if (value < 1 || value > kMaxPixels || value != std::floor(value))
+    file.reject(mrpt::format(
+        "'%s' is %g: must be a whole number in 1..%g", key.c_str(), value, kMaxPixels));
+  return static_cast<unsigned>(value);
+}
+
+/** The numbers between the brackets of an !!opencv-matrix or a list; nothing without the key.
+ * \param what The matrix has so many numbers, in words. */
+std::optional<std::vector<double>> matrixAt(
+    const FlatYaml& file, const std::string& key, std::size_t size, const std::string& what)
+{
+  const std::string* text = file.find(key);
+  if (!text) return std::nullopt;
+  const auto reject = [&]
+  { file.reject("'" + key + "' must be a matrix of " + what + " numbers"); };
+  const auto open = text->find('['), close = text->find(']');
+  std::vector<std::string> words;
+  if (open != std::string::npos && close != std::string::npos && open < close)
+    mrpt::system::tokenize(text->substr(open + 1, close - open - 1), ", \t", words);
+  if (words.size() != size) reject();
+  std::vector<double> numbers;
+  for (const auto& word : words)
+  {
+    const auto value = FlatYaml::yamlNumber(word);
+    if (!value) reject();
+    numbers.push_back(*value);
+  }
+  return numbers;
+}
+
+std::optional<Eigen::Vector3d> upAt(const FlatYaml& file)
+{
+  const auto numbers = matrixAt(file, "world_up", 3, "three");
+  if (!numbers) return std::nullopt;
+  const Eigen::Vector3d up(numbers->data());
+  constexpr double kShortest = 1e-6, kLongest = 1e6;
+  if (!up.allFinite() || up.norm() < kShortest || up.norm() > kLongest)
+    file.reject("'world_up' must be a finite direction");
+  return up.normalized();
+}
+
+/** The depth camera of images that are not registered. */
+std::optional<DepthCamera> depthCameraAt(const FlatYaml& file, const mrpt::img::TCamera& color)
+{
+  const auto T = matrixAt(file, "T_color_depth", 16, "16");
+  if (!T || !file.find("depth_raw_fx")) return std::nullopt;
+  using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  const Eigen::Matrix4d matrix = Eigen::Map<const RowMajor>(T->data());
+  if (!isRigid(matrix)) file.reject("'T_color_depth' must be a rigid transformation");
+  const double fx = file.number("depth_raw_fx"), fy = file.number("depth_raw_fy");
+  if (fx <= 0 || fy == 0) file.reject("'depth_raw_fx' must be > 0, 'depth_raw_fy' not 0");
+  DepthCamera depth;
+  depth.camera.setIntrinsicParamsFromValues(
+      fx, fy, file.number("depth_raw_cx"), file.number("depth_raw_cy"));
+  depth.camera.ncols = color.ncols;
+  depth.camera.nrows = color.nrows;
+  depth.T_color_depth = poseOf(matrix);
+  return depth;
+}
+
+}  // namespace
+
+FolderCamera readTumCalibration(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
+  requireModestText(path);
+  const FlatYaml file(path);
+  FolderCamera calibration;
+  calibration.origin = std::filesystem::path(path).filename().string();
+  auto& camera = calibration.color;
+  const double fx = file.number("fx"), fy = file.number("fy");
+  if (fx <= 0) file.reject(mrpt::format("fx=%g: must be > 0", fx));
+  if (fy == 0) file.reject("fy=0: must not be 0");
+  camera.setIntrinsicParamsFromValues(fx, fy, file.number("cx"), file.number("cy"));
+  camera.ncols = pixelsAt(file, "width");
+  camera.nrows = pixelsAt(file, "height");
+  calibration.depthFactor = file.number("depth_factor");
+  if (calibration.depthFactor <= 0)
+    file.reject(mrpt::format("depth_factor=%g: must be > 0", calibration.depthFactor));
+  if (!isPlausibleDepthUnit(1 / calibration.depthFactor))
+    file.reject(mrpt::format(
+        "depth_factor=%g: must be in [%g, %g], as metres = value / depth_factor",
+        calibration.depthFactor, 1 / kLargestDepthUnit, 1 / kSmallestDepthUnit));
+  const char* const coefficients[] = {
+      "k1", "k2", "p1", "p2", "k3"};  // in the order of MRPT's plumb_bob
+  for (std::size_t i = 0; i < std::size(coefficients); ++i)
+    camera.dist[i] = file.number(coefficients[i], 0.0);
+  const bool distorted =
+      std::any_of(camera.dist.begin(), camera.dist.end(), [](double k) { return k != 0; });
+  camera.distortion =
+      distorted ? mrpt::img::DistortionModel::plumb_bob : mrpt::img::DistortionModel::none;
+  calibration.depth = depthCameraAt(file, camera);
+  calibration.worldUp = upAt(file);
+  return calibration;
+}
+
+}  // namespace quadmap

@@ -1,0 +1,144 @@
+#include "tum/TumFiles.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "frames/FolderReader.h"
+#include "text/TextLines.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr double kDepthFactor = 5000;
+
+struct ListedImage
+{
+  double time;  // [s]
+  std::string file, place;
+};
+
+std::vector<ListedImage> readImageList(const std::string& path)
+{
+  std::vector<ListedImage> images;
+  for (const auto& line : readTextLines(path))
+  {
+    requireColumns(line, 2);
+    images.push_back({timeIn(line, 0), line.words[1], line.place});
+  }
+  return images;
+}
+
+std::vector<FolderFrame> associate(
+    const std::vector<ListedImage>& colors, const std::vector<ListedImage>& depths, double maxDelay)
+{
+  struct Pair
+  {
+    double delay;
+    std::size_t color, depth;
+  };
+  std::vector<std::size_t> order(depths.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto earlier = [&](std::size_t a, std::size_t b)
+  { return depths[a].time < depths[b].time; };
+  std::stable_sort(order.begin(), order.end(), earlier);
+  std::vector<Pair> pairs;
+  for (std::size_t c = 0; c < colors.size(); ++c)
+  {
+    const auto before = [&](std::size_t d, double t) { return depths[d].time < t; };
+    auto d = std::lower_bound(order.begin(), order.end(), colors[c].time - maxDelay, before);
+    for (; d != order.end() && depths[*d].time <= colors[c].time + maxDelay; ++d)
+      pairs.push_back({std::abs(depths[*d].time - colors[c].time), c, *d});
+  }
+  const auto closer = [](const Pair& a, const Pair& b) { return a.delay < b.delay; };
+  std::stable_sort(pairs.begin(), pairs.end(), closer);
+
+  std::vector<std::size_t> depthOf(colors.size(), depths.size());
+  std::vector<bool> used(depths.size(), false);
+  for (const auto& pair : pairs)
+    if (!used[pair.depth] && depthOf[pair.color] == depths.size())
+    {
+      used[pair.depth] = true;
+      depthOf[pair.color] = pair.depth;
+    }
+  std::vector<FolderFrame> frames;
+  for (std::size_t c = 0; c < colors.size(); ++c)
+    if (depthOf[c] < depths.size())
+    {
+      const auto& depth = depths[depthOf[c]];
+      frames.push_back({depth.time, colors[c].file, depth.file, colors[c].place, {}});
+    }
+  return frames;
+}
+
+/** A line of associations.txt: colour first, or depth first as in ICL-NUIM, which the names of the
+ * files tell. */
+FolderFrame associationIn(const TextLine& line)
+{
+  requireColumns(line, 4);
+  const auto isDepth = [&](std::size_t column)
+  { return line.words[column].find("depth") != std::string::npos; };
+  const std::size_t depth = isDepth(1) && !isDepth(3) ? 0 : 2, color = 2 - depth;
+  timeIn(line, color);
+  return {timeIn(line, depth), line.words[color + 1], line.words[depth + 1], line.place, {}};
+}
+}  // namespace
+
+void readTumFrames(FolderContent& content, double maxDelay)
+{
+  const auto in = [&](const std::string& name)
+  { return (fs::path(content.folder) / name).string(); };
+  auto& frames = content.frames;
+  if (fs::exists(in("associations.txt")))
+  {
+    for (const auto& line : readTextLines(in("associations.txt")))
+      frames.push_back(associationIn(line));
+    content.association = "as associations.txt says";
+  }
+  else if (fs::exists(in("rgb.txt")) && fs::exists(in("depth.txt")))
+  {
+    const auto colors = readImageList(in("rgb.txt")), depths = readImageList(in("depth.txt"));
+    frames = associate(colors, depths, maxDelay);
+    content.association = mrpt::format("by time, at most %g ms apart", 1e3 * maxDelay);
+    content.unpaired = colors.size() + depths.size() - 2 * frames.size();
+  }
+  else
+    throw std::runtime_error(
+        content.folder + ": has neither associations.txt nor rgb.txt and depth.txt");
+  if (frames.empty())
+    throw std::runtime_error(content.folder + ": lists no colour image with a depth image");
+  for (auto& frame : frames)
+  {
+    frame.color = in(frame.color);
+    frame.depth = in(frame.depth);
+  }
+}
+
+bool isTumFolder(const std::string& folder)
+{
+  const auto has = [&](const char* name) { return fs::exists(fs::path(folder) / name); };
+  return has("associations.txt") || (has("rgb.txt") && has("depth.txt"));
+}
+
+FolderContent readTumFolder(const std::string& folder, const FrameFolderOptions& options)
+{
+  FolderContent content;
+  content.folder = folder;
+  content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
+  content.camera.depth.reset();  // the benchmark's images are registered
+  readTumFrames(content, options.maxAssociationDelay);
+  const std::string poses = (fs::path(folder) / "groundtruth.txt").string();
+  if (fs::exists(poses))
+    takePoses(content, poses, options.maxPoseGap);
+  else
+    content.notes.push_back(folder + ": no groundtruth.txt, hence no poses");
+  return content;
+}
+
+}  // namespace quadmap

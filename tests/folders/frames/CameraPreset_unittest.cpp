@@ -1,0 +1,86 @@
+#include "frames/CameraPreset.h"
+
+#include <gtest/gtest.h>
+
+#include "../../base/OptionGroupLaws.h"
+#include "quadmap/base/ShareFiles.h"
+
+using namespace quadmap;
+
+TEST(CameraPreset, AllInstalledCamerasCanBeRead)
+{
+  const auto names = cameraPresetNames();
+  for (const char* name : {"fr1", "fr2", "fr3", "icl", "7scenes", "kinect", "xtion", "primesense"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  for (const auto& name : names)
+  {
+    const FolderCamera camera = cameraPreset(name);
+    EXPECT_EQ(camera.origin, "camera " + name);
+    EXPECT_GT(camera.color.fx(), 400) << name;
+    EXPECT_LT(std::abs(camera.color.cx() - 0.5 * camera.color.ncols), 20) << name;
+    EXPECT_LT(std::abs(camera.color.cy() - 0.5 * camera.color.nrows), 20) << name;
+  }
+  EXPECT_TRUE(cameraPreset("fr1").isDistorted());
+  EXPECT_FALSE(cameraPreset("fr3").isDistorted());
+  EXPECT_LT(cameraPreset("icl").color.fy(), 0);
+  ASSERT_TRUE(cameraPreset("7scenes").depth);
+  EXPECT_NEAR(cameraPreset("7scenes").depth->T_color_depth.x(), -0.0227, 1e-4);
+}
+
+TEST(CameraPreset, IsChosenByTheWordsInAFoldersName)
+{
+  EXPECT_EQ(presetOfFolder("/a/rgbd_dataset_freiburg1_xyz"), "fr1");
+  EXPECT_EQ(presetOfFolder("/a/rgbd_dataset_freiburg2_desk/"), "fr2");
+  EXPECT_EQ(presetOfFolder("/a/FR3-office/rgbd"), "fr3") << "or of the folder above";
+  EXPECT_EQ(presetOfFolder("/a/7scenes/seq-01"), "7scenes");
+  EXPECT_EQ(presetOfFolder("/fr1/a/b"), std::nullopt);
+  EXPECT_EQ(presetOfFolder("/a/freiburg12"), std::nullopt) << "another word";
+}
+
+TEST(CameraPreset, RefusesWrongFilesByName)
+{
+  const TemporaryFolder files;
+  const auto expect = [&](const std::string& text, const std::string& part)
+  {
+    const auto path = files.write("my.ini", "[camera]\n" + text);
+    const auto error = errorOf([&] { cameraPreset(path); });
+    EXPECT_EQ(error.find(path + ": "), 0u) << error;
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  };
+  expect("", "fx is missing");
+  expect("fx = 500\n", "fy must not be 0");
+  expect("fx = 500\nfy = 500\nfz = 1\n", "fz");
+  expect("fx = 500\nfy = 500\ndepthFx = 500\n", "depthFx must be > 0 and depthFy not 0");
+  expect("fx = 500\nfy = 500\ndepthFactor = 0.5\n", "depthFactor must be 0 or in 1..1e7");
+  expect(
+      "fx = 500\nfy = 500\nT_color_depth = 1 0 0 0 0 1 0 0 0 0 2 0\n",
+      "must be the first three rows of a rigid transformation");
+  expect("fx = 500\nfy = 500\n[other]\na = 1\n", "other");
+  EXPECT_NE(errorOf([&] { cameraPreset(files.path("no.ini")); }).find("no.ini"), std::string::npos);
+}
+
+TEST(CameraPreset, GivesBackWhatWasSaved)
+{
+  CameraPreset preset = CameraPreset::fromFile(findShareFile("cameras/7scenes.ini"));
+  preset.distortion = {0.1, -0.2, 1e-3, 2e-3, 0.3};
+  const CameraPreset again = throughText(preset, "camera");
+  EXPECT_EQ(again.T_color_depth, preset.T_color_depth);
+  EXPECT_EQ(again.color, preset.color);
+  EXPECT_EQ(again.depth, preset.depth);
+  EXPECT_EQ(again.distortion, preset.distortion);
+  EXPECT_EQ(again.folders, preset.folders);
+  EXPECT_EQ(again.noDepth, 65535);
+  EXPECT_TRUE(again.posesAreOfDepth);
+}
+
+TEST(CameraPreset, ScalesWithTheImages)
+{
+  const FolderCamera half = scaledTo(cameraPreset("fr3"), 320, 240);
+  EXPECT_NEAR(half.color.fx(), 0.5 * 535.4, 1e-9);
+  // The image's left border, half a pixel left of the first pixel's centre, stays where it is.
+  EXPECT_NEAR((half.color.cx() + 0.5) / 320, (320.1 + 0.5) / 640, 1e-12);
+  EXPECT_EQ(half.color.ncols, 320u);
+  EXPECT_EQ(
+      errorOf([] { scaledTo(cameraPreset("fr3"), 640, 400); }),
+      "camera fr3 is for 640x480, the images are 640x400");
+}
