@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+#include <mrpt/core/format.h>
+
+#include <Eigen/Dense>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "../../obs/TemporaryFolder.h"
+#include "quadmap/folders/FolderKinds.h"
+
+using namespace quadmap;
+
+namespace
+{
+constexpr const char* kIdentity = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+
+/** A scene in the layout of ScanNet: large colour images, small depth images of a wall at 2 m. */
+class ScanNetFolder : public testing::Test
+{
+ protected:
+  ScanNetFolder()
+  {
+    for (const char* sub : {"color", "depth", "pose", "intrinsic"})
+      std::filesystem::create_directory(files_.path(sub));
+    for (int i : {0, 1, 10})
+    {
+      writeColor(i, 1296, 968);
+      cv::imwrite(
+          files_.path(mrpt::format("depth/%d.png", i)),
+          cv::Mat(480, 640, CV_16UC1, cv::Scalar(2000)));
+      files_.write(
+          mrpt::format("pose/%d.txt", i), mrpt::format("1 0 0 %d\n0 1 0 2\n0 0 1 3\n0 0 0 1\n", i));
+    }
+    files_.write(
+        "intrinsic/intrinsic_color.txt", "1170 0 647.5 0\n0 1170 483.5 0\n0 0 1 0\n0 0 0 1\n");
+    files_.write(
+        "intrinsic/intrinsic_depth.txt", "578 0 319.5 0\n0 578 239.5 0\n0 0 1 0\n0 0 0 1\n");
+    files_.write("intrinsic/extrinsic_color.txt", kIdentity);
+    files_.write("intrinsic/extrinsic_depth.txt", kIdentity);
+  }
+  void writeColor(int i, int columns, int rows) const
+  {
+    cv::Mat image(rows, columns, CV_8UC3, cv::Scalar(0, 0, 0));
+    image.colRange(columns / 2, columns).setTo(cv::Scalar(200, 200, 200));
+    cv::imwrite(files_.path(mrpt::format("color/%d.jpg", i)), image);
+  }
+  std::string folder() const { return files_.folder().string(); }
+
+  TemporaryFolder files_;
+};
+}  // namespace
+
+TEST_F(ScanNetFolder, IsReadInTheSizeOfDepth)
+{
+  EXPECT_EQ(kindOfFolder(folder()), "scannet");
+  const FrameFolder scene = openFrameFolder("scannet", folder());
+  ASSERT_EQ(scene.frames().size(), 3u);
+  EXPECT_NEAR(scene.frames()[2].time, 10 / 30.0, 1e-9) << "10 comes after 1 and 2";
+  const auto scan = scene.scan(2);
+  EXPECT_EQ(scan->rangeImage.cols(), 640);
+  EXPECT_EQ(scan->intensityImage.getWidth(), 640u);
+  EXPECT_EQ(scan->cameraParams.ncols, 640u);
+  EXPECT_NEAR(scan->cameraParams.fx(), 1170 * 640 / 1296.0, 1e-9);
+  EXPECT_NEAR(static_cast<float>(scan->rangeImage(240, 320)) * scan->rangeUnits, 2.0, 1e-3);
+  EXPECT_LT(scan->intensityImage.at<std::uint8_t>(310, 240, 0), 20);
+  EXPECT_GT(scan->intensityImage.at<std::uint8_t>(330, 240, 0), 180);
+  ASSERT_TRUE(scene.frames()[2].T_world_optical);
+  EXPECT_NEAR(scene.frames()[2].T_world_optical->x(), 10, 1e-9);
+  EXPECT_NEAR(scene.T_world_robot(2)->z(), 3, 1e-9) << "ScanNet's z is up";
+}
+
+TEST_F(ScanNetFolder, ScalesTheCalibrationOfImagesThatWereScaled)
+{
+  for (int i : {0, 1, 10}) writeColor(i, 640, 480);
+  const FrameFolder scene = openFrameFolder("scannet", folder());
+  EXPECT_NEAR(scene.scan(0)->cameraParams.fx(), 1170 * 640 / 1296.0, 1e-9);
+  bool tells = false;
+  for (const auto& note : scene.notes())
+    tells |= note.find("is of images of 1296x968") != std::string::npos;
+  EXPECT_TRUE(tells);
+}
+
+TEST_F(ScanNetFolder, FramesWithoutAKnownPoseHaveNone)
+{
+  files_.write(
+      "pose/1.txt",
+      "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n");
+  std::filesystem::remove(files_.path("pose/10.txt"));
+  const FrameFolder scene = openFrameFolder("scannet", folder());
+  EXPECT_EQ(scene.posesCount(), 1u);
+  EXPECT_FALSE(scene.T_world_robot(1));
+}
+
+TEST_F(ScanNetFolder, RefusesWhatItCannotUse)
+{
+  const auto expect = [&](const std::string& file, const std::string& text, const std::string& what)
+  {
+    const std::string good = readFile(files_.path(file));
+    if (text.empty())
+      std::filesystem::remove(files_.path(file));
+    else
+      files_.write(file, text);
+    const auto error = errorOf([&] { openFrameFolder("scannet", folder()); });
+    EXPECT_NE(error.find(file + what), std::string::npos) << error;
+    files_.write(file, good);
+  };
+  expect("intrinsic/intrinsic_color.txt", "", ": cannot open");
+  expect(
+      "intrinsic/intrinsic_depth.txt", "0 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
+      ": the focal length");
+  expect("intrinsic/extrinsic_color.txt", "3 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", ": is no rigid");
+  std::filesystem::remove_all(files_.path("depth"));
+  EXPECT_NE(
+      errorOf([&] { openFrameFolder("scannet", folder()); }).find("no images of equal numbers"),
+      std::string::npos);
+}
