@@ -55,7 +55,7 @@ void writeSummary(const FrameFolder& folder, std::ostream& out)
   const auto& frames = folder.frames();
   out << oneLine(folder.folder()) << " (" << folder.kind() << ")\n  frames: " << frames.size()
       << mrpt::format(" in %g s", frames.back().time - frames.front().time) << ", colour and depth "
-      << folder.association();
+      << folder.pairing();
   if (folder.unpaired() > 0) out << "; " << folder.unpaired() << " images without a partner";
   out << "\n";
   writeCamera(folder, out);

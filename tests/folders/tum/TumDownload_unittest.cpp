@@ -72,7 +72,7 @@ TEST_F(TumDownload, IsReadAsItIs)
   ASSERT_EQ(folder.frames().size(), 5u);
   EXPECT_EQ(folder.unpaired(), 1u) << "the colour image whose depth image is missing";
   EXPECT_NEAR(folder.frames()[3].time, depthTime(4), 1e-6) << "the time of the depth image";
-  EXPECT_EQ(folder.association(), "by time, at most 20 ms apart");
+  EXPECT_EQ(folder.pairing(), "by time, at most 20 ms apart");
   const auto scan = folder.scan(0);
   EXPECT_NEAR(scan->cameraParams.fx(), 517.3, 1e-9);
   EXPECT_FLOAT_EQ(static_cast<float>(scan->rangeImage(240, 320)) * scan->rangeUnits, 1.5f);

@@ -120,7 +120,7 @@ TEST(TumFolder, SaysWhatIsMissing)
   EXPECT_FALSE(blind.boxes(0));
 }
 
-TEST(TumFolder, AssociatesByTimeWithoutAssociations)
+TEST(TumFolder, PairsByTimeWithoutAssociations)
 {
   const SampleRecording recording;
   std::filesystem::remove(recording.files.path("associations.txt"));

@@ -40,9 +40,8 @@ void requireFolder(const std::string& folder)
 
 void check(const FrameFolderOptions& o)
 {
-  if (!(o.maxAssociationDelay > 0))
-    throw std::invalid_argument(
-        mrpt::format("maxAssociationDelay=%g: must be > 0 s", o.maxAssociationDelay));
+  if (!(o.maxPairDelay > 0))
+    throw std::invalid_argument(mrpt::format("maxPairDelay=%g: must be > 0 s", o.maxPairDelay));
   if (!(o.maxPoseGap > 0))
     throw std::invalid_argument(mrpt::format("maxPoseGap=%g: must be > 0 s", o.maxPoseGap));
 }

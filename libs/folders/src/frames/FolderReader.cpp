@@ -107,7 +107,7 @@ void framesByName(
         content.folder + ": has no images of equal numbers in " + colorFolder + "/ and " +
         depthFolder + "/");
   content.unpaired = colors.size() + depths.size() - 2 * content.frames.size();
-  content.association = "of equal numbers";
+  content.pairing = "of equal numbers";
 }
 
 Eigen::Matrix4d readMatrix(const std::string& path)

@@ -57,7 +57,7 @@ FolderContent readIclFolder(const std::string& folder, const FrameFolderOptions&
   content.camera = cameraOfFolder(folder, options, "icl", kDepthFactor);
   content.camera.depth.reset();  // rendered by one camera
   if (fs::exists(fs::path(folder) / "associations.txt"))
-    readTumFrames(content, options.maxAssociationDelay);
+    readTumFrames(content, options.maxPairDelay);
   else
     framesByName(content, "rgb", "depth", kImagesPerSecond);
   const std::string poses = findTrajectory(folder);

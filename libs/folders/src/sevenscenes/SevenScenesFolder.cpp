@@ -91,7 +91,7 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
     throw std::runtime_error(
         folder + ": has no pair of frame-*.color.png (or .jpg) and frame-*.depth.png");
   content.unpaired = colors.size() + depths.size() - 2 * content.frames.size();
-  content.association = "of equal numbers";
+  content.pairing = "of equal numbers";
   if (const auto poses = filesOf(folder, ".pose.txt"); !poses.empty())
     readPoses(content, poses);
   else

@@ -79,7 +79,7 @@ std::vector<FolderFrame> associate(
 
 /** A line of associations.txt: colour first, or depth first as in ICL-NUIM, which the names of the
  * files tell. */
-FolderFrame associationIn(const TextLine& line)
+FolderFrame pairIn(const TextLine& line)
 {
   requireColumns(line, 4);
   const auto isDepth = [&](std::size_t column)
@@ -97,15 +97,14 @@ void readTumFrames(FolderContent& content, double maxDelay)
   auto& frames = content.frames;
   if (fs::exists(in("associations.txt")))
   {
-    for (const auto& line : readTextLines(in("associations.txt")))
-      frames.push_back(associationIn(line));
-    content.association = "as associations.txt says";
+    for (const auto& line : readTextLines(in("associations.txt"))) frames.push_back(pairIn(line));
+    content.pairing = "as associations.txt says";
   }
   else if (fs::exists(in("rgb.txt")) && fs::exists(in("depth.txt")))
   {
     const auto colors = readImageList(in("rgb.txt")), depths = readImageList(in("depth.txt"));
     frames = associate(colors, depths, maxDelay);
-    content.association = mrpt::format("by time, at most %g ms apart", 1e3 * maxDelay);
+    content.pairing = mrpt::format("by time, at most %g ms apart", 1e3 * maxDelay);
     content.unpaired = colors.size() + depths.size() - 2 * frames.size();
   }
   else
@@ -132,7 +131,7 @@ FolderContent readTumFolder(const std::string& folder, const FrameFolderOptions&
   content.folder = folder;
   content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
   content.camera.depth.reset();  // the benchmark's images are registered
-  readTumFrames(content, options.maxAssociationDelay);
+  readTumFrames(content, options.maxPairDelay);
   const std::string poses = (fs::path(folder) / "groundtruth.txt").string();
   if (fs::exists(poses))
     takePoses(content, poses, options.maxPoseGap);

@@ -35,7 +35,7 @@ struct FolderContent
   FolderCamera camera;
   std::vector<FolderFrame> frames;
   std::string poses;               //!< Where poses are from, such as "groundtruth.txt"; may be ""
-  std::string association;         //!< How colour and depth images were paired
+  std::string pairing;             //!< How colour and depth images were paired
   std::size_t unpaired = 0;        //!< Number of images of which no pair could be made
   std::vector<std::string> notes;  //!< What a user should know, although it is no error
   /** Reads the images of a frame; when it is null, they are image files. */
@@ -49,8 +49,8 @@ struct FrameFolderOptions
   std::string detections;
   std::string labels;  //!< File with the names of classes, for boxes that have numbers; may be ""
   std::string camera;  //!< See cameraPreset(); if empty, the folder tells
-  double maxAssociationDelay = 0.02;  //!< Most time from colour to depth image [s], > 0
-  double maxPoseGap = 0.1;            //!< Longest time to interpolate poses over [s], > 0
+  double maxPairDelay = 0.02;  //!< Most time from colour to depth image [s], > 0
+  double maxPoseGap = 0.1;     //!< Longest time to interpolate poses over [s], > 0
 };
 
 /** A frame as it goes into a rawlog. */
@@ -80,7 +80,7 @@ class FrameFolder
   const FolderCamera& camera() const { return content_.camera; }  //!< As it is in the files
   const mrpt::img::TCamera& rectifiedCamera() const { return rectified_; }
   const std::vector<FolderFrame>& frames() const { return content_.frames; }
-  const std::string& association() const { return content_.association; }
+  const std::string& pairing() const { return content_.pairing; }
   std::size_t unpaired() const { return content_.unpaired; }
   std::size_t posesCount() const;                              //!< Number of frames with a pose
   const std::string& poses() const { return content_.poses; }  //!< Where they are from
