@@ -50,7 +50,7 @@ void writeDetections(const FrameFolder& folder, std::ostream& out)
 }
 }  // namespace
 
-void writeSummary(const FrameFolder& folder, std::ostream& out)
+void writeSummary(const FrameFolder& folder, const std::string& up, std::ostream& out)
 {
   const auto& frames = folder.frames();
   out << oneLine(folder.folder()) << " (" << folder.kind() << ")\n  frames: " << frames.size()
@@ -65,6 +65,7 @@ void writeSummary(const FrameFolder& folder, std::ostream& out)
   else
     out << folder.posesCount() << " of " << frames.size() << " frames, of " << folder.poses()
         << "\n";
+  out << "  up: " << up << "\n";
   writeDetections(folder, out);
 }
 

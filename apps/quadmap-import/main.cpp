@@ -4,6 +4,7 @@
 #include "../common/CommandLine.h"
 #include "../common/ProgressBar.h"
 #include "CameraImport.h"
+#include "FloorUp.h"
 #include "FolderImport.h"
 #include "FolderSummary.h"
 #include "quadmap/folders/FolderCheck.h"
@@ -153,15 +154,17 @@ void import(const FrameFolder& folder, Cli& cli)
   std::cout << "\n";
 }
 
-/** Prints what a recording has and what is wrong with it. \return The exit status, 1 for problems.
+/** Prints what a recording has and what is wrong with it.
+ *  \param up Where up is.
+ *  \return The exit status, 1 for problems.
  */
-int checkOnly(const FrameFolder& folder, Cli& cli)
+int checkOnly(const FrameFolder& folder, const std::string& up, Cli& cli)
 {
   FolderCheckOptions options;
   options.maxGap = cli.maxGap.getValue();
   options.maxSpeed = cli.maxSpeed.getValue();
   const auto problems = checkFolder(folder, options, cli::ProgressBar());
-  writeSummary(folder, std::cout);
+  writeSummary(folder, up, std::cout);
   writeProblems(problems, std::cout);
   return problems.empty() ? 0 : 1;
 }
@@ -197,13 +200,13 @@ int run(Cli& cli)
   reading.detections = cli.detections.getValue();
   reading.labels = cli.labels.getValue();
   reading.camera = cli.cameraName.getValue();
-  const FrameFolder folder = openFrameFolder(kind, source, reading);
+  FrameFolder folder = openFrameFolder(kind, source, reading);
   for (const auto& note : folder.notes())
     std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";
+  const std::string up = turnUpright(folder);
+  if (checking) return checkOnly(folder, up, cli);
   if (folder.posesCount() > 0 && !folder.camera().worldUp)
-    std::cerr << "quadmap-import: note: " << oneLine(source)
-              << ": nothing says where up is, +z is taken as up\n";
-  if (checking) return checkOnly(folder, cli);
+    std::cerr << "quadmap-import: note: " << oneLine(source + ": up: " + up) << "\n";
   import(folder, cli);
   return 0;
 }

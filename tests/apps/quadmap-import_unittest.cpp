@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
 
 #include "../folders/SampleRecording.h"
 #include "../obs/TestData.h"
@@ -82,7 +86,9 @@ TEST_F(QuadmapImport, SaysWhatIsThere)
   for (const char* part :
        {"frames: 6 in 0.5 s, colour and depth as associations.txt says\n",
         "camera: calibration.yaml, 64x48, fx 60, fy 62, cx 31.5, cy 23.5\n",
-        "poses: 6 of 6 frames, of groundtruth.txt\n",
+        "poses: 6 of 6 frames, of groundtruth.txt\n  up: (0.000, -1.000, 0.000) in the world of "
+        "the "
+        "poses, as calibration.yaml says\n",
         "detections (a line per box), 5 boxes; "
         "missing for 1 images\n",
         "missing file (1)\n"})
@@ -91,7 +97,11 @@ TEST_F(QuadmapImport, SaysWhatIsThere)
   std::filesystem::remove_all(recording_.files.path("detections"));
   const auto less = run("tum IN --check");
   EXPECT_EQ(less.status, 0) << less.out;
-  EXPECT_NE(less.out.find("poses: none\n  detections: none\n"), kNotFound) << less.out;
+  EXPECT_NE(
+      less.out.find(
+          "poses: none\n  up: left to quadmap-slam, as there are no poses\n  detections: none\n"),
+      kNotFound)
+      << less.out;
 }
 
 TEST_F(QuadmapImport, TakesTheCameraByNameOrFile)
@@ -119,7 +129,53 @@ TEST_F(QuadmapImport, SaysThatUpIsNotKnown)
   recording_.writeCalibration(calibration.substr(0, calibration.find("world_up")));
   const auto result = run("tum IN -o OUT/x.rawlog");
   EXPECT_EQ(result.status, 0);
-  EXPECT_NE(result.err.find("nothing says where up is, +z is taken as up"), kNotFound);
+  EXPECT_NE(result.err.find("up: taken as +z, as nothing says where it is"), kNotFound);
+  EXPECT_NE(run("tum IN --check").out.find("  up: taken as +z"), kNotFound);
+}
+
+TEST_F(QuadmapImport, FindsUpByTheFloor)
+{
+  auto calibration = std::string(SampleRecording::kCalibration);
+  recording_.writeCalibration(calibration.substr(0, calibration.find("world_up")));
+  // The camera looks down on a floor 1.2 m below it, whose normal in its frame is `up`.
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.8, -0.6).normalized();
+  cv::Mat depth(48, 64, CV_16UC1);
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u)
+    {
+      const double away = -up.dot(Eigen::Vector3d((u - 31.5) / 60, (v - 23.5) / 62, 1));
+      depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(5000 * 1.2 / away);
+    }
+  for (int i = 0; i < SampleRecording::kFrames; ++i)
+    cv::imwrite(recording_.files.path(mrpt::format("depth/f%d.png", i)), depth);
+  const auto result = run("tum IN -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("by the floor in 6 images of 6"), kNotFound) << result.err;
+  const auto frames = readAll(out_.path("x.rawlog"));
+  const Eigen::Vector3d up_robot(up.z(), -up.x(), -up.y());  // x forward, y left, z up
+  const Eigen::Vector3d up_map =
+      frames.at(0).T_odom_robot->getRotationMatrix().asEigen() * up_robot;
+  EXPECT_GT(up_map.z(), std::cos(mrpt::DEG2RAD(1.0))) << up_map.transpose();
+}
+
+TEST_F(QuadmapImport, FindsTheUpOfARealRecording)
+{
+  const auto raw = testData("seven_scenes_raw"), kitchen = testData("kitchen_a");
+  if (raw.empty() || kitchen.empty()) GTEST_SKIP() << "the recordings are not here";
+  const auto result = run("auto " + raw + " -o OUT/raw.rawlog");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("by the floor in "), kNotFound) << result.err;
+  ASSERT_EQ(run("tum " + kitchen + " -o OUT/kitchen.rawlog --every 8").status, 0);
+  const auto found = readAll(out_.path("raw.rawlog")), known = readAll(out_.path("kitchen.rawlog"));
+  ASSERT_EQ(found.size(), 31u);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_NEAR(found[i].time(), known[i].time(), 1e-3);
+    const auto upOf = [](const RgbdFrame& frame)
+    { return Eigen::Vector3d(frame.T_odom_robot->getRotationMatrix().asEigen().row(2)); };
+    // The two sets of poses differ by 1.4 to 3.7 degrees from each other.
+    EXPECT_GT(upOf(found[i]).dot(upOf(known[i])), std::cos(mrpt::DEG2RAD(4.5))) << i;
+  }
 }
 
 TEST_F(QuadmapImport, ReadsBoxesOfOtherForms)

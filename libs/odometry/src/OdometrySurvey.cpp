@@ -14,19 +14,6 @@ namespace
 {
 constexpr std::size_t kFrames = 15;  // images in which the floor is looked for
 
-/** In the robot's frame, the normal of the plane on which everything in the image stands. */
-std::optional<Eigen::Vector3d> upIn(
-    const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
-{
-  CObservationObjects noBoxes;
-  const auto surfaces = perception.measure(scan, noBoxes, std::nullopt);
-  const auto floor = std::find_if(
-      surfaces.seen.begin(), surfaces.seen.end(),
-      [](const SurfacePatch& patch) { return patch.kind == SurfaceKind::Floor; });
-  if (floor == surfaces.seen.end()) return std::nullopt;
-  return isometryOf(scan.sensorPose).linear() * floor->plane.n;
-}
-
 /** Whether the robot's frame stands on its head when the stored image is upright. An image with
  * negative fy is turned, so what is up in the stored one is -z of its sensor. */
 bool isUpsideDown(const RgbdFrame& frame)
@@ -60,7 +47,7 @@ class UpVotes
     const auto T_first_robot = odometry_.add(*frame.scan);
     if (!T_first_robot || odometry_.counts().gaps > 0) return;
     constexpr double kMaxTilt = M_PI / 3;
-    const auto up_robot = upIn(perception_, *frame.scan);
+    const auto up_robot = upOfFloor(perception_, *frame.scan);
     if (!up_robot || std::abs(up_robot->z()) < std::cos(kMaxTilt)) return;
     auto& side = up_robot->z() > 0 ? above_ : below_;
     side.push_back(isometryOf(*T_first_robot).linear() * *up_robot);
@@ -131,6 +118,18 @@ std::string bestKind(
 }
 
 }  // namespace
+
+std::optional<Eigen::Vector3d> upOfFloor(
+    const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  CObservationObjects noBoxes;
+  const auto surfaces = perception.measure(scan, noBoxes, std::nullopt);
+  const auto floor = std::find_if(
+      surfaces.seen.begin(), surfaces.seen.end(),
+      [](const SurfacePatch& patch) { return patch.kind == SurfaceKind::Floor; });
+  if (floor == surfaces.seen.end()) return std::nullopt;
+  return isometryOf(scan.sensorPose).linear() * floor->plane.n;
+}
 
 std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions)
 {

@@ -12,6 +12,8 @@
 
 namespace quadmap
 {
+class FramePerception;
+
 /** What the start of a rawlog tells about its poses. */
 struct OdometrySurvey
 {
@@ -49,6 +51,11 @@ OdometrySurvey surveyOdometry(
     PoseSource wanted,
     const PerceptionOptions& perception,
     const VisualOdometryOptions& visual);
+
+/** The normal of the plane on which everything in an image stands, in the robot's frame. It is
+ * nothing when the image shows none. A wall that fills the image may be mistaken for it. */
+std::optional<Eigen::Vector3d> upOfFloor(
+    const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan);
 
 /** Mean of the largest set of directions that agree with one of them: doc/mathematics.md, section
  * 15. It is nothing when there are no directions. */
