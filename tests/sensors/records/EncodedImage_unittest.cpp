@@ -57,6 +57,26 @@ TEST(EncodedImage, JpegHasThePixelsThatOpenCVGives)
   }
 }
 
+TEST(EncodedImage, JpegInColourHasASizeWhenItIsWhole)
+{
+  constexpr std::uint64_t kEnough = kColumns * kRows;
+  const auto bytes = encoded(".jpg");
+  const auto size = sizeOfColorJpeg(bytes, kEnough);
+  ASSERT_TRUE(size);
+  EXPECT_EQ(size->width, unsigned{kColumns});
+  EXPECT_EQ(size->height, unsigned{kRows});
+  EXPECT_THROW(sizeOfColorJpeg(bytes, kEnough - 1), std::runtime_error);
+  for (std::size_t end = bytes.size() - 2; end > bytes.size() / 2; end -= 7)
+    EXPECT_THROW(
+        sizeOfColorJpeg({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end)}, kEnough),
+        std::runtime_error)
+        << end;
+  EXPECT_FALSE(sizeOfColorJpeg(encoded(".png"), kEnough));
+  std::vector<std::uint8_t> grey;
+  cv::imencode(".jpg", cv::Mat(kRows, kColumns, CV_8UC1, cv::Scalar(9)), grey);
+  EXPECT_FALSE(sizeOfColorJpeg(grey, kEnough)) << "has no colour";
+}
+
 TEST(EncodedImage, DamageOfAJpegIsTold)
 {
   auto bytes = encoded(".jpg");

@@ -27,7 +27,7 @@ cv::Mat registeredDepth(
     {
       if (row[u] == 0) continue;
       const Eigen::Vector3d ray = rowRay + R.col(0) * ((u - from.cx()) / from.fx());
-      const Eigen::Vector3d p = row[u] * ray + t;  // (22.1)
+      const Eigen::Vector3d p = row[u] * ray + t;  // (24.1)
       const double z = std::round(p.z());
       if (!(z >= 1 && z <= kDeepest)) continue;
       const double x = std::round(color.fx() * p.x() / p.z() + color.cx());

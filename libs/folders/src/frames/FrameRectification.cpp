@@ -8,7 +8,7 @@ namespace quadmap
 {
 namespace
 {
-/** A point of the plane at depth 1 as the lens bends it: doc/mathematics.md, (22.2). */
+/** A point of the plane at depth 1 as the lens bends it: doc/mathematics.md, (24.2). */
 Eigen::Vector2d distorted(const Eigen::Vector2d& p, const mrpt::img::TCamera& camera)
 {
   const double k1 = camera.dist[0], k2 = camera.dist[1], p1 = camera.dist[2], p2 = camera.dist[3],

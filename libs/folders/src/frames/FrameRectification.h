@@ -20,7 +20,7 @@ class FrameRectification
   cv::Mat color(const cv::Mat& image) const;  //!< Black where the camera did not look
   cv::Mat depth(const cv::Mat& image) const;  //!< Registered to the colour image; nearest pixels
 
-  /** The smallest upright box around a box's outline: doc/mathematics.md, (22.2). An edge at the
+  /** The smallest upright box around a box's outline: doc/mathematics.md, (24.2). An edge at the
    * border of the image stays there, as the object may go on beyond. */
   ImageBox box(const ImageBox& box) const;
 

@@ -90,7 +90,7 @@ StatedSize statedSize(const std::uint8_t* bytes, std::size_t size)
 /** The decoded image, empty when that fails, and why. The warnings of libpng are about things that
  * do not change the image. */
 std::pair<cv::Mat, std::string> decodedWithReason(
-    const std::uint8_t* bytes, std::size_t size, const ImageSize& stated, int flags)
+    const std::uint8_t* bytes, std::size_t size, const StatedSize& stated, int flags)
 {
   if (isJpeg(bytes, size))
     return decodedJpeg(
@@ -107,12 +107,8 @@ std::pair<cv::Mat, std::string> decodedWithReason(
     return {cv::Mat(), rootMessage(e)};
   }
 }
-}  // namespace
-
-cv::Mat decodeImage(
-    const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels)
+void requireModest(const StatedSize& stated, std::uint64_t mostPixels)
 {
-  const StatedSize stated = statedSize(bytes, size);
   if (stated.width == 0 || stated.height == 0)
     throw std::runtime_error("cannot be read as an image: is neither a JPEG nor a PNG file");
   if (stated.height > mostPixels / stated.width)
@@ -121,10 +117,23 @@ cv::Mat decodeImage(
         static_cast<unsigned long long>(stated.width),
         static_cast<unsigned long long>(stated.height),
         static_cast<unsigned long long>(mostPixels >> 20)));
-  const auto [image, reason] = decodedWithReason(bytes, size, stated, flags);
+}
+
+void requireDecoded(const cv::Mat& image, const std::string& reason)
+{
   if (image.empty())
     throw std::runtime_error(
         "cannot be read as an image" + (reason.empty() ? "" : ": " + oneLine(reason)));
+}
+}  // namespace
+
+cv::Mat decodeImage(
+    const std::uint8_t* bytes, std::size_t size, int flags, std::uint64_t mostPixels)
+{
+  const StatedSize stated = statedSize(bytes, size);
+  requireModest(stated, mostPixels);
+  const auto [image, reason] = decodedWithReason(bytes, size, stated, flags);
+  requireDecoded(image, reason);
   return image;
 }
 
@@ -155,9 +164,14 @@ std::optional<ImageSize> sizeOfColorJpeg(
   if (!isJpeg(bytes.data(), bytes.size())) return std::nullopt;
   const StatedSize stated = sizeOfJpeg(bytes.data(), bytes.size());
   if (stated.bits != kBits || stated.channels != kChannels) return std::nullopt;
-  // The eighth of each side is had without most of the work, but not without all of the bytes.
-  decodeImage(bytes.data(), bytes.size(), cv::IMREAD_REDUCED_GRAYSCALE_8, mostPixels);
-  return ImageSize{static_cast<unsigned>(stated.width), static_cast<unsigned>(stated.height)};
+  requireModest(stated, mostPixels);
+  constexpr int kReduction = 8;  // needs all of the bytes, and little of the work
+  const ImageSize size{static_cast<unsigned>(stated.width), static_cast<unsigned>(stated.height)};
+  const auto [image, reason] = decodedJpeg(
+      bytes.data(), bytes.size(), static_cast<int>(size.height), static_cast<int>(size.width),
+      kReduction);
+  requireDecoded(image, reason);
+  return size;
 }
 
 }  // namespace quadmap

@@ -25,7 +25,7 @@ bool tellsDamage(tjhandle decoder)
 }  // namespace
 
 std::pair<cv::Mat, std::string> decodedJpeg(
-    const std::uint8_t* bytes, std::size_t size, int rows, int columns)
+    const std::uint8_t* bytes, std::size_t size, int rows, int columns, int reduction)
 {
   const std::unique_ptr<void, Destroy> decoder(tjInitDecompress());
   if (!decoder) return {cv::Mat(), tjGetErrorStr2(nullptr)};
@@ -36,6 +36,9 @@ std::pair<cv::Mat, std::string> decodedJpeg(
   if (head != 0 && tellsDamage(decoder.get())) return {cv::Mat(), tjGetErrorStr2(decoder.get())};
   // A size beyond what was looked at before would take memory that nobody allowed.
   if (width > columns || height > rows) return {cv::Mat(), "its size is stated in two ways"};
+  const tjscalingfactor scale{1, reduction};
+  width = TJSCALED(width, scale);
+  height = TJSCALED(height, scale);
   cv::Mat image(height, width, CV_8UC3);
   const int pixels = tjDecompress2(
       decoder.get(), bytes, length, image.data, width, static_cast<int>(image.step), height,
