@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "frames/CameraPreset.h"
 #include "quadmap/base/ShareFiles.h"
