@@ -39,8 +39,9 @@ struct Cli
   TCLAP::UnlabeledValueArg<std::string> kind{
       "kind",
       "What the recording is: a folder as downloaded from, or in the layout of, TUM RGB-D (tum), "
-      "ICL-NUIM (icl), 7-Scenes (7scenes) or ScanNet (scannet); a camera by OpenNI2 (openni2); or "
-      "auto, which tells the kind of a folder by its files.",
+      "ICL-NUIM (icl), 7-Scenes (7scenes) or ScanNet (scannet), or with organised clouds of PCL "
+      "(pcd); a camera by OpenNI2 (openni2); or auto, which tells the kind of a folder by its "
+      "files.",
       true,
       "",
       &knownKinds,

@@ -7,6 +7,7 @@
 
 #include "frames/FolderReader.h"
 #include "icl/IclFolder.h"
+#include "pcd/PcdFolder.h"
 #include "scannet/ScanNetFolder.h"
 #include "sevenscenes/SevenScenesFolder.h"
 #include "tum/TumFiles.h"
@@ -24,6 +25,7 @@ constexpr FolderReader kReaders[] = {
     {"7scenes", "frame-*.color.png (or .jpg) and frame-*.depth.png", isSevenScenesFolder,
      readSevenScenesFolder                                                                                 },
     {"scannet",                          "color/, depth/ and pose/",     isScanNetFolder, readScanNetFolder},
+    {    "pcd",                                             "*.pcd",         isPcdFolder,     readPcdFolder},
 };
 
 const FolderReader& readerOf(const std::string& kind)

@@ -1,0 +1,188 @@
+#include "pcd/PcdFolder.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include "frames/FolderReader.h"
+#include "frames/FrameImages.h"
+#include "pcd/PcdFile.h"
+#include "quadmap/base/ConfigCheck.h"
+
+namespace quadmap
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr double kDepthFactor = 5000;  // of the depth images that are made of the clouds
+constexpr double kImagesPerSecond = 30;
+
+/** Makes images of clouds. */
+class PcdImages : public FrameImageReader
+{
+ public:
+  FrameImages read(const FolderFrame& frame) const override
+  {
+    const PcdCloud cloud = readPcd(frame.color);
+    const int rows = static_cast<int>(cloud.height), columns = static_cast<int>(cloud.width);
+    FrameImages images{cv::Mat(rows, columns, CV_8UC3), cv::Mat(rows, columns, CV_16UC1)};
+    for (int v = 0, i = 0; v < rows; ++v)
+      for (int u = 0; u < columns; ++u, ++i)
+      {
+        const auto k = static_cast<std::size_t>(i);
+        const double steps = std::round(kDepthFactor * static_cast<double>(cloud.z[k]));
+        const bool isSeen = steps >= 1 && steps <= std::numeric_limits<std::uint16_t>::max();
+        images.depth.at<std::uint16_t>(v, u) = isSeen ? static_cast<std::uint16_t>(steps) : 0;
+        const std::uint32_t c = cloud.color[k];
+        images.color.at<cv::Vec3b>(v, u) = cv::Vec3b(
+            static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(c >> 8),
+            static_cast<std::uint8_t>(c >> 16));
+      }
+    return images;
+  }
+};
+
+/** The line pixel = slope * ratio + offset through many pairs of a ratio and a pixel. */
+class PixelLine
+{
+ public:
+  void add(double ratio, double pixel)
+  {
+    const Eigen::Vector2d row(ratio, 1);
+    normal_ += row * row.transpose();
+    right_ += row * pixel;
+    squares_ += pixel * pixel;
+    ++count_;
+  }
+
+  Eigen::Vector2d solution() const { return normal_.ldlt().solve(right_); }
+
+  /** Root mean square of what is left [px]. */
+  double residual() const
+  {
+    return std::sqrt(std::max(0.0, squares_ - right_.dot(solution())) / std::max(1, count_));
+  }
+  int count() const { return count_; }
+
+ private:
+  Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
+  double squares_ = 0;
+  int count_ = 0;
+};
+
+/** The pinhole camera at whose pixels the points of a cloud are seen. */
+mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& file)
+{
+  PixelLine columns, rows;
+  for (std::size_t v = 0, i = 0; v < cloud.height; ++v)
+    for (std::size_t u = 0; u < cloud.width; ++u, ++i)
+    {
+      const double x = cloud.x[i], y = cloud.y[i], z = cloud.z[i];
+      if (!std::isfinite(x) || !std::isfinite(y) || !(z > 0)) continue;
+      columns.add(x / z, static_cast<double>(u));
+      rows.add(y / z, static_cast<double>(v));
+    }
+  constexpr int kFewest = 100;         // points
+  constexpr double kLargestError = 1;  // [px]
+  const Eigen::Vector2d c = columns.solution(), r = rows.solution();
+  if (columns.count() < kFewest || !(c[0] > 0) || !(r[0] > 0) ||
+      !(columns.residual() < kLargestError) || !(rows.residual() < kLargestError))
+    throw std::runtime_error(
+        file + ": its points are not those of a camera's image (x right, y down, z forward)");
+  mrpt::img::TCamera camera;
+  camera.setIntrinsicParamsFromValues(c[0], r[0], c[1], r[1]);
+  camera.ncols = static_cast<unsigned>(cloud.width);
+  camera.nrows = static_cast<unsigned>(cloud.height);
+  return camera;
+}
+
+/** The clouds in the order of their names. A name that is a number with a point is a time [s],
+ * others are counted. */
+std::vector<FolderFrame> framesIn(const std::string& folder)
+{
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".pcd") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  std::vector<FolderFrame> frames;
+  for (const auto& file : files)
+  {
+    const std::string name = fs::path(file).stem().string();
+    const auto time = name.find('.') == std::string::npos ? std::nullopt : parseNumber(name);
+    frames.push_back(
+        {time.value_or(static_cast<double>(frames.size()) / kImagesPerSecond),
+         file,
+         file,
+         fs::path(file).filename().string(),
+         {}});
+  }
+  return frames;
+}
+
+/** Takes the poses of matrices beside the clouds. \return Whether there is any. */
+bool takeMatrices(FolderContent& content)
+{
+  bool any = false;
+  for (auto& frame : content.frames)
+    for (const char* end : {".txt", ".pose.txt"})
+    {
+      const fs::path file = fs::path(frame.color).replace_extension(end);
+      if (!fs::exists(file)) continue;
+      frame.T_world_optical = readMatrixPose(file.string());
+      any = true;
+    }
+  return any;
+}
+
+/** Takes the poses of the headers. \return Whether any of them says more than the default. */
+bool takeViewpoints(FolderContent& content)
+{
+  bool any = false;
+  for (auto& frame : content.frames)
+  {
+    frame.T_world_optical = readPcd(frame.color).viewpoint;
+    any = any || frame.T_world_optical->asVectorVal().asEigen().norm() > 0;
+  }
+  if (!any)
+    for (auto& frame : content.frames) frame.T_world_optical.reset();
+  return any;
+}
+}  // namespace
+
+bool isPcdFolder(const std::string& folder) { return !framesIn(folder).empty(); }
+
+FolderContent readPcdFolder(const std::string& folder, const FrameFolderOptions& options)
+{
+  FolderContent content;
+  content.folder = folder;
+  content.frames = framesIn(folder);
+  if (content.frames.empty()) throw std::runtime_error(folder + ": has no *.pcd");
+  content.pairing = "of one cloud";
+  content.images = std::make_shared<PcdImages>();
+  const std::string& first = content.frames.front().color;
+  if (options.camera.empty())
+    content.camera.color = cameraOf(readPcd(first), first);
+  else
+    content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
+  if (options.camera.empty()) content.camera.origin = "the first cloud";
+  content.camera.depth.reset();
+  content.camera.depthFactor = kDepthFactor;
+  const std::string trajectory = (fs::path(folder) / "groundtruth.txt").string();
+  if (takeMatrices(content))
+    content.poses = "the files beside the clouds";
+  else if (fs::exists(trajectory))
+    takePoses(content, trajectory, options.maxPoseGap);
+  else if (takeViewpoints(content))
+    content.poses = "the headers of the clouds";
+  else
+    content.notes.push_back(folder + ": no poses in files, groundtruth.txt or headers");
+  return content;
+}
+
+}  // namespace quadmap
