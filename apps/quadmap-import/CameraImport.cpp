@@ -27,16 +27,27 @@ std::string stateOf(const CameraSource& camera)
          (losses.empty() ? "" : ", " + losses);
 }
 
+/** Gives a scan the calibration of a known camera.
+ *  \exception std::runtime_error If its images have other proportions. */
+void calibrate(mrpt::obs::CObservation3DRangeScan& scan, const FolderCamera& calibration)
+{
+  const auto& own = scan.cameraParams;
+  scan.cameraParams = scaledTo(calibration, own.ncols, own.nrows).color;
+  scan.cameraParamsIntensity = scan.cameraParams;
+}
+
 /** Writes all frames. \return Number of those that were written. */
-std::size_t writeFrames(CameraSource& camera, std::size_t every, RawlogWriter& writer)
+std::size_t writeFrames(
+    CameraSource& camera, const CameraImportRequest& request, RawlogWriter& writer)
 {
   cli::StatusLine line;
   cli::ProgressBar bar;
   std::size_t read = 0, written = 0;
   while (const auto frame = camera.next())
   {
-    if (read++ % every == 0)
+    if (read++ % request.every == 0)
     {
+      if (request.calibration) calibrate(*frame->scan, *request.calibration);
       writer.write(*frame->scan);
       ++written;
     }
@@ -66,7 +77,7 @@ int importCamera(const CameraImportRequest& request)
     std::cerr << "quadmap-import: note: " << oneLine(request.source + ": " + note) << "\n";
 
   RawlogWriter writer(request.output, request.writing);
-  const std::size_t written = writeFrames(*camera, request.every, writer);
+  const std::size_t written = writeFrames(*camera, request, writer);
   const auto failure = camera->failure();
   if (written == 0) throw std::runtime_error(failure.value_or(request.source + ": no frame came"));
   if (isLive) cli::onStop = cli::OnStop::Defer;  // so short that nothing need be lost

@@ -92,7 +92,8 @@ struct Cli
   TCLAP::ValueArg<std::string> cameraName{
       "",
       "camera",
-      "The camera, when the recording does not tell: a name of share/quadmap/cameras or a file.",
+      "The camera, when the recording or the device does not tell: a name of share/quadmap/cameras "
+      "or a file.",
       false,
       "",
       "NAME|FILE",
@@ -181,6 +182,10 @@ int importFromCamera(Cli& cli)
   request.camera = cli.camera.options();
   request.writing.external = cli.external.getValue();
   request.every = static_cast<std::size_t>(cli.every.getValue());
+  if (cli.cameraName.isSet()) request.calibration = cameraPreset(cli.cameraName.getValue());
+  if (request.calibration && request.calibration->isDistorted())
+    throw std::runtime_error(
+        request.calibration->origin + " distorts, and images of a device are not rectified");
   return importCamera(request);
 }
 

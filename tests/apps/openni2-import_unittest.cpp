@@ -150,6 +150,17 @@ TEST_F(ImportOpenNi2, TellsThatDepthIsNotRegistered)
   EXPECT_EQ(frames().front().scan->cameraParams.fy(), 51);
 }
 
+TEST_F(ImportOpenNi2, TakesTheCalibrationOfAKnownCamera)
+{
+  const auto camera = markedCamera(60);
+  const std::string live = "live --resolution 64x48 --frames 3 --camera ";
+  expectRefusal(import(camera, live + "fr1"), 1, "camera fr1 distorts, and images of a device");
+  expectRefusal(import(camera, live + "kinekt"), 1, "kinekt: no such camera");
+  const auto result = import(camera, live + "kinect");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NEAR(frames().front().scan->cameraParams.fx(), 52.5, 1e-9) << "a tenth of 640x480";
+}
+
 TEST_F(ImportOpenNi2, ReplaysARecordingFrameByFrame)
 {
   const std::string oni = recordOni(markedCamera(60), 30, camera_);
