@@ -150,11 +150,11 @@ std::optional<BackgroundPlane> supportOf(
     const std::vector<NearPoint>& near, const std::vector<NearPoint>& candidates)
 {
   constexpr double kFlat = 0.85;      // of the normal's z
-  constexpr double kBelow = 0.03;     // a support may be so much above the lowest candidates [m]
-  constexpr double kLargePart = 0.2;  // of the largest one, to be a surface of its own
+  constexpr double kBelow = 0.015;    // a support may be so much above the lowest candidates [m]
+  constexpr double kLargePart = 0.5;  // of the largest one, to be a surface of its own
   if (candidates.empty()) return std::nullopt;
   const Surroundings around(candidates);
-  const double highest = heightQuantile(candidates, 0.05) + kBelow;
+  const double highest = heightQuantile(candidates, 0.02) + kBelow;
   Profile heights(0.002);
   for (const NearPoint& point : near)
     if (point.share < kOutside && point.normal.z() > kFlat && point.position.z() < highest + 0.05 &&

@@ -14,9 +14,17 @@ std::optional<bool> BoxView::contains(const Eigen::Vector3d& p_map) const
   if (!(pixel.x() >= 0 && pixel.x() < camera.width && pixel.y() >= 0 && pixel.y() < camera.height))
     return std::nullopt;
   const double slack = kSlack * camera.width;
-  return !(
-      (usable[0] && pixel.x() < box.x1 - slack) || (usable[1] && pixel.y() < box.y1 - slack) ||
-      (usable[2] && pixel.x() > box.x2 + slack) || (usable[3] && pixel.y() > box.y2 + slack));
+  const std::array<bool, 4> outside{
+      pixel.x() < box.x1 - slack, pixel.y() < box.y1 - slack, pixel.x() > box.x2 + slack,
+      pixel.y() > box.y2 + slack};
+  bool isUnknown = false;
+  for (std::size_t side = 0; side < outside.size(); ++side)
+  {
+    if (outside[side] && usable[side]) return false;
+    isUnknown = isUnknown || outside[side];
+  }
+  if (isUnknown) return std::nullopt;
+  return true;
 }
 
 std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
@@ -36,15 +44,16 @@ std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
 
 double boxShare(const std::vector<BoxView>& views, const Eigen::Vector3d& p_map)
 {
-  std::size_t shown = 0, inside = 0;
+  constexpr std::size_t kTellingPart = 4;  // one in so many views has to have the point
+  std::size_t known = 0, inside = 0;
   for (const BoxView& view : views)
     if (const auto isInside = view.contains(p_map))
     {
-      ++shown;
+      ++known;
       inside += *isInside ? 1 : 0;
     }
-  if (inside == 0 || 4 * shown < views.size()) return 0;
-  return static_cast<double>(inside) / static_cast<double>(shown);
+  if (inside == 0 || kTellingPart * inside < views.size()) return 0;
+  return static_cast<double>(inside) / static_cast<double>(known);
 }
 
 }  // namespace quadmap

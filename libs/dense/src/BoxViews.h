@@ -21,16 +21,16 @@ struct BoxView
 
   Eigen::Vector3d eye() const { return T_optical_map.inverse().translation(); }  //!< In the map [m]
 
-  /** Whether a point of the map lies within the usable edges; nothing when the image does not show
-   * where it is. */
+  /** Whether a point of the map is in the box. It is not when it lies beyond a usable edge. Nothing
+   * is known of a point beyond another edge or outside the image. */
   std::optional<bool> contains(const Eigen::Vector3d& p_map) const;
 };
 
 /** The box of an object in an image; nothing when perception could make nothing of it. */
 std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box);
 
-/** Share of the views in whose boxes a point lies, of those whose image shows where it is: equation
- * (22.1). It is zero when fewer than a quarter of them do, and in no view. */
+/** Share of the views in whose boxes a point lies, of those that tell: equation (22.1). It is zero
+ * for a point in the boxes of less than a quarter of all views. */
 double boxShare(const std::vector<BoxView>& views, const Eigen::Vector3d& p_map);
 
 }  // namespace quadmap

@@ -45,6 +45,9 @@ void DenseOptions::describe(OptionList& list)
   list.number(
       "growDistance", growDistance, {0.002, 1}, "m",
       "Largest gap between the points of one part of an object.");
+  list.number(
+      "smoothingRadius", smoothingRadius, {0.001, 0.2}, "m",
+      "The points of an object move onto the plane of those within this distance.");
 }
 
 DenseOptions readDenseOptions(const std::string& path)

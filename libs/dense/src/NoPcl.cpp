@@ -30,4 +30,11 @@ std::vector<std::vector<std::size_t>> pointOperations::connectedParts(const Poin
   return {};
 }
 
+pointOperations::Points pointOperations::ontoSurface(
+    const Points&, const std::vector<float>&, double)
+{
+  requirePcl("surfaces");
+  return {};
+}
+
 }  // namespace quadmap

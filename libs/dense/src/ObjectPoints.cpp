@@ -4,7 +4,6 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
-#include <numeric>
 
 #include "BackgroundPlanes.h"
 #include "BoxViews.h"
@@ -31,7 +30,7 @@ Search searchOf(const ObjectRecord& record)
   Search search;
   search.record = &record;
   search.center = record.object.center().cast<float>();
-  search.radius = static_cast<float>(1.5 * record.object.semiAxes().norm() + 0.25);
+  search.radius = static_cast<float>(1.25 * record.object.semiAxes().norm() + 0.25);
   return search;
 }
 
@@ -101,8 +100,22 @@ class NearbyPoints
   PointGrid grid_;
 };
 
-/** Takes the points of the objects out of the grid, small objects first: what stands on a table is
- * in the boxes of the table, too. */
+/** The views that say where an object ends on three sides, or all when there are few of them. At
+ * most so many, evenly chosen: neighbouring images say the same. */
+std::vector<BoxView> tellingViews(const std::vector<BoxView>& views)
+{
+  constexpr std::size_t kMost = 40, kFew = 5;
+  std::vector<BoxView> telling;
+  for (const BoxView& view : views)
+    if (std::count(view.usable.begin(), view.usable.end(), true) >= 3) telling.push_back(view);
+  if (telling.size() < kFew) telling = views;
+  if (telling.size() <= kMost) return telling;
+  std::vector<BoxView> some;
+  for (std::size_t i = 0; i < kMost; ++i) some.push_back(telling[i * telling.size() / kMost]);
+  return some;
+}
+
+/** Gives the points of the grid to the objects. */
 class Separation
 {
  public:
@@ -110,49 +123,107 @@ class Separation
       grid_(points.grid()), options_(options), cells_(trustedCells(grid_, options))
   {
     cloud_ = cloudOf(grid_, cells_, options);
-    isTaken_.assign(cells_.size(), false);
+    claims_.resize(cloud_.size());
+    for (const Search& search : points.searches()) near_.push_back(nearPoints(search));
+    for (std::size_t i = 0; i < near_.size(); ++i) claim(i, points.searches()[i].boxSize);
   }
 
-  ObjectPoints take(const Search& search)
+  ObjectPoints take(std::size_t object, const Search& search) const
   {
     ObjectPoints out;
     out.record = *search.record;
-    const auto views = spread(search.views);
-    for (const BoxView& view : views) out.eyes.push_back(view.eye());
+    for (const BoxView& view : search.views)
+    {
+      out.eyes.push_back(view.eye());
+      out.boxesWithTop += view.usable[1] ? 1 : 0;
+    }
     std::vector<NearPoint> near, candidates;
     std::vector<std::size_t> indices;  // of the candidates
-    for (std::size_t i = 0; i < cloud_.size(); ++i)
+    for (const auto& [i, share] : near_[object])
     {
-      if ((cloud_[i].position - search.center).norm() > search.radius) continue;
-      const Eigen::Vector3d p = cloud_[i].position.cast<double>();
-      NearPoint point{
-          p, cloud_[i].normal.cast<double>(), grid_.weight(cells_[i]), boxShare(views, p)};
-      near.push_back(point);
-      if (point.share < options_.boxShare || isTaken_[i]) continue;
-      candidates.push_back(point);
+      near.push_back(pointOf(i, share));
+      if (claims_[i].object != object || share < static_cast<float>(options_.boxShare)) continue;
+      candidates.push_back(near.back());
       indices.push_back(i);
     }
-    const auto background = backgroundOf(near, candidates, out);
-    keepForeground(background, candidates, indices);
-    const auto kept = mainParts(candidates, indices);
-    for (const std::size_t i : kept)
+    smooth(candidates);
+    keepForeground(backgroundOf(near, candidates, out), candidates, indices);
+    for (const std::size_t i : mainParts(candidates))
     {
-      isTaken_[i] = true;
-      out.cloud.push_back(cloud_[i]);
-      out.weights.push_back(grid_.weight(cells_[i]));
+      out.cloud.push_back(cloud_[indices[i]]);
+      out.cloud.back().position = candidates[i].position.cast<float>();
+      out.weights.push_back(static_cast<float>(candidates[i].weight));
     }
     return out;
   }
 
  private:
-  /** At most so many views, evenly chosen: neighbouring images say the same. */
-  static std::vector<BoxView> spread(const std::vector<BoxView>& views)
+  /** A point near an object, and the share of the object's boxes in which it lies. */
+  struct Near
   {
-    constexpr std::size_t kMost = 60;
-    if (views.size() <= kMost) return views;
-    std::vector<BoxView> some;
-    for (std::size_t i = 0; i < kMost; ++i) some.push_back(views[i * views.size() / kMost]);
-    return some;
+    std::size_t point;
+    float share;
+  };
+
+  /** Which object a point belongs to. */
+  struct Claim
+  {
+    static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+    std::size_t object = kNobody;
+    float share = 0;
+    double boxSize = 0;
+  };
+
+  std::vector<Near> nearPoints(const Search& search) const
+  {
+    const auto views = tellingViews(search.views);
+    std::vector<Near> near;
+    for (std::size_t i = 0; i < cloud_.size(); ++i)
+    {
+      const Eigen::Vector3f& p = cloud_[i].position;
+      if ((p - search.center).squaredNorm() < search.radius * search.radius)
+        near.push_back({i, static_cast<float>(boxShare(views, p.cast<double>()))});
+    }
+    return near;
+  }
+
+  /** What stands on a table is in the boxes of the table, too: of two objects with about the same
+   * share a point belongs to that with smaller boxes. */
+  void claim(std::size_t object, double boxSize)
+  {
+    constexpr float kSameShare = 0.15F;
+    const auto fewest = static_cast<float>(options_.boxShare) - kSameShare;
+    for (const auto& [i, share] : near_[object])
+    {
+      Claim& claim = claims_[i];
+      if (share < fewest) continue;
+      const bool isBetter = std::abs(share - claim.share) < kSameShare ? boxSize < claim.boxSize
+                                                                       : share > claim.share;
+      if (claim.object == Claim::kNobody || isBetter) claim = {object, share, boxSize};
+    }
+  }
+
+  NearPoint pointOf(std::size_t i, float share) const
+  {
+    return {
+        cloud_[i].position.cast<double>(), cloud_[i].normal.cast<double>(), grid_.weight(cells_[i]),
+        share};
+  }
+
+  /** Moves points onto the surfaces they scatter about. */
+  void smooth(std::vector<NearPoint>& points) const
+  {
+    pointOperations::Points positions;
+    std::vector<float> weights;
+    for (const NearPoint& point : points)
+    {
+      positions.push_back(point.position.cast<float>());
+      weights.push_back(static_cast<float>(point.weight));
+    }
+    for (int round = 0; round < 2; ++round)
+      positions = pointOperations::ontoSurface(positions, weights, options_.smoothingRadius);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      points[i].position = positions[i].cast<double>();
   }
 
   std::vector<BackgroundPlane> backgroundOf(
@@ -173,7 +244,7 @@ class Separation
 
   double clearanceOf(const BackgroundPlane& plane) const
   {
-    return std::max(options_.clearance, 2.5 * plane.spread);
+    return std::clamp(3 * plane.spread, options_.clearance, 2 * options_.clearance);
   }
 
   void keepForeground(
@@ -197,8 +268,7 @@ class Separation
   }
 
   /** The largest part of the candidates, and others that are surely within the boxes. */
-  std::vector<std::size_t> mainParts(
-      const std::vector<NearPoint>& candidates, const std::vector<std::size_t>& indices) const
+  std::vector<std::size_t> mainParts(const std::vector<NearPoint>& candidates) const
   {
     constexpr double kSurely = 0.9;       // mean share of the boxes
     constexpr double kWorthwhile = 0.03;  // of the points of the largest part
@@ -216,7 +286,7 @@ class Separation
       const bool isWorthwhile =
           static_cast<double>(part.size()) >= kWorthwhile * static_cast<double>(largest);
       if (!isMain && (share < kSurely || !isWorthwhile)) continue;
-      for (const std::size_t i : part) kept.push_back(indices[i]);
+      kept.insert(kept.end(), part.begin(), part.end());
     }
     std::sort(kept.begin(), kept.end());
     return kept;
@@ -224,9 +294,10 @@ class Separation
 
   const PointGrid& grid_;
   DenseOptions options_;
-  std::vector<std::size_t> cells_;  // of the grid, without outliers
-  DenseCloud cloud_;                // their points
-  std::vector<bool> isTaken_;
+  std::vector<std::size_t> cells_;       // of the grid, without outliers
+  DenseCloud cloud_;                     // their points
+  std::vector<std::vector<Near>> near_;  // of each object
+  std::vector<Claim> claims_;            // of each point
 };
 
 /** ID_LABEL with nothing that could mean something to a file system or a shell. */
@@ -251,15 +322,10 @@ std::vector<ObjectPoints> findObjectPoints(
       result, ResultKeyframes::Boxes::Read, options,
       [&](const KeyframeScan& image) { points.add(image); }, progress);
   points.finish();
-  const auto& searches = points.searches();
-  std::vector<std::size_t> order(searches.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(
-      order.begin(), order.end(),
-      [&](std::size_t a, std::size_t b) { return searches[a].boxSize < searches[b].boxSize; });
-  Separation separation(points, options);
-  std::vector<ObjectPoints> found(objects.size());
-  for (const std::size_t i : order) found[i] = separation.take(searches[i]);
+  const Separation separation(points, options);
+  std::vector<ObjectPoints> found;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    found.push_back(separation.take(i, points.searches()[i]));
   return found;
 }
 

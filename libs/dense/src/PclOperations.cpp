@@ -91,4 +91,40 @@ std::vector<std::vector<std::size_t>> pointOperations::connectedParts(
   return parts;
 }
 
+pointOperations::Points pointOperations::ontoSurface(
+    const Points& points, const std::vector<float>& weights, double radius)
+{
+  if (points.empty()) return {};
+  constexpr std::size_t kFewest = 6;  // neighbours that make a plane
+  const PclCloud::Ptr cloud = pclCloud(points);
+  pcl::search::KdTree<pcl::PointXYZ> tree;
+  tree.setInputCloud(cloud);
+  Points moved = points;
+  pcl::Indices near;
+  std::vector<float> squaredDistances;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    tree.radiusSearch(static_cast<pcl::index_t>(i), radius, near, squaredDistances);
+    if (near.size() < kFewest) continue;
+    float sum = 0;
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
+    std::sort(near.begin(), near.end());  // sums do not depend on the order of the search
+    for (const pcl::index_t j : near)
+    {
+      const auto index = static_cast<std::size_t>(j);
+      const Eigen::Vector3f p = points[index] - points[i];
+      sum += weights[index];
+      mean += weights[index] * p;
+      squares += weights[index] * p * p.transpose();
+    }
+    mean /= sum;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(
+        squares / sum - mean * mean.transpose());
+    const Eigen::Vector3f normal = axes.eigenvectors().col(0);
+    moved[i] = points[i] + normal.dot(mean) * normal;
+  }
+  return moved;
+}
+
 }  // namespace quadmap

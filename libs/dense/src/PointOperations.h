@@ -31,5 +31,9 @@ std::vector<SurfaceNormal> surfaceNormals(const Points& points, int neighbours);
  * Each part has its indices ascending; the largest part is first. */
 std::vector<std::vector<std::size_t>> connectedParts(const Points& points, double distance);
 
+/** The points moved onto the surface they scatter about: along the normal of the plane through all
+ * points within `radius` [m], onto that plane. \param weights Of the points, > 0. */
+Points ontoSurface(const Points& points, const std::vector<float>& weights, double radius);
+
 }  // namespace pointOperations
 }  // namespace quadmap

@@ -20,9 +20,10 @@ struct DenseOptions : public OptionGroup
                                    //!< distance plus this many standard deviations, > 0
   int normalNeighbours = 24;       //!< A normal is that of the plane through so many points, >= 3
 
-  double boxShare = 0.6;        //!< An object's points lie in this share of its boxes, in (0.5, 1]
-  double clearance = 0.01;      //!< Points nearer to a support or a wall belong to it [m], >= 0
+  double boxShare = 0.8;        //!< An object's points lie in this share of its boxes, in (0.5, 1]
+  double clearance = 0.004;     //!< Points nearer to a support or a wall belong to it [m], >= 0
   double growDistance = 0.025;  //!< Largest gap between the points of one part [m], > 0
+  double smoothingRadius = 0.01;  //!< An object's points move onto the plane of those so near [m]
 
  private:
   void describe(OptionList& list) override;

@@ -20,7 +20,9 @@ struct ObjectPoints
   DenseCloud cloud;                     //!< Empty when nothing was found
   std::vector<float> weights;           //!< Of each point: how much was measured there
   std::optional<double> supportHeight;  //!< z of the surface it stands on, in the map [m]
-  std::vector<Eigen::Vector3d> eyes;    //!< Where the cameras of its boxes were, in the map [m]
+  /** Where the cameras of its boxes were, in the map [m]. */
+  std::vector<Eigen::Vector3d> eyes;
+  std::size_t boxesWithTop = 0;  //!< Number of these boxes whose upper edge is the object's
 };
 
 /** Finds the points of all objects of a run, in their order.
