@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "common/CommandLine.h"
+#include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/dense/DenseCloud.h"
+#include "quadmap/dense/DepthCheck.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 #include "quadmap/maps/MapFile.h"
 #include "quadmap/review/ReportPage.h"
@@ -23,8 +26,8 @@ struct Cli
       "quadmap-evaluate",
       "Compares what quadmap-slam wrote with the truth: ATE of the trajectory; position, "
       "orientation, shape and overlap of the objects; precision, recall and F1. At least one of "
-      "--objects and --trajectory is needed. A trajectory alone (EST.tum) is compared as evo_ape "
-      "--align does; a map alone in place.",
+      "--objects, --trajectory and --self is needed. A trajectory alone (EST.tum) is compared as "
+      "evo_ape --align does; a map alone in place.",
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> estimate{
       "OUTDIR",
@@ -58,6 +61,12 @@ struct Cli
             line.args()};
   TCLAP::SwitchArg inPlace{
       "", "in-place", "Both worlds are the same: compare without aligning them.", line.args()};
+  TCLAP::SwitchArg self{
+      "", "self",
+      "How well the objects of OUTDIR explain the depth images they were made of; needs no truth.",
+      line.args()};
+  Text config{"c",        "config",   "Section [dense]: how --self finds the points.", false, "",
+              "FILE.ini", line.args()};
   TCLAP::ValueArg<double> maxTimeDifference{
       "",
       "max-time-difference",
@@ -93,10 +102,25 @@ void writeReport(Cli& cli, const EvaluationReport& figures)
   writeTextFile(cli.html.getValue(), reportPage(cli.estimate.getValue(), truth));
 }
 
+SelfCheck selfCheck(const std::string& result, const std::optional<std::string>& config)
+{
+  if (!std::filesystem::is_directory(result))
+    throw std::runtime_error(result + ": --self needs a folder that quadmap-slam wrote");
+  const DenseOptions options = config ? readDenseOptions(*config) : DenseOptions();
+  cli::ProgressBar bar;
+  return checkAgainstDepth(
+      result, readObjectsJson(result + "/objects.json"), options,
+      [&](double share) { bar(share); });
+}
+
 void run(Cli& cli)
 {
-  if (!cli.objects.isSet() && !cli.trajectory.isSet())
-    throw cli::UsageError("nothing to compare with: give --objects, --trajectory or both");
+  const bool hasTruth = cli.objects.isSet() || cli.trajectory.isSet();
+  if (!hasTruth && !cli.self.getValue())
+    throw cli::UsageError(
+        "nothing to compare with: give --objects, --trajectory, --self or several");
+  if (cli.config.isSet() && !cli.self.getValue())
+    throw cli::UsageError("--config: belongs to --self");
   if (!(cli.maxTimeDifference.getValue() >= 0))
     throw cli::UsageError("--max-time-difference: must be >= 0");
 
@@ -109,7 +133,9 @@ void run(Cli& cli)
   input.trueTrajectoryPath = given(cli.trajectory);
   input.inPlace = cli.inPlace.getValue();
   if (cli.maxTimeDifference.isSet()) input.maxTimeDifference = cli.maxTimeDifference.getValue();
-  const EvaluationReport report = evaluateRun(input);
+  if (cli.self.getValue()) requirePcl("--self");
+  EvaluationReport report = hasTruth ? evaluateRun(input) : EvaluationReport();
+  if (cli.self.getValue()) report.self = selfCheck(input.estimate, given(cli.config));
 
   if (cli.line.verbosity() == mrpt::system::LVL_DEBUG)
     std::cerr << "quadmap-evaluate: pose of the map in the true world (x y z yaw pitch roll): "

@@ -209,3 +209,41 @@ TEST_F(QuadmapEvaluate, LeavesNoJsonWhenItFails)
   EXPECT_EQ(run("DIR --objects DIR/none.json --json DIR/figures.json").status, 1);
   EXPECT_EQ(folder_.fileCount(), before);
 }
+
+TEST_F(QuadmapEvaluate, ComparesWithTheDepthImagesWhereTheyAre)
+{
+  const auto expectError = [&](const std::string& arguments, int status, const std::string& text)
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, status) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(text), kNotFound) << result.err;
+  };
+  expectError("DIR --objects DIR/gt.json --config DIR/x.ini", 2, "belongs to --self");
+#ifdef QUADMAP_WITH_PCL
+  expectError("DIR --self", 1, "map.simplemap");
+  expectError("DIR/gt.tum --self", 1, "needs a folder");
+
+  const auto recording = folder_.path("room");
+  ASSERT_EQ(
+      runProgram(
+          "quadmap-simulate", "home --resolution 160x120 --frames 30 -o " + recording + ".rawlog")
+          .status,
+      0);
+  ASSERT_EQ(
+      runProgram(
+          "quadmap-slam", recording + ".rawlog --every 1 --odometry ground-truth -o " + recording)
+          .status,
+      0);
+  folder_.write("d.ini", "[dense]\nobjectCell = 0.02\ngrowDistance = 0.06\n");
+  const auto result = run("DIR/room --self -c DIR/d.ini --json DIR/self.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("through"), kNotFound) << result.out;
+  const auto self = nlohmann::json::parse(readFile(folder_.path("self.json"))).at("self");
+  EXPECT_GE(self.at("objects").size(), 5u);
+  EXPECT_LT(self.at("beyond"), 0.15);
+  EXPECT_LT(self.at("through"), 0.25);
+#else
+  expectError("DIR --self", 1, "built without PCL");
+#endif
+}

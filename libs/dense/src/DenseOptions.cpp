@@ -11,7 +11,8 @@ namespace quadmap
 {
 void DenseOptions::describe(OptionList& list)
 {
-  list.about("Dense clouds of rooms and objects: quadmap-export, quadmap-annotate.");
+  list.about(
+      "Dense clouds of rooms and objects: quadmap-export, quadmap-evaluate and quadmap-annotate.");
   list.number(
       "roomCell", roomCell, {0.001, 1}, "m", "Edge of the cubes that keep one point of the room.");
   list.number(
@@ -48,6 +49,10 @@ void DenseOptions::describe(OptionList& list)
   list.number(
       "smoothingRadius", smoothingRadius, {0.001, 0.2}, "m",
       "The points of an object move onto the plane of those within this distance.");
+  list.number(
+      "surfaceTolerance", surfaceTolerance, {0.001, 1}, "m",
+      "Points so near to the surface of an object count as on it; so far behind it a ray went "
+      "through.");
 }
 
 DenseOptions readDenseOptions(const std::string& path)

@@ -78,6 +78,33 @@ Json matchesJson(const EvaluationReport& report)
   return list;
 }
 
+Json selfJson(const SelfCheck& self)
+{
+  Json list = Json::array();
+  for (const SelfCheckedObject& o : self.objects)
+  {
+    ObjectRecord named;
+    named.id = o.id;
+    list.push_back({
+        {        "id",         idOf(named)},
+        {     "label",             o.label},
+        {    "points",            o.points},
+        {"on_surface", orNull(o.onSurface)},
+        {    "inside",    orNull(o.inside)},
+        {    "beyond",    orNull(o.beyond)},
+        {      "rays",              o.rays},
+        {   "through",   orNull(o.through)}
+    });
+  }
+  return {
+      {"on_surface", orNull(self.meanOnSurface())},
+      {    "inside",    orNull(self.meanInside())},
+      {    "beyond",    orNull(self.meanBeyond())},
+      {   "through",   orNull(self.meanThrough())},
+      {   "objects",                         list}
+  };
+}
+
 std::string orDash(const std::optional<double>& value, const char* format)
 {
   return value ? mrpt::format(format, *value) : "-";
@@ -147,17 +174,38 @@ std::string objectsTable(const ObjectEvaluation& o)
   text += objectList("Not found, but seen in too few frames to count", o.uncounted);
   return text;
 }
+std::string selfTable(const SelfCheck& self)
+{
+  std::string text =
+      "Against the depth images, shares in percent: of an object's points those on its surface, "
+      "inside and\nbeyond it; of the rays into it those that go through\n";
+  const auto figures =
+      [&](const std::string& label, const std::string& id, const std::optional<double>(&shares)[4])
+  {
+    std::string out[4];
+    for (std::size_t i = 0; i < 4; ++i)
+      out[i] = shares[i] ? mrpt::format("%.1f", 100 * *shares[i]) : "-";
+    text += row(label, id, out);
+  };
+  text += row("label", "id", {"surface", "inside", "beyond", "through"});
+  for (const SelfCheckedObject& o : self.objects)
+    figures(o.label, o.id, {o.onSurface, o.inside, o.beyond, o.through});
+  figures(
+      "mean", "", {self.meanOnSurface(), self.meanInside(), self.meanBeyond(), self.meanThrough()});
+  return text;
+}
 }  // namespace
 
 std::string toJson(const EvaluationReport& report)
 {
-  const Json json{
+  Json json{
       {    "format",   "quadmap-evaluation"},
       {   "version",                      1},
       {"trajectory", trajectoryJson(report)},
       {   "objects",    objectsJson(report)},
       {   "matches",    matchesJson(report)}
   };
+  if (report.self) json["self"] = selfJson(*report.self);
   return jsonText(json, 2) + "\n";
 }
 
@@ -167,6 +215,7 @@ std::string toTable(const EvaluationReport& report)
   for (const auto& note : report.notes) text += "Note: " + note + "\n";
   if (report.trajectory) text += trajectoryTable(*report.trajectory);
   if (report.objects) text += objectsTable(*report.objects);
+  if (report.self) text += selfTable(*report.self);
   return text;
 }
 

@@ -25,6 +25,8 @@ struct DenseOptions : public OptionGroup
   double growDistance = 0.025;  //!< Largest gap between the points of one part [m], > 0
   double smoothingRadius = 0.01;  //!< An object's points move onto the plane of those so near [m]
 
+  double surfaceTolerance = 0.02;  //!< Points so near to a surface lie on it [m], > 0
+
  private:
   void describe(OptionList& list) override;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "quadmap/evaluation/ObjectEvaluation.h"
+#include "quadmap/evaluation/SelfCheck.h"
 #include "quadmap/evaluation/TrajectoryAlignment.h"
 
 namespace quadmap
@@ -42,6 +43,7 @@ struct EvaluationReport
 {
   std::optional<TrajectoryEvaluation> trajectory;  //!< Empty without a true trajectory
   std::optional<ObjectEvaluation> objects;         //!< Empty without true objects
+  std::optional<SelfCheck> self;                   //!< Empty when it was not asked for
   mrpt::poses::CPose3D T_truth_estimated;          //!< Identity when compared in place
   std::vector<std::string> notes;  //!< What a reader of the figures must know, one sentence each
 };
