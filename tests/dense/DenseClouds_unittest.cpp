@@ -158,7 +158,8 @@ TEST(ObjectPoints, AreTheSurfaceOfTheObjectWhateverSizeTheMapSays)
   for (const DensePoint& point : object.cloud)
   {
     EXPECT_LT(std::abs(distanceFrom(room.box, point.position)), 0.01);
-    EXPECT_GE(point.position.z(), 0.999 * DenseOptions().clearance) << "the floor is not the object's";
+    EXPECT_GE(point.position.z(), 0.999 * DenseOptions().clearance)
+        << "the floor is not the object's";
     const Eigen::Vector3d p =
         room.box.rotation().transpose() * (point.position.cast<double>() - room.box.center());
     low = low.cwiseMin(p);

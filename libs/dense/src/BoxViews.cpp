@@ -45,13 +45,15 @@ std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
 double boxShare(const std::vector<BoxView>& views, const Eigen::Vector3d& p_map)
 {
   constexpr std::size_t kTellingPart = 4;  // one in so many views has to have the point
+  constexpr std::size_t kTrials = 8;  // a point in none of the first of them is taken for outside
   std::size_t known = 0, inside = 0;
   for (const BoxView& view : views)
-    if (const auto isInside = view.contains(p_map))
-    {
-      ++known;
-      inside += *isInside ? 1 : 0;
-    }
+  {
+    const auto isInside = view.contains(p_map);
+    if (!isInside) continue;
+    inside += *isInside ? 1 : 0;
+    if (++known == kTrials && inside == 0) return 0;
+  }
   if (inside == 0 || kTellingPart * inside < views.size()) return 0;
   return static_cast<double>(inside) / static_cast<double>(known);
 }

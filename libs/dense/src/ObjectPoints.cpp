@@ -300,16 +300,15 @@ class Separation
   std::vector<Claim> claims_;            // of each point
 };
 
-/** ID_LABEL with nothing that could mean something to a file system or a shell. */
-std::string fileNameOf(const ObjectRecord& record)
+}  // namespace
+
+std::string fileNameOf(const ObjectRecord& record, const std::string& extension)
 {
   std::string name = record.id + "_" + record.label;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
-  return name + ".pcd";
+  return name + extension;
 }
-
-}  // namespace
 
 std::vector<ObjectPoints> findObjectPoints(
     const std::string& result,
@@ -335,7 +334,8 @@ std::vector<std::string> writeObjectClouds(
   std::filesystem::create_directories(folder);
   OutputSet files(folder, "object-clouds");
   for (const ObjectPoints& object : objects)
-    if (!object.cloud.empty()) writeCloud(object.cloud, files.add(fileNameOf(object.record)));
+    if (!object.cloud.empty())
+      writeCloud(object.cloud, files.add(fileNameOf(object.record, ".pcd")));
   files.commit();
   return files.names();
 }

@@ -36,6 +36,9 @@ std::vector<ObjectPoints> findObjectPoints(
     const DenseOptions& options,
     const std::function<void(double)>& progress);
 
+/** ID_LABEL and an extension, where everything but letters, digits and '-' is '_'. */
+std::string fileNameOf(const ObjectRecord& record, const std::string& extension);
+
 /** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd, all of them or none. The
  * folder is made when missing. \return The names of the files.
  * \exception std::runtime_error If they cannot be written. */

@@ -1,0 +1,123 @@
+#include "quadmap/dense/ProposalFile.h"
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
+
+#include <stdexcept>
+
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/OptionGroup.h"
+#include "quadmap/base/OptionList.h"
+
+namespace quadmap
+{
+namespace
+{
+const std::string kSection = "object ";
+
+/** One section of a file of proposals. */
+struct ProposalEntry : public OptionGroup
+{
+  std::string label;
+  bool accept = false, orientationDefined = true;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Zero();
+  double yaw = 0;  // [rad]
+
+ protected:
+  void describe(OptionList& list) override
+  {
+    list.text(
+        "label", [this] { return label; }, [this](const std::string& text) { label = text; },
+        "a text", "Class of the object.");
+    list.flag("accept", accept, "Whether the object becomes a part of the truth.");
+    list.vector("center", center.data(), {-1e6, 1e6}, "m", "Centre of the cuboid in the map.");
+    list.vector("size", size.data(), {1e-4, 1e4}, "m", "Full edge lengths of the cuboid.");
+    list.angle("yaw_deg", yaw, {-360, 360}, "Heading of its x axis about the vertical.");
+    list.flag("orientation_defined", orientationDefined, "Whether the heading means something.");
+    list.require([this] { return !label.empty(); }, "label: must not be empty");
+    list.require([this] { return size.minCoeff() > 0; }, "size: must be there, of numbers > 0");
+  }
+};
+
+std::string numbersText(const Eigen::Vector3d& v)
+{
+  return mrpt::format("%.4f %.4f %.4f", v.x(), v.y(), v.z());
+}
+
+std::string unseenText(const CuboidProposal& proposal)
+{
+  constexpr const char* kNames[] = {"+x", "-x", "+y", "-y", "the top"};
+  std::string names;
+  for (std::size_t side = 0; side < proposal.seen.size(); ++side)
+    if (!proposal.seen[side]) names += (names.empty() ? "" : ", ") + std::string(kNames[side]);
+  return names.empty() ? "all sides were seen" : "not seen along its length: " + names;
+}
+
+std::string sectionText(const CuboidProposal& proposal)
+{
+  const ObjectRecord& record = proposal.record;
+  mrpt::poses::CPose3D pose = record.object.pose();
+  return "\n[" + kSection + record.id + "]\n" + mrpt::format("; %zu points; ", proposal.points) +
+         unseenText(proposal) + "\nlabel = " + record.label +
+         "\naccept = " + (proposal.fullySeen() ? "yes" : "no") +
+         "\ncenter = " + numbersText(record.object.center()) +
+         "\nsize = " + numbersText(2 * record.object.semiAxes()) +
+         mrpt::format("\nyaw_deg = %.2f", mrpt::RAD2DEG(pose.yaw())) +
+         "\norientation_defined = " + (record.orientationDefined ? "yes" : "no") + "\n";
+}
+
+}  // namespace
+
+std::vector<JudgedProposal> judged(const std::vector<CuboidProposal>& proposals)
+{
+  std::vector<JudgedProposal> out;
+  for (const CuboidProposal& proposal : proposals)
+    out.push_back({proposal.record, proposal.fullySeen()});
+  return out;
+}
+
+std::string proposalText(const std::vector<CuboidProposal>& proposals)
+{
+  std::string text =
+      "; Proposals of quadmap-annotate. Look at the picture of each, correct what is wrong "
+      "(metres,\n"
+      "; degrees), say accept = yes or no, and run quadmap-annotate again.\n";
+  for (const CuboidProposal& proposal : proposals) text += sectionText(proposal);
+  return text;
+}
+
+std::vector<JudgedProposal> readProposals(const std::string& path)
+{
+  requireReadableIni(path);
+  const mrpt::config::CConfigFile config(path);
+  std::vector<std::string> sections;
+  config.getAllSections(sections);
+  std::vector<JudgedProposal> proposals;
+  for (const std::string& section : sections)
+  {
+    if (section.rfind(kSection, 0) != 0 || section.size() == kSection.size())
+      throw std::invalid_argument(path + ": [" + section + "]: expected [object ID]");
+    ProposalEntry entry;
+    try
+    {
+      entry.loadFromConfigFile(config, section);
+    }
+    catch (const std::invalid_argument& e)
+    {
+      throw std::invalid_argument(path + ": " + e.what());
+    }
+    JudgedProposal proposal;
+    proposal.accept = entry.accept;
+    proposal.record.id = section.substr(kSection.size());
+    proposal.record.label = entry.label;
+    proposal.record.orientationDefined = entry.orientationDefined;
+    const Eigen::Vector3d& c = entry.center;
+    proposal.record.object =
+        Ellipsoid(mrpt::poses::CPose3D(c.x(), c.y(), c.z(), entry.yaw, 0, 0), 0.5 * entry.size);
+    proposals.push_back(proposal);
+  }
+  return proposals;
+}
+
+}  // namespace quadmap

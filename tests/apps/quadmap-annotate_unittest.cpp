@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+
+#include <algorithm>
+
+#include "RunProgram.h"
+#include "quadmap/evaluation/ObjectEvaluation.h"
+
+using namespace quadmap;
+
+namespace
+{
+constexpr auto kNotFound = std::string::npos;
+
+bool isOneLine(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+/** Whether each face of a cuboid is within 2 cm of the true one, along the truth's axes, and its
+ * shape is the true one to 0.85. Of round things any heading will do. */
+bool isNearTruth(const ObjectRecord& truth, const ObjectRecord& proposal)
+{
+  const Eigen::Matrix3d R = truth.object.rotation();
+  const Eigen::Vector3d shift = R.transpose() * (proposal.object.center() - truth.object.center());
+  Eigen::Vector3d half = proposal.object.semiAxes();
+  const Eigen::Vector3d trueHalf = truth.object.semiAxes();
+  const bool isTurned =
+      truth.orientationDefined
+          ? std::abs(R.col(0).dot(proposal.object.rotation().col(0))) < std::sqrt(0.5)
+          : (half.x() > half.y()) != (trueHalf.x() > trueHalf.y());
+  if (isTurned) std::swap(half.x(), half.y());
+  const double worst = (shift.cwiseAbs() + (half - trueHalf).cwiseAbs()).maxCoeff();
+  return worst < 0.02 && compareObjects(truth, proposal).shapeIoU >= 0.85;
+}
+
+class QuadmapAnnotate : public ::testing::Test
+{
+ protected:
+  void simulate(const std::string& scene, int frames) const
+  {
+    const std::string path = folder_.path("room");
+    ASSERT_EQ(
+        runProgram(
+            "quadmap-simulate", scene + " --resolution 320x240 --frames " + std::to_string(frames) +
+                                    " -o " + path + ".rawlog")
+            .status,
+        0);
+    ASSERT_EQ(
+        runProgram("quadmap-slam", path + ".rawlog --every 1 --odometry ground-truth -o " + path)
+            .status,
+        0);
+  }
+
+  ProgramResult annotate(const std::string& options = "") const
+  {
+    ::unsetenv("DISPLAY");
+    return runProgram(
+        "quadmap-annotate",
+        folder_.path("room") + " -o " + folder_.path("gt.json") + " " + options);
+  }
+
+  TemporaryFolder folder_;
+};
+}  // namespace
+
+TEST_F(QuadmapAnnotate, AnswersWrongUsageAndInputWithOneLine)
+{
+  const auto expectError = [&](const std::string& arguments, int status, const std::string& text)
+  {
+    const auto result = runProgram("quadmap-annotate", arguments);
+    EXPECT_EQ(result.status, status) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(text), kNotFound) << result.err;
+  };
+  const std::string here = folder_.folder().string();
+  expectError(here, 2, "OUT.json");
+  expectError(here + " -o truth.txt", 2, "must end in .json");
+#ifdef QUADMAP_WITH_PCL
+  expectError(here + "/none -o " + here + "/gt.json", 1, "none: is no folder");
+  expectError(here + " -o " + here + "/gt.json", 1, "objects.json");
+  folder_.write("gt.proposals.ini", "[objekt 1]\n");
+  expectError(here + " -o " + here + "/gt.json", 1, "[objekt 1]");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("gt.json")));
+#else
+  expectError(here + " -o " + here + "/gt.json", 1, "built without PCL");
+#endif
+}
+
+#ifdef QUADMAP_WITH_PCL
+TEST_F(QuadmapAnnotate, ProposesThingsOnADeskAsTheyAreAndTakesCorrections)
+{
+  simulate("cluttered-desk", 30);
+  const auto result = annotate("--no-pictures");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto truth = readObjectsJson(folder_.path("room.objects.gt.json"));
+  const auto proposals = readObjectsJson(folder_.path("gt.json"));
+  std::size_t near = 0;
+  for (const ObjectRecord& proposal : proposals)
+    near += std::any_of(
+                truth.begin(), truth.end(),
+                [&](const ObjectRecord& object)
+                { return object.label == proposal.label && isNearTruth(object, proposal); })
+                ? 1
+                : 0;
+  EXPECT_GE(near, 15u) << "of " << proposals.size();
+  EXPECT_GE(4 * near, 3 * proposals.size()) << near << " of " << proposals.size();
+
+  // One object is kept, with another size.
+  folder_.write(
+      "gt.proposals.ini",
+      "[object 5]\nlabel = tea pot\naccept = yes\ncenter = 0.1 0 0.85\nsize = 0.2 0.1 0.3\n"
+      "yaw_deg = 30\n[object 6]\nlabel = cup\naccept = no\ncenter = 0 0 0.8\nsize = 0.1 0.1 0.1\n");
+  const auto again = annotate();
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.out.find("1 of 2 objects"), kNotFound) << again.out;
+  const auto corrected = readObjectsJson(folder_.path("gt.json"));
+  ASSERT_EQ(corrected.size(), 1u);
+  EXPECT_EQ(corrected[0].id, "5");
+  EXPECT_EQ(corrected[0].label, "tea pot");
+  EXPECT_NEAR(corrected[0].object.semiAxes().z(), 0.15, 1e-9);
+  EXPECT_NEAR(corrected[0].object.rotation()(1, 0), 0.5, 1e-9);
+  for (const char* name : {"5_tea_pot.png", "6_cup.png"})
+  {
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile(folder_.path(std::string("gt.pictures/") + name)));
+    EXPECT_EQ(picture.getWidth(), 800u);
+  }
+}
+#endif
