@@ -28,6 +28,9 @@ struct Cli
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> result{
       "OUTDIR", "Folder quadmap-slam wrote.", true, "", "OUTDIR", line.args()};
+  cli::Example proposing{
+      line, "quadmap-annotate home -o home.objects.gt.json",
+      "Proposes the true objects of a room, to be corrected in home.objects.gt.proposals.ini."};
   Text output{"o",        "output", "The accepted objects, in the form of objects.json.",
               true,       "",       "OUT.json",
               line.args()};
