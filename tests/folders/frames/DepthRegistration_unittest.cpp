@@ -61,14 +61,18 @@ TEST(DepthRegistration, PutsAPlaneWhereTheColourCameraSeesIt)
 TEST(DepthRegistration, KeepsTheNearestOfWhatMeetsInAPixel)
 {
   DepthCamera depth = besideColor();
-  depth.T_color_depth = mrpt::poses::CPose3D(-0.1, 0, 0, 0, 0, 0);
-  cv::Mat raw(120, 160, CV_16UC1, cv::Scalar(0));
-  // Seen from 0.1 m to the side, points at 1 m and 2 m move by 15 and by 7.5 pixels.
-  raw.at<std::uint16_t>(60, 100) = 1000;
-  raw.at<std::uint16_t>(60, 92) = 2000;
-  const cv::Mat registered = registeredDepth(raw, depth, camera(150, 80, 60), kFactor);
-  EXPECT_EQ(registered.at<std::uint16_t>(60, 85), 1000);
-  EXPECT_EQ(cv::countNonZero(registered), 1) << "nothing was measured elsewhere";
+  // Seen from 0.1 m to either side, points at 1 m and 1.875 m move by 15 and by 8 pixels; the
+  // nearer one comes first in the row from the one side, and last from the other.
+  for (const int side : {-1, 1})
+  {
+    depth.T_color_depth = mrpt::poses::CPose3D(0.1 * side, 0, 0, 0, 0, 0);
+    cv::Mat raw(120, 160, CV_16UC1, cv::Scalar(0));
+    raw.at<std::uint16_t>(60, 80 - 15 * side) = 1000;
+    raw.at<std::uint16_t>(60, 80 - 8 * side) = 1875;
+    const cv::Mat registered = registeredDepth(raw, depth, camera(150, 80, 60), kFactor);
+    EXPECT_EQ(registered.at<std::uint16_t>(60, 80), 1000) << side;
+    EXPECT_EQ(cv::countNonZero(registered), 1) << "nothing was measured elsewhere";
+  }
 }
 
 TEST(DepthRegistration, LeavesOutWhatIsBehindOrBesideTheColourCamera)
