@@ -50,6 +50,7 @@ void writeProposalPictures(
   SceneOptions look;
   look.cloudPaleness = 0;
   look.insideThinning = 1;
+  look.pictureLineRadius = 0.004;
   const SceneBuilder builder(look);
   SceneRenderer renderer(size);
   for (const ObjectRecord& proposal : proposals)
