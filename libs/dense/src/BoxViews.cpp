@@ -4,7 +4,7 @@
 
 namespace quadmap
 {
-std::optional<bool> BoxView::contains(const Eigen::Vector3d& p_map) const
+std::optional<bool> DenseBoxView::contains(const Eigen::Vector3d& p_map) const
 {
   // The edges of a box err by some pixels: as those of a picture 640 pixels wide.
   constexpr double kSlack = 3.0 / 640;
@@ -27,11 +27,11 @@ std::optional<bool> BoxView::contains(const Eigen::Vector3d& p_map) const
   return true;
 }
 
-std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
+std::optional<DenseBoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
 {
   const DetectedObject& seen = image.boxes->objects[box];
   if (!seen.measurement.edges) return std::nullopt;
-  BoxView view;
+  DenseBoxView view;
   view.camera = pinholeFrom(image.boxes->cameraParams);
   view.T_optical_map =
       (isometryOf(image.T_map_robot + image.scan->sensorPose) * isometryOf(T_sensor_optical()))
@@ -42,12 +42,12 @@ std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box)
   return view;
 }
 
-double boxShare(const std::vector<BoxView>& views, const Eigen::Vector3d& p_map)
+double boxShare(const std::vector<DenseBoxView>& views, const Eigen::Vector3d& p_map)
 {
   constexpr std::size_t kTellingPart = 4;  // one in so many views has to have the point
   constexpr std::size_t kTrials = 8;  // a point in none of the first of them is taken for outside
   std::size_t known = 0, inside = 0;
-  for (const BoxView& view : views)
+  for (const DenseBoxView& view : views)
   {
     const auto isInside = view.contains(p_map);
     if (!isInside) continue;

@@ -12,7 +12,7 @@
 namespace quadmap
 {
 /** One box of an object: where its usable edges say that the object is. */
-struct BoxView
+struct DenseBoxView
 {
   PinholeCamera camera;
   Eigen::Isometry3d T_optical_map = Eigen::Isometry3d::Identity();
@@ -27,10 +27,10 @@ struct BoxView
 };
 
 /** The box of an object in an image; nothing when perception could make nothing of it. */
-std::optional<BoxView> boxViewOf(const KeyframeScan& image, std::size_t box);
+std::optional<DenseBoxView> boxViewOf(const KeyframeScan& image, std::size_t box);
 
 /** Share of the views in whose boxes a point lies, of those that tell: equation (22.1). It is zero
  * for a point in the boxes of less than a quarter of all views. */
-double boxShare(const std::vector<BoxView>& views, const Eigen::Vector3d& p_map);
+double boxShare(const std::vector<DenseBoxView>& views, const Eigen::Vector3d& p_map);
 
 }  // namespace quadmap

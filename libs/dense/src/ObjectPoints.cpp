@@ -3,114 +3,27 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <map>
 
 #include "BackgroundPlanes.h"
-#include "BoxViews.h"
-#include "FramePoints.h"
 #include "GridCloud.h"
+#include "NearbyPoints.h"
 #include "quadmap/base/OutputSet.h"
 
 namespace quadmap
 {
 namespace
 {
-/** Where the points of an object are looked for, and what is known about them. */
-struct Search
-{
-  const ObjectRecord* record = nullptr;
-  Eigen::Vector3f center = Eigen::Vector3f::Zero();
-  float radius = 0;
-  std::vector<BoxView> views;
-  double boxSize = 0;  // median side of its boxes, at the range of the object [m]
-};
-
-Search searchOf(const ObjectRecord& record)
-{
-  Search search;
-  search.record = &record;
-  search.center = record.object.center().cast<float>();
-  search.radius = static_cast<float>(1.25 * record.object.semiAxes().norm() + 0.25);
-  return search;
-}
-
-/** The grid of all points near the objects; collects the views of each on the way. */
-class NearbyPoints
-{
- public:
-  NearbyPoints(const std::vector<ObjectRecord>& objects, const DenseOptions& options) :
-      options_(options), grid_(options.objectCell)
-  {
-    for (std::size_t i = 0; i < objects.size(); ++i)
-    {
-      searches_.push_back(searchOf(objects[i]));
-      indexOf_[objects[i].id] = i;
-    }
-  }
-
-  void add(const KeyframeScan& image)
-  {
-    addViews(image);
-    forEachPoint(
-        image, options_,
-        [&](const MeasuredPoint& point)
-        {
-          for (const Search& search : searches_)
-            if ((point.position - search.center).squaredNorm() < search.radius * search.radius)
-              return grid_.add(point);
-        });
-  }
-
-  const PointGrid& grid() const { return grid_; }
-  const std::vector<Search>& searches() const { return searches_; }
-
-  void finish()
-  {
-    for (Search& search : searches_)
-    {
-      std::vector<double> sizes;
-      for (const BoxView& view : search.views)
-      {
-        const double range = (view.eye() - search.center.cast<double>()).norm();
-        sizes.push_back(std::sqrt(view.box.area()) * range / view.camera.fx);
-      }
-      if (sizes.empty()) continue;
-      std::nth_element(
-          sizes.begin(), sizes.begin() + std::ptrdiff_t(sizes.size() / 2), sizes.end());
-      search.boxSize = sizes[sizes.size() / 2];
-    }
-  }
-
- private:
-  void addViews(const KeyframeScan& image)
-  {
-    if (!image.boxes || image.objectOfBox.size() != image.boxes->objects.size()) return;
-    for (std::size_t box = 0; box < image.objectOfBox.size(); ++box)
-    {
-      if (!image.objectOfBox[box]) continue;
-      const auto index = indexOf_.find(std::to_string(*image.objectOfBox[box]));
-      if (index == indexOf_.end()) continue;
-      if (const auto view = boxViewOf(image, box)) searches_[index->second].views.push_back(*view);
-    }
-  }
-
-  DenseOptions options_;
-  std::vector<Search> searches_;
-  std::map<std::string, std::size_t> indexOf_;
-  PointGrid grid_;
-};
-
 /** The views that say where an object ends on three sides, or all when there are few of them. At
  * most so many, evenly chosen: neighbouring images say the same. */
-std::vector<BoxView> tellingViews(const std::vector<BoxView>& views)
+std::vector<DenseBoxView> tellingViews(const std::vector<DenseBoxView>& views)
 {
   constexpr std::size_t kMost = 40, kFew = 5;
-  std::vector<BoxView> telling;
-  for (const BoxView& view : views)
+  std::vector<DenseBoxView> telling;
+  for (const DenseBoxView& view : views)
     if (std::count(view.usable.begin(), view.usable.end(), true) >= 3) telling.push_back(view);
   if (telling.size() < kFew) telling = views;
   if (telling.size() <= kMost) return telling;
-  std::vector<BoxView> some;
+  std::vector<DenseBoxView> some;
   for (std::size_t i = 0; i < kMost; ++i) some.push_back(telling[i * telling.size() / kMost]);
   return some;
 }
@@ -124,15 +37,15 @@ class Separation
   {
     cloud_ = cloudOf(grid_, cells_, options);
     claims_.resize(cloud_.size());
-    for (const Search& search : points.searches()) near_.push_back(nearPoints(search));
+    for (const ObjectSearch& search : points.searches()) near_.push_back(nearPoints(search));
     for (std::size_t i = 0; i < near_.size(); ++i) claim(i, points.searches()[i].boxSize);
   }
 
-  ObjectPoints take(std::size_t object, const Search& search) const
+  ObjectPoints take(std::size_t object, const ObjectSearch& search) const
   {
     ObjectPoints out;
     out.record = *search.record;
-    for (const BoxView& view : search.views)
+    for (const DenseBoxView& view : search.views)
     {
       out.eyes.push_back(view.eye());
       out.boxesWithTop += view.usable[1] ? 1 : 0;
@@ -174,7 +87,7 @@ class Separation
     double boxSize = 0;
   };
 
-  std::vector<Near> nearPoints(const Search& search) const
+  std::vector<Near> nearPoints(const ObjectSearch& search) const
   {
     const auto views = tellingViews(search.views);
     std::vector<Near> near;
