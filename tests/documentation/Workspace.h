@@ -38,8 +38,7 @@ class Workspace
     link(source / "tests", "tests");
     fs::copy(source / "rawlogs", folder.path("rawlogs"));
     for (const std::string name : {"home", "today", "kitchen"})  // copies: commands write, too
-      for (const char* end :
-           {".rawlog", ".objects.rawlog", ".objects.gt.json", ".groundtruth.tum"})
+      for (const char* end : {".rawlog", ".objects.rawlog", ".objects.gt.json", ".groundtruth.tum"})
         fs::copy(source / "rawlogs" / (std::string("home") + end), folder.path(name + end));
     fs::copy(source / "rawlogs/home.objects.gt.json", folder.path("objects.gt.json"));
     link(folder.path("home"), "yesterday");
@@ -85,8 +84,7 @@ class Workspace
     for (const char* sub : {"my_kitchen/rgb", "my_kitchen/depth", "my_kitchen/detections", "model"})
       fs::create_directories(folder.path(sub));
     RawlogSource source(QUADMAP_SOURCE_DIR "/rawlogs/home.rawlog", {});
-    const Trajectory truth =
-        readTumTrajectory(QUADMAP_SOURCE_DIR "/rawlogs/home.groundtruth.tum");
+    const Trajectory truth = readTumTrajectory(QUADMAP_SOURCE_DIR "/rawlogs/home.groundtruth.tum");
     std::string rgb, depth, poses, colmap = "# image list\n";
     for (int i = 0; i < kFrames; ++i)
     {
