@@ -99,7 +99,9 @@ TEST_F(EvaluatedRun, TheErrorOfASinglePoseIsNoFigure)
 TEST_F(EvaluatedRun, WritesTheJsonOfTheDesign)
 {
   const json j = json::parse(toJson(evaluateRun(input_)));
-  EXPECT_EQ(j.size(), 3u);
+  EXPECT_EQ(j.size(), 5u);
+  EXPECT_EQ(j["format"], "quadmap-evaluation");
+  EXPECT_EQ(j["version"], 1);
   EXPECT_EQ(j["trajectory"].size(), 3u);
   EXPECT_NEAR(j["trajectory"]["ate_rmse_m"].get<double>(), 0.1, 1e-6);
   EXPECT_NEAR(j["trajectory"]["ate_rmse_odometry_m"].get<double>(), 0.2, 1e-6);
