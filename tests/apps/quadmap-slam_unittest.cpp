@@ -198,11 +198,11 @@ TEST_F(QuadmapSlam, SaysWhyItCannotStartInAMap)
   ASSERT_EQ(run("IN -o DIR/first --every 1").status, 0);
   const std::string map = folder_.path("first/objects.quadmap");
   const std::pair<std::string, std::string> cases[] = {
-      {                    "--map DIR/first/objects.quadmap",                                    map},
-      {                                   "--map DIR/no.map", folder_.path("no.map: cannot be read")},
-      {                        "--map DIR/first/report.json",                     "is no object map"},
-      {     "--map DIR/first/objects.quadmap --method point",                    "--map: for method"},
-      {"--map DIR/first/objects.quadmap --association given",    "--map: not with association given"}
+      {                    "--map DIR/first/objects.quadmap",                                      map},
+      {                                   "--map DIR/no.map", folder_.path("no.map: there is no such")},
+      {                        "--map DIR/first/report.json",                       "is no object map"},
+      {     "--map DIR/first/objects.quadmap --method point",                      "--map: for method"},
+      {"--map DIR/first/objects.quadmap --association given",      "--map: not with association given"}
   };
   for (const auto& [arguments, part] : cases)
   {
