@@ -127,13 +127,13 @@ TEST_F(ResultTorture, TrueObjects)
   const auto whole = objectsToJson(sampleMap().toRecords());
   Cases cases = cuts(whole, 8) + flips(whole, 20) + wrongWords(whole, 8);
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {        "\"id\":",       "\"id\":[],\"x\":"},
-           {     "\"size\":[",            "\"size\":[-"},
-           {     "\"size\":[",       "\"size\":[1e308,"},
-           {   "\"center\":[",      "\"center\":[null,"},
-           {"\"rotation\":[[",      "\"rotation\":[[7,"},
-           {  "{\"objects\":", "{\"objects\":{},\"x\":"},
-           {   "\"label\":\"",  "\"label\":{},\"x\":\""}
+           {        "\"id\":",      "\"id\":[],\"x\":"},
+           {     "\"size\":[",           "\"size\":[-"},
+           {     "\"size\":[",      "\"size\":[1e308,"},
+           {   "\"center\":[",     "\"center\":[null,"},
+           {"\"rotation\":[[",     "\"rotation\":[[7,"},
+           {   "\"objects\":", "\"objects\":{},\"x\":"},
+           {   "\"label\":\"", "\"label\":{},\"x\":\""}
   })
     cases.push_back({to, with(whole, from, to), true});
   for (const char* opening : {"[", "{\"a\":", "{\"objects\":["})
