@@ -12,6 +12,7 @@
 
 #include "../apps/RunProgram.h"
 #include "../detection/TinyDetector.h"
+#include "Downloads.h"
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/sensors/RawlogSource.h"
@@ -86,6 +87,7 @@ class Workspace
     RawlogSource source(QUADMAP_SOURCE_DIR "/rawlogs/home.rawlog", {});
     const Trajectory truth = readTumTrajectory(QUADMAP_SOURCE_DIR "/rawlogs/home.groundtruth.tum");
     std::string rgb, depth, poses, colmap = "# image list\n";
+    Downloads downloads(folder);
     for (int i = 0; i < kFrames; ++i)
     {
       const auto frame = source.next();
@@ -99,7 +101,12 @@ class Workspace
       colmap += mrpt::format("%d ", i + 1) + text(-T_world_optical, true) + " 1 images/" + name +
                 ".jpg\n12.5 7.25 -1\n";
       if (i == 0) writeCalibration(frame->scan->cameraParams);
+      if (i < Downloads::kFrames)
+        downloads.add(
+            i, frame->scan->intensityImage.asCvMatRef(), millimetresOf(*frame->scan),
+            T_world_optical, text(T_world_optical, false));
     }
+    downloads.finish();
     folder.write("my_kitchen/rgb.txt", rgb);
     folder.write("my_kitchen/depth.txt", depth);
     fs::copy(folder.path("my_kitchen"), folder.path("kitchen"), fs::copy_options::recursive);
@@ -110,17 +117,22 @@ class Workspace
     folder.write("model/images.txt", colmap);
   }
 
-  void writeImages(const RgbdFrame& frame, const std::string& name) const
+  static cv::Mat millimetresOf(const mrpt::obs::CObservation3DRangeScan& scan)
   {
-    const auto& scan = *frame.scan;
-    cv::imwrite(folder.path("my_kitchen/rgb/" + name + ".jpg"), scan.intensityImage.asCvMatRef());
     cv::Mat depth(
         static_cast<int>(scan.rangeImage.rows()), static_cast<int>(scan.rangeImage.cols()), CV_16U);
     for (int v = 0; v < depth.rows; ++v)
       for (int u = 0; u < depth.cols; ++u)
         depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(
             std::lround(1000 * static_cast<double>(scan.rangeUnits) * scan.rangeImage(v, u)));
-    cv::imwrite(folder.path("my_kitchen/depth/" + name + ".png"), depth);
+    return depth;
+  }
+
+  void writeImages(const RgbdFrame& frame, const std::string& name) const
+  {
+    const auto& scan = *frame.scan;
+    cv::imwrite(folder.path("my_kitchen/rgb/" + name + ".jpg"), scan.intensityImage.asCvMatRef());
+    cv::imwrite(folder.path("my_kitchen/depth/" + name + ".png"), millimetresOf(scan));
     std::string boxes;
     for (const auto& o : frame.objects->objects)
     {
