@@ -1,6 +1,7 @@
 #include "quadmap/sensors/EncodedImage.h"
 
 #include <gtest/gtest.h>
+#include <turbojpeg.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -90,4 +91,22 @@ TEST(EncodedImage, DamageOfAJpegIsTold)
   {
     EXPECT_NE(std::string(e.what()).find("Premature end of JPEG"), std::string::npos) << e.what();
   }
+}
+
+TEST(EncodedImage, JpegOfFourInksIsReadAllTheSame)
+{
+  const std::vector<std::uint8_t> ink(4 * kRows * kColumns, 120);
+  unsigned char* made = nullptr;
+  unsigned long size = 0;
+  const tjhandle encoder = tjInitCompress();
+  ASSERT_EQ(
+      tjCompress2(
+          encoder, ink.data(), kColumns, 0, kRows, TJPF_CMYK, &made, &size, TJSAMP_444, 90, 0),
+      0);
+  const cv::Mat ours = decodeImage(made, size, cv::IMREAD_COLOR, 1 << 20);
+  EXPECT_EQ(ours.size(), cv::Size(kColumns, kRows));
+  EXPECT_FALSE(sizeOfColorJpeg({made, made + size}, 1 << 20)) << "it is no plain colour";
+  EXPECT_THROW(decodeImage(made, size / 2, cv::IMREAD_COLOR, 1 << 20), std::runtime_error);
+  tjFree(made);
+  tjDestroy(encoder);
 }

@@ -87,26 +87,37 @@ StatedSize statedSize(const std::uint8_t* bytes, std::size_t size)
   return {};
 }
 
-/** The decoded image, empty when that fails, and why. The warnings of libpng are about things that
- * do not change the image. */
-std::pair<cv::Mat, std::string> decodedWithReason(
-    const std::uint8_t* bytes, std::size_t size, const StatedSize& stated, int flags)
+/** The decoded image, empty when that fails or tells of damage, and what OpenCV's decoders print.
+ * The warnings of libpng are about things that do not change the image. */
+std::pair<cv::Mat, std::string> decodedByOpenCV(
+    const std::uint8_t* bytes, std::size_t size, int flags)
 {
-  if (isJpeg(bytes, size))
-    return decodedJpeg(
-        bytes, size, static_cast<int>(stated.height), static_cast<int>(stated.width));
   const StderrCapture capture;
   try
   {
     const cv::Mat encoded(1, static_cast<int>(size), CV_8U, const_cast<std::uint8_t*>(bytes));
     cv::Mat image = cv::imdecode(encoded, flags | cv::IMREAD_IGNORE_ORIENTATION);
-    return {image, capture.text()};
+    const std::string remarks = capture.text();
+    if (tellsDamage(remarks)) image.release();
+    return {image, remarks};
   }
   catch (const cv::Exception& e)
   {
     return {cv::Mat(), rootMessage(e)};
   }
 }
+
+/** The decoded image, empty when that fails, and why. */
+std::pair<cv::Mat, std::string> decodedWithReason(
+    const std::uint8_t* bytes, std::size_t size, const StatedSize& stated, int flags)
+{
+  if (!isJpeg(bytes, size)) return decodedByOpenCV(bytes, size, flags);
+  const DecodedJpeg decoded =
+      decodedJpeg(bytes, size, static_cast<int>(stated.height), static_cast<int>(stated.width));
+  if (!decoded.image.empty() || decoded.isDamaged) return {decoded.image, decoded.reason};
+  return {decodedByOpenCV(bytes, size, flags).first, decoded.reason};
+}
+
 void requireModest(const StatedSize& stated, std::uint64_t mostPixels)
 {
   if (stated.width == 0 || stated.height == 0)
@@ -167,10 +178,15 @@ std::optional<ImageSize> sizeOfColorJpeg(
   requireModest(stated, mostPixels);
   constexpr int kReduction = 8;  // needs all of the bytes, and little of the work
   const ImageSize size{static_cast<unsigned>(stated.width), static_cast<unsigned>(stated.height)};
-  const auto [image, reason] = decodedJpeg(
+  const DecodedJpeg small = decodedJpeg(
       bytes.data(), bytes.size(), static_cast<int>(size.height), static_cast<int>(size.width),
       kReduction);
-  requireDecoded(image, reason);
+  if (small.image.empty() && !small.isDamaged)
+  {
+    decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, mostPixels);
+    return std::nullopt;
+  }
+  requireDecoded(small.image, small.reason);
   return size;
 }
 
