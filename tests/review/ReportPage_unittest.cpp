@@ -30,7 +30,7 @@ class ReportPage : public ::testing::Test
     cup.existence = 0.97;
     writeObjectsJson(folder_.path("objects.json"), {cup});
     report_ = nlohmann::json::parse(R"({
-      "program": "quadmap-slam", "version": "1.2.3",
+      "format": "quadmap-report", "version": 1, "program": "quadmap-slam", "program_version": "1.2.3",
       "input": {"file": "/some/where/kitchen & hall.rawlog", "frames": 321, "keyframes": 45},
       "boxes": {"total": 9, "by_label": {
         "cup": {"complete": 3, "partial": 1, "rejected": 2, "reasons":

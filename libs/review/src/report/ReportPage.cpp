@@ -106,7 +106,7 @@ std::string reportPage(const std::string& folder, const std::optional<ReportTrut
          (truth ? truthSection(*truth) : "") + "<h2>The run</h2>\n" + runSection(report) +
          warningSection(report) + objectSection(tracks.objects) + boxSection(report) +
          timeSection(report) + "<footer>" + htmlText(textOf(report, "program")) + " " +
-         htmlText(textOf(report, "version")) +
+         htmlText(textOf(report, "program_version")) +
          "; every decision is in report.json.</footer>\n</body>\n</html>\n";
 }
 
