@@ -112,6 +112,17 @@ PosesAs posesAs(const std::string& name)
   return name == "none" ? PosesAs::None : PosesAs::GroundTruth;
 }
 
+/** Boxes of no image at all have the names of other images.
+ *  \exception std::runtime_error If it is so, unless the import is to go on. */
+void reportBoxesOfOtherImages(const FrameFolder& folder, bool keepGoing)
+{
+  if (!folder.boxesAreOfOtherImages()) return;
+  const std::string text = folder.detections() + ": none of its boxes is of an image of " +
+                           folder.folder() + ", as the names or numbers of the images differ";
+  if (!keepGoing) throw std::runtime_error(text);
+  std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
+}
+
 /** Images without a file of boxes were not seen by the detector, or the files have other names.
  *  \exception std::runtime_error If no image has one, unless the import is to go on. */
 void reportMissingDetections(
@@ -128,7 +139,7 @@ void reportMissingDetections(
 /** Frames without a pose are mapped only where the poses around them are known. */
 void reportMissingPoses(const FrameFolder& folder, const FolderImportReport& report)
 {
-  if (report.poses > 0 && report.poses < report.frames)
+  if (!folder.poses().empty() && report.poses < report.frames)
     std::cerr << "quadmap-import: warning: " << report.frames - report.poses << " of "
               << report.frames << " frames have no pose in " << oneLine(folder.poses()) << "\n";
 }
@@ -142,13 +153,14 @@ void import(const FrameFolder& folder, Cli& cli)
   RawlogWriterOptions writing;
   writing.external = cli.external.getValue();
   RawlogWriter writer(cli.output.getValue(), writing);
+  reportBoxesOfOtherImages(folder, options.keepGoing);
   const auto report = importFolder(folder, options, writer, cli::ProgressBar());
   for (const auto& what : report.dropped)
     std::cerr << "quadmap-import: dropped: " << oneLine(what) << "\n";
   if (report.frames == 0)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
   reportMissingDetections(folder, report, options.keepGoing);
-  reportMissingPoses(folder, report);
+  if (options.posesAs != PosesAs::None) reportMissingPoses(folder, report);
   writer.finish();
   std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
             << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";

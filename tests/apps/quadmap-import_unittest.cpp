@@ -123,6 +123,25 @@ TEST_F(QuadmapImport, SaysHowManyFramesHaveNoPose)
   EXPECT_NE(result.err.find("warning: 5 of 6 frames have no pose in groundtruth.txt"), kNotFound);
 }
 
+TEST_F(QuadmapImport, SaysThatNoFrameHasAPose)
+{
+  recording_.files.write("groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  const std::string what = "warning: 6 of 6 frames have no pose in groundtruth.txt";
+  EXPECT_NE(run("tum IN -o OUT/x.rawlog").err.find(what), kNotFound);
+  EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").err.find(what), kNotFound);
+}
+
+TEST_F(QuadmapImport, RefusesResultsOfOtherImages)
+{
+  const std::string file = recording_.files.write(
+      "r.json", R"([{"image_id": "other", "category_id": 62, "bbox": [1, 2, 3, 4]}])");
+  const std::string what = "none of its boxes is of an image of ";
+  expectFailure(run("tum IN -o OUT/x.rawlog --detections " + file), what);
+  const auto kept = run("tum IN -o OUT/x.rawlog --keep-going --detections " + file);
+  EXPECT_EQ(kept.status, 0);
+  EXPECT_NE(kept.err.find("warning: "), kNotFound) << kept.err;
+}
+
 TEST_F(QuadmapImport, SaysThatUpIsNotKnown)
 {
   auto calibration = std::string(SampleRecording::kCalibration);

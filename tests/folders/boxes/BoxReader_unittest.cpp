@@ -23,6 +23,13 @@ class BoxFiles : public testing::Test
     frame.color = "/recording/rgb/" + image;
     return openBoxes(files_.path(place), labels)->boxes(frame, camera_);
   }
+  /** Whether none of the boxes of a file is of an image. */
+  bool isOfOtherImages(const std::string& place, const std::string& image) const
+  {
+    FolderFrame frame;
+    frame.color = "/recording/rgb/" + image;
+    return openBoxes(files_.path(place), "")->isOfOtherImages({frame});
+  }
   std::string errorOfReading(
       const std::string& image, const std::string& place = "", const std::string& labels = "") const
   {
@@ -138,6 +145,31 @@ TEST_F(BoxFiles, CocoResultsHaveNumbersOfImagesAndClasses)
   files_.write("own.json", R"([{"image_id": 0, "category_id": 1, "bbox": [1, 2, 3, 4]}])");
   const auto names = files_.write("names", "desk\nlamp\n");
   EXPECT_EQ(read("0.png", "own.json", names)->at(0).label, "lamp") << "counted from 0";
+}
+
+TEST_F(BoxFiles, CocoResultsMayHaveTimesAsNames)
+{
+  files_.write(
+      "r.json", R"([{"image_id": "1305031102.175304", "category_id": 62, "bbox": [1, 2, 3, 4]},
+    {"image_id": "rgb/1305031103.5.JPG", "category_id": 62, "bbox": [1, 2, 3, 4]}])");
+  EXPECT_EQ(read("1305031102.175304.png", "r.json")->size(), 1u);
+  EXPECT_EQ(read("1305031103.5.png", "r.json")->size(), 1u);
+  EXPECT_TRUE(read("1305031102.png", "r.json")->empty()) << "another time";
+}
+
+TEST_F(BoxFiles, CocoResultsMayBeOfOtherImages)
+{
+  files_.write("r.json", R"([{"image_id": "a", "category_id": 62, "bbox": [1, 2, 3, 4]}])");
+  files_.write("none.json", "[]");
+  EXPECT_TRUE(isOfOtherImages("r.json", "b.png"));
+  EXPECT_FALSE(isOfOtherImages("r.json", "a.png"));
+  EXPECT_FALSE(isOfOtherImages("none.json", "b.png")) << "a detector that found nothing";
+}
+
+TEST_F(BoxFiles, TracksOfYoloAreNotTakenForNamedBoxes)
+{
+  files_.write("a.txt", "56 0.5 0.25 0.1 0.2 0.9 3\n");
+  expectIn(errorOfReading("a.png"), "a.txt:1: the name of a class is '0.5', a number");
 }
 
 TEST_F(BoxFiles, TellsWhatIsWrongInCocoFiles)

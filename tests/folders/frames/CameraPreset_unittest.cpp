@@ -59,6 +59,22 @@ TEST(CameraPreset, RefusesWrongFilesByName)
   EXPECT_NE(errorOf([&] { cameraPreset(files.path("no.ini")); }).find("no.ini"), std::string::npos);
 }
 
+TEST(CameraPreset, HasTheCentreOfTheImageWhenTheFileHasNone)
+{
+  const TemporaryFolder files;
+  const std::string text = "[camera]\nwidth = 320\nheight = 240\nfx = 250\nfy = 250\n";
+  const FolderCamera camera = cameraPreset(files.write("my.ini", text));
+  EXPECT_DOUBLE_EQ(camera.color.cx(), 159.5);
+  EXPECT_DOUBLE_EQ(camera.color.cy(), 119.5);
+  EXPECT_FALSE(camera.depth);
+  const FolderCamera two =
+      cameraPreset(files.write("two.ini", text + "cy = 0\ndepthFx = 260\ndepthFy = 260\n"));
+  EXPECT_DOUBLE_EQ(two.color.cy(), 0) << "what the file says";
+  ASSERT_TRUE(two.depth);
+  EXPECT_DOUBLE_EQ(two.depth->camera.cx(), 159.5);
+  EXPECT_DOUBLE_EQ(two.depth->camera.cy(), 119.5);
+}
+
 TEST(CameraPreset, GivesBackWhatWasSaved)
 {
   CameraPreset preset = CameraPreset::fromFile(findShareFile("cameras/7scenes.ini"));

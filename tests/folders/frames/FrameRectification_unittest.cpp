@@ -4,6 +4,10 @@
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "../../obs/TemporaryFolder.h"
+#include "quadmap/folders/FrameFolder.h"
 
 using namespace quadmap;
 
@@ -30,6 +34,33 @@ cv::Point2d seenAt(const cv::Point2d& ideal, const mrpt::img::TCamera& c)
   return pixels[0];
 }
 }  // namespace
+
+TEST(FrameRectification, GivesColourTheHeightOfDepthWhenOnlyTheHeightsDiffer)
+{
+  const TemporaryFolder files;
+  FolderContent content;
+  content.folder = files.folder().string();
+  const auto camera = [](unsigned rows)
+  {
+    mrpt::img::TCamera c;
+    c.setIntrinsicParamsFromValues(60, 60, 31.5, 0.5 * (rows - 1));
+    c.ncols = 64;
+    c.nrows = rows;
+    return c;
+  };
+  content.camera.color = camera(36);
+  content.camera.depth = DepthCamera{camera(48), mrpt::poses::CPose3D()};
+  FolderFrame frame;
+  frame.time = 1;
+  frame.color = files.path("color.png");
+  frame.depth = files.path("depth.png");
+  cv::imwrite(frame.color, cv::Mat(36, 64, CV_8UC3, cv::Scalar(10, 20, 30)));
+  cv::imwrite(frame.depth, cv::Mat(48, 64, CV_16UC1, cv::Scalar(5000)));
+  content.frames = {frame};
+  const auto scan = FrameFolder(content, {}).scan(0);
+  EXPECT_EQ(scan->rangeImage.rows(), 48);
+  EXPECT_EQ(scan->intensityImage.getHeight(), 48u);
+}
 
 TEST(FrameRectification, ShowsWhatAnIdealCameraWouldShow)
 {

@@ -169,6 +169,35 @@ TEST_F(PcdFolder, TakesPosesFromWhereTheyAre)
   EXPECT_NEAR(second().y(), 7, 1e-9) << "of the matrix beside the cloud";
 }
 
+TEST_F(PcdFolder, HasNoPointsAfterAHeaderWithoutItsLineEnd)
+{
+  for (const char* data : {"ascii", "binary", "binary_compressed"})
+  {
+    std::string text = header(data, "0 0 0 1 0 0 0");
+    text.pop_back();
+    const auto path = files_.write("a.pcd", text);
+    EXPECT_EQ(errorOf([&] { readPcd(path); }).find(path + ": ends before its "), 0u) << data;
+  }
+}
+
+TEST_F(PcdFolder, OrdersCloudsByTimeOrNumber)
+{
+  const auto order = [&]
+  {
+    std::string names;
+    const FrameFolder clouds = openFrameFolder("pcd", folder());
+    for (const auto& frame : clouds.frames()) names += frame.listed + " ";
+    return names;
+  };
+  for (const char* name : {"c10.pcd", "c9.pcd"}) write(name, "binary");
+  EXPECT_EQ(order(), "c9.pcd c10.pcd ");
+  for (const char* name : {"c10.pcd", "c9.pcd"}) std::filesystem::remove(files_.path(name));
+  for (const char* name : {"10.5.pcd", "9.75.pcd"}) write(name, "binary");
+  EXPECT_EQ(order(), "9.75.pcd 10.5.pcd ");
+  write("1.0e300.pcd", "binary");
+  EXPECT_NE(errorOf(order).find("1.0e300.pcd: the time in its name"), std::string::npos);
+}
+
 TEST_F(PcdFolder, RefusesWhatItCannotUse)
 {
   const auto expect = [&](const std::string& from, const std::string& to, const std::string& what)
@@ -186,6 +215,9 @@ TEST_F(PcdFolder, RefusesWhatItCannotUse)
   expect("DATA ascii", "NOTE ascii", "is no PCD file");
   expect("label rgb", "label red", "has no field rgb");
   expect("SIZE 4", "SIZE 8", "the field x has not 4 bytes");
+  expect("SIZE 4 4 4 1", "SIZE -4 4 4 1", "each SIZE of the header must be 1, 2, 4 or 8");
+  expect("COUNT 1 1 1 1", "COUNT 1 1 1 -1", "each COUNT of the header must be in 1..4096");
+  expect("COUNT 1 1 1 1", "COUNT 1 1 1 4000", "ends before its last point");
   expect("VIEWPOINT 0 0 0 1", "VIEWPOINT 0 0 0 0", "VIEWPOINT is no pose");
   expect("HEIGHT 24", "HEIGHT 25", "ends before its last point");
   expect("WIDTH 32", "WIDTH 99999999999", "has too many points");

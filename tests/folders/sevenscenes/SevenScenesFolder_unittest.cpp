@@ -50,6 +50,19 @@ TEST_F(SevenScenes, IsReadAsDownloaded)
   EXPECT_EQ(sequence.posesCount(), 3u);
 }
 
+TEST_F(SevenScenes, TakesTheDepthOfTheGivenCamera)
+{
+  const auto camera =
+      files_.write("my.ini", "[camera]\nfx = 525\nfy = 525\ndepthFactor = 2000\nnoDepth = 60000\n");
+  FrameFolderOptions options;
+  options.camera = camera;
+  const FrameFolder given = openFrameFolder("7scenes", folder(), options);
+  EXPECT_DOUBLE_EQ(given.camera().depthFactor, 2000);
+  EXPECT_EQ(given.camera().noDepth, 60000);
+  const FrameFolder usual = openFrameFolder("7scenes", folder());
+  EXPECT_DOUBLE_EQ(usual.camera().depthFactor, 1000);
+}
+
 TEST_F(SevenScenes, TurnsPosesOfTheDepthCameraIntoThoseOfTheColourCamera)
 {
   const FrameFolder sequence = openFrameFolder("7scenes", folder());

@@ -89,6 +89,39 @@ TEST_F(TumDownload, TakesPosesBetweenThoseOfTheTruth)
   EXPECT_NEAR(folder.T_world_robot(2)->z(), 2, 1e-9) << "the benchmark's z is up";
 }
 
+TEST_F(TumDownload, RefusesManyImagesOfOneTime)
+{
+  std::string depths;
+  for (int i = 0; i < 101; ++i) depths += mrpt::format("%.6f depth/%d.png\n", depthTime(1), i);
+  write("depth.txt", depths);
+  EXPECT_EQ(
+      errorOf([&] { openFrameFolder("tum", folder_); }),
+      folder_ + "/rgb.txt:5: 101 depth images are within 20 ms of it, expected at most 100");
+}
+
+TEST_F(TumDownload, RefusesImagesOutsideTheFolder)
+{
+  for (const char* file : {"/etc/x.png", "../x.png", "rgb/../../x.png"})
+  {
+    const std::string what = mrpt::format(":1: '%s' must be a path inside the folder", file);
+    write("rgb.txt", mrpt::format("1 %s\n", file));
+    const auto error = errorOf([&] { openFrameFolder("tum", folder_); });
+    EXPECT_EQ(error, folder_ + "/rgb.txt" + what);
+  }
+  write("associations.txt", "1 rgb/a.png 1 ../depth/a.png\n");
+  EXPECT_EQ(
+      errorOf([&] { openFrameFolder("tum", folder_); }),
+      folder_ + "/associations.txt:1: '../depth/a.png' must be a path inside the folder");
+}
+
+TEST_F(TumDownload, RefusesAbsurdTimes)
+{
+  write("rgb.txt", "1e300 rgb/a.png\n");
+  EXPECT_EQ(
+      errorOf([&] { openFrameFolder("tum", folder_); }),
+      folder_ + "/rgb.txt:1: the time 1e300 must be in 0..1e10 s");
+}
+
 TEST_F(TumDownloadOfOtherName, NeedsTheCameraByName)
 {
   EXPECT_THROW(openFrameFolder("tum", folder_), std::runtime_error);

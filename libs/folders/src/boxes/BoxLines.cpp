@@ -23,6 +23,19 @@ constexpr std::size_t kYoloColumns = 5;  // without a score
 /** Files with the names of classes, in the order in which they are looked for. */
 const std::vector<std::string> kNameFiles = {"classes.txt", "obj.names", "names.txt", "coco.names"};
 
+bool isNumber(const TextLine& line, std::size_t column)
+{
+  try
+  {
+    numberIn(line, column);
+    return true;
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+
 /** Text files beside each other, one per image. */
 class BoxLines : public BoxReader
 {
@@ -73,6 +86,11 @@ class NamedBoxes : public BoxLines
     DetectedObject object;
     object.label = line.words[1];
     for (std::size_t i = 2; i < end; ++i) object.label += " " + line.words[i];
+    if (end == 2 && isNumber(line, 1))
+      throw std::runtime_error(
+          line.place + ": the name of a class is '" + object.label +
+          "', a number; YOLO's lines have 5 columns, or 6 with the score, but no number of a "
+          "track");
     object.score = numberIn(line, end);
     object.box = {
         numberIn(line, end + 1), numberIn(line, end + 2), numberIn(line, end + 3),
@@ -123,19 +141,6 @@ std::string findNames(const std::string& folder, const std::string& labels)
     for (const auto& name : kNameFiles)
       if (fs::is_regular_file(place / name)) return (place / name).lexically_normal().string();
   return findShareFile("detectors/coco.names");
-}
-
-bool isNumber(const TextLine& line, std::size_t column)
-{
-  try
-  {
-    numberIn(line, column);
-    return true;
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
 }
 }  // namespace
 

@@ -21,6 +21,10 @@ class BoxReader
   virtual std::optional<std::vector<DetectedObject>> boxes(
       const FolderFrame& frame, const mrpt::img::TCamera& camera) const = 0;
 
+  /** Whether all boxes of one file for all images are of images that are not among these. With a
+   * file per image this is not known, as boxes() tells which file is missing. */
+  virtual bool isOfOtherImages(const std::vector<FolderFrame>& /*frames*/) const { return false; }
+
   virtual std::string fileOf(const FolderFrame& frame) const = 0;  //!< That has or should have them
   virtual std::string description() const = 0;                     //!< Form and place, for messages
 };

@@ -33,10 +33,22 @@ T valueOf(const Json& object, const char* key, const std::string& place)
   }
 }
 
+/** The name of an image's file without folder and extension. Names that are times have a point
+ * where no extension begins. */
+std::string withoutExtension(const std::string& file)
+{
+  const fs::path name = fs::path(file).filename();
+  std::string extension = name.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* known : {".png", ".jpg", ".jpeg", ".pcd"})
+    if (extension == known) return name.stem().string();
+  return name.string();
+}
+
 /** An image's name without its extension; of a number, its digits. */
 std::string nameOf(const Json& imageId, const std::string& place)
 {
-  if (imageId.is_string()) return fs::path(imageId.get<std::string>()).stem().string();
+  if (imageId.is_string()) return withoutExtension(imageId.get<std::string>());
   if (imageId.is_number_integer()) return std::to_string(imageId.get<long long>());
   throw std::runtime_error(place + ": 'image_id' must be a name or a whole number");
 }
@@ -105,21 +117,35 @@ class CocoBoxes : public BoxReader
   std::optional<std::vector<DetectedObject>> boxes(
       const FolderFrame& frame, const mrpt::img::TCamera&) const override
   {
-    for (const auto& name : namesOf(frame))
-    {
-      auto found = boxesOf_.find(name);
-      if (found == boxesOf_.end() && isResults_) found = boxesOf_.find(numberAtEnd(name));
-      if (found != boxesOf_.end()) return found->second;
-    }
+    if (const auto* found = find(frame)) return *found;
     // Results do not say at which images the detector looked in vain.
     if (isResults_) return std::vector<DetectedObject>();
     return std::nullopt;
+  }
+
+  bool isOfOtherImages(const std::vector<FolderFrame>& frames) const override
+  {
+    return !boxesOf_.empty() && std::none_of(
+                                    frames.begin(), frames.end(),
+                                    [this](const auto& frame) { return find(frame) != nullptr; });
   }
 
   std::string fileOf(const FolderFrame&) const override { return file_; }
   std::string description() const override { return file_ + " (COCO's JSON)"; }
 
  private:
+  /** The boxes that the file has of an image, or null. */
+  const std::vector<DetectedObject>* find(const FolderFrame& frame) const
+  {
+    for (const auto& name : namesOf(frame))
+    {
+      auto found = boxesOf_.find(name);
+      if (found == boxesOf_.end() && isResults_) found = boxesOf_.find(numberAtEnd(name));
+      if (found != boxesOf_.end()) return &found->second;
+    }
+    return nullptr;
+  }
+
   void readResults(const Json& results, const std::string& labels)
   {
     isResults_ = true;
@@ -138,7 +164,7 @@ class CocoBoxes : public BoxReader
     for (const auto& image : valueOf<Json>(json, "images", file_))
     {
       const std::string place = file_ + ": an image";
-      const auto name = fs::path(valueOf<std::string>(image, "file_name", place)).stem().string();
+      const auto name = withoutExtension(valueOf<std::string>(image, "file_name", place));
       images[valueOf<long long>(image, "id", place)] = name;
       boxesOf_[name];
     }

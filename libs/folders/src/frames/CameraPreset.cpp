@@ -115,6 +115,12 @@ CameraPreset CameraPreset::fromFile(const std::string& path)
     rejectUnknownSections(config, "", {kSection});
     preset.loadFromConfigFile(config, kSection);
     if (preset.color[0] == 0) throw std::invalid_argument("[camera] fx is missing");
+    const auto has = [&](const char* key) { return config.keyExists(kSection, key); };
+    if (!has("cx")) preset.color[2] = 0.5 * (preset.width - 1);
+    if (!has("cy")) preset.color[3] = 0.5 * (preset.height - 1);
+    const bool hasDepth = preset.depth[0] > 0;
+    if (hasDepth && !has("depthCx")) preset.depth[2] = 0.5 * (preset.width - 1);
+    if (hasDepth && !has("depthCy")) preset.depth[3] = 0.5 * (preset.height - 1);
   }
   catch (const std::invalid_argument& e)
   {

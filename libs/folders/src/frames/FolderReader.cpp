@@ -96,12 +96,16 @@ void framesByName(
              depths = imagesIn(fs::path(content.folder) / depthFolder);
   for (const auto& [number, color] : colors)
     if (const auto depth = depths.find(number); depth != depths.end())
+    {
+      if (static_cast<double>(number) > kLatestTime * rate)
+        throw std::runtime_error(color + ": its number is too large");
       content.frames.push_back(
           {static_cast<double>(number) / rate,
            color,
            depth->second,
            colorFolder + "/" + fs::path(color).filename().string(),
            {}});
+    }
   if (content.frames.empty())
     throw std::runtime_error(
         content.folder + ": has no images of equal numbers in " + colorFolder + "/ and " +

@@ -42,7 +42,8 @@ FrameFolder::FrameFolder(FolderContent content, const FrameFolderOptions& option
     boxes_(findBoxes(content_.folder, options))
 {
   const auto& camera = content_.camera;
-  const bool isScaled = rectified_.ncols != camera.color.ncols;
+  const bool isScaled =
+      rectified_.ncols != camera.color.ncols || rectified_.nrows != camera.color.nrows;
   if (camera.isDistorted() || isScaled)
     rectification_ = std::make_unique<FrameRectification>(camera);
   if (camera.isDistorted())
@@ -96,6 +97,11 @@ RecordedFrame FrameFolder::recorded(std::size_t index) const
 std::string FrameFolder::boxesFile(std::size_t index) const
 {
   return boxes_ ? boxes_->fileOf(frames().at(index)) : std::string();
+}
+
+bool FrameFolder::boxesAreOfOtherImages() const
+{
+  return boxes_ && boxes_->isOfOtherImages(frames());
 }
 
 CObservationObjects::Ptr FrameFolder::boxes(std::size_t index) const

@@ -19,6 +19,8 @@ namespace quadmap
 {
 namespace
 {
+constexpr std::size_t kMostBytesOfPoint = 4096;
+
 /** One field of a point, whose size is that of all its numbers. */
 struct Field
 {
@@ -70,7 +72,7 @@ class PcdReader
     if (at_ >= file_.size()) return std::nullopt;
     const auto from = file_.begin() + static_cast<std::ptrdiff_t>(at_);
     const auto end = std::find(from, file_.end(), std::uint8_t{'\n'});
-    at_ = static_cast<std::size_t>(end - file_.begin()) + 1;
+    at_ = std::min(static_cast<std::size_t>(end - file_.begin()) + 1, file_.size());
     std::string line(from, end);
     if (!line.empty() && line.back() == '\r') line.pop_back();
     return line;
@@ -88,7 +90,6 @@ class PcdReader
       readHeaderLine(key, words);
       if (words.fail() && !words.eof()) reject("the line " + key + " of the header is malformed");
     }
-    constexpr std::size_t kMostBytesOfPoint = 4096;
     pointBytes_ = 0;
     for (const auto& field : fields_) pointBytes_ += field.size();
     if (fields_.empty() || pointBytes_ == 0 || pointBytes_ > kMostBytesOfPoint)
@@ -103,11 +104,11 @@ class PcdReader
     if (key == "FIELDS")
       for (std::string name; words >> name;) fields_.push_back({name});
     else if (key == "SIZE")
-      for (auto& field : fields_) words >> field.bytes;
+      for (auto& field : fields_) field.bytes = sizeIn(words);
     else if (key == "TYPE")
       for (auto& field : fields_) words >> field.type;
     else if (key == "COUNT")
-      for (auto& field : fields_) words >> field.count;
+      for (auto& field : fields_) field.count = countIn(words);
     else if (key == "WIDTH")
       words >> cloud_.width;
     else if (key == "HEIGHT")
@@ -116,6 +117,24 @@ class PcdReader
       readViewpoint(words);
     else if (key == "DATA")
       words >> data_;
+  }
+
+  std::size_t sizeIn(std::istringstream& words) const
+  {
+    long long bytes = 0;  // signed, as negative numbers would become large ones
+    words >> bytes;
+    if (bytes != 1 && bytes != 2 && bytes != 4 && bytes != 8)
+      reject("each SIZE of the header must be 1, 2, 4 or 8");
+    return static_cast<std::size_t>(bytes);
+  }
+
+  std::size_t countIn(std::istringstream& words) const
+  {
+    long long count = 0;
+    words >> count;
+    if (count < 1 || count > static_cast<long long>(kMostBytesOfPoint))
+      reject(mrpt::format("each COUNT of the header must be in 1..%zu", kMostBytesOfPoint));
+    return static_cast<std::size_t>(count);
   }
 
   void readViewpoint(std::istringstream& words)
@@ -196,6 +215,10 @@ class PcdReader
   /** Turns a text with numbers into the bytes of a binary file. */
   void readText(std::size_t points)
   {
+    // Each number has a digit at least and a blank or the end of a line behind it, except the last.
+    std::size_t numbers = 0;
+    for (const auto& field : fields_) numbers += points * field.count;
+    if (file_.size() - at_ + 1 < 2 * numbers) reject("ends before its last point");
     std::vector<std::uint8_t> whole(points * pointBytes_);
     for (std::size_t i = 0; i < points; ++i)
     {

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "frames/FolderReader.h"
 #include "frames/FrameImages.h"
 #include "pcd/PcdFile.h"
 #include "quadmap/base/ConfigCheck.h"
+#include "text/TextLines.h"
 
 namespace quadmap
 {
@@ -102,21 +105,42 @@ mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& file)
   return camera;
 }
 
-/** The clouds in the order of their names. A name that is a number with a point is a time [s],
- * others are counted. */
+/** A name that is a number with a point is a time [s].
+ * \exception std::runtime_error If it is negative or too large. */
+std::optional<double> timeOf(const fs::path& file)
+{
+  const std::string name = file.stem().string();
+  const auto time = name.find('.') == std::string::npos ? std::nullopt : parseNumber(name);
+  if (time && !(*time >= 0 && *time <= kLatestTime))
+    throw std::runtime_error(file.string() + ": the time in its name must be in 0..1e10 s");
+  return time;
+}
+
+/** What a cloud goes by: the time or, without one, the number at the end of its name. */
+double orderOf(const fs::path& file)
+{
+  if (const auto time = timeOf(file)) return *time;
+  const std::string name = file.stem().string();
+  const auto digits = name.find_last_not_of("0123456789") + 1;  // npos + 1 is 0
+  return parseNumber(name.substr(digits)).value_or(-1);
+}
+
+/** The clouds in the order of their times or numbers, and of their names where these are equal.
+ * Clouds without a time are counted. */
 std::vector<FolderFrame> framesIn(const std::string& folder)
 {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".pcd") files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
+  std::sort(
+      files.begin(), files.end(),
+      [](const std::string& a, const std::string& b)
+      { return std::make_pair(orderOf(a), a) < std::make_pair(orderOf(b), b); });
   std::vector<FolderFrame> frames;
   for (const auto& file : files)
   {
-    const std::string name = fs::path(file).stem().string();
-    const auto time = name.find('.') == std::string::npos ? std::nullopt : parseNumber(name);
     frames.push_back(
-        {time.value_or(static_cast<double>(frames.size()) / kImagesPerSecond),
+        {timeOf(file).value_or(static_cast<double>(frames.size()) / kImagesPerSecond),
          file,
          file,
          fs::path(file).filename().string(),

@@ -75,8 +75,9 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
   FolderContent content;
   content.folder = folder;
   content.camera = cameraOfFolder(folder, options, "7scenes", kDepthFactor);
-  content.camera.depthFactor = kDepthFactor;
-  content.camera.noDepth = kNoDepth;
+  // A calibration.yaml and the cameras known by name have the factor of registered images.
+  if (fs::path(options.camera).extension() != ".ini") content.camera.depthFactor = kDepthFactor;
+  if (content.camera.noDepth == 0) content.camera.noDepth = kNoDepth;
   content.camera.posesAreOfDepth = content.camera.depth.has_value();
   const auto colors = colorFilesOf(folder), depths = filesOf(folder, ".depth.png");
   for (const auto& [number, color] : colors)

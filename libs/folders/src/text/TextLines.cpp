@@ -3,7 +3,6 @@
 #include <mrpt/core/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -57,8 +56,9 @@ double numberIn(const TextLine& line, std::size_t column)
 double timeIn(const TextLine& line, std::size_t column)
 {
   const double time = numberIn(line, column);
-  if (!std::isfinite(time) || time < 0)
-    throw std::runtime_error(line.place + ": the time " + line.words[column] + " must be >= 0 s");
+  if (!(time >= 0 && time <= kLatestTime))
+    throw std::runtime_error(
+        line.place + ": the time " + line.words[column] + " must be in 0..1e10 s");
   return time;
 }
 

@@ -17,6 +17,8 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr double kDepthFactor = 5000;
+/** Most depth images that may be near one colour image: those of a camera at 2.5 kHz. */
+constexpr std::ptrdiff_t kMostCandidates = 100;
 
 struct ListedImage
 {
@@ -24,13 +26,23 @@ struct ListedImage
   std::string file, place;
 };
 
+/** The path of an image in a list. \exception std::runtime_error If it leads out of the folder. */
+std::string fileIn(const TextLine& line, std::size_t column)
+{
+  const fs::path file = fs::path(line.words[column]).lexically_normal();
+  if (file.is_absolute() || *file.begin() == "..")
+    throw std::runtime_error(
+        line.place + ": '" + line.words[column] + "' must be a path inside the folder");
+  return line.words[column];
+}
+
 std::vector<ListedImage> readImageList(const std::string& path)
 {
   std::vector<ListedImage> images;
   for (const auto& line : readTextLines(path))
   {
     requireColumns(line, 2);
-    images.push_back({timeIn(line, 0), line.words[1], line.place});
+    images.push_back({timeIn(line, 0), fileIn(line, 1), line.place});
   }
   return images;
 }
@@ -51,10 +63,15 @@ std::vector<FolderFrame> associate(
   std::vector<Pair> pairs;
   for (std::size_t c = 0; c < colors.size(); ++c)
   {
-    const auto before = [&](std::size_t d, double t) { return depths[d].time < t; };
+    const auto before = [&](std::size_t depth, double t) { return depths[depth].time < t; };
     auto d = std::lower_bound(order.begin(), order.end(), colors[c].time - maxDelay, before);
-    for (; d != order.end() && depths[*d].time <= colors[c].time + maxDelay; ++d)
-      pairs.push_back({std::abs(depths[*d].time - colors[c].time), c, *d});
+    const auto after = [&](double t, std::size_t depth) { return t < depths[depth].time; };
+    const auto end = std::upper_bound(d, order.end(), colors[c].time + maxDelay, after);
+    if (end - d > kMostCandidates)
+      throw std::runtime_error(mrpt::format(
+          "%s: %td depth images are within %g ms of it, expected at most %td",
+          colors[c].place.c_str(), end - d, 1e3 * maxDelay, kMostCandidates));
+    for (; d != end; ++d) pairs.push_back({std::abs(depths[*d].time - colors[c].time), c, *d});
   }
   const auto closer = [](const Pair& a, const Pair& b) { return a.delay < b.delay; };
   std::stable_sort(pairs.begin(), pairs.end(), closer);
@@ -86,7 +103,7 @@ FolderFrame pairIn(const TextLine& line)
   { return line.words[column].find("depth") != std::string::npos; };
   const std::size_t depth = isDepth(1) && !isDepth(3) ? 0 : 2, color = 2 - depth;
   timeIn(line, color);
-  return {timeIn(line, depth), line.words[color + 1], line.words[depth + 1], line.place, {}};
+  return {timeIn(line, depth), fileIn(line, color + 1), fileIn(line, depth + 1), line.place, {}};
 }
 }  // namespace
 

@@ -102,6 +102,8 @@ class FrameFolder
    *  and line. */
   CObservationObjects::Ptr boxes(std::size_t frame) const;
   std::string boxesFile(std::size_t frame) const;
+  /** Whether there are boxes in one file for all images, and none of them is of a frame. */
+  bool boxesAreOfOtherImages() const;
 
   /** The pose of a frame, or nothing when the recording has none for it. */
   std::optional<mrpt::poses::CPose3D> T_world_robot(std::size_t frame) const;
