@@ -49,6 +49,26 @@ TEST(ProposalFile, IsReadAsItWasWritten)
   EXPECT_FALSE(expected[1].accept) << "one side was not seen";
 }
 
+TEST(ProposalFile, KeepsAnyLabel)
+{
+  const TemporaryFolder folder;
+  for (const std::string& label : std::vector<std::string>{
+           "", " ", " cup ", "$env{HOME}", "$env{", "${x}", "a // b", "cup\\", "two\nlines = 1",
+           "a ; b # c", "[object 2]", "100% wool %41", "\"tea\" pot",
+           "K\xC3\xBC"
+           "che",
+           std::string("a\0b", 3), "@define x 1", "dining-table_2.5"})
+  {
+    CuboidProposal proposal = sampleProposal("3", true);
+    proposal.record.label = label;
+    const std::string text = proposalText({proposal});
+    const auto found = readProposals(folder.write("p.ini", text));
+    ASSERT_EQ(found.size(), 1u) << text;
+    EXPECT_EQ(found[0].record.label, label) << text;
+    EXPECT_TRUE(found[0].accept);
+  }
+}
+
 TEST(ProposalFile, NamesWhatIsWrongInIt)
 {
   const TemporaryFolder folder;
@@ -56,8 +76,10 @@ TEST(ProposalFile, NamesWhatIsWrongInIt)
   for (const std::string& wrong : std::vector<std::string>{
            "[object 1]\n" + good + "acept = yes\n", "[object 1]\n" + good + "yaw_deg = north\n",
            std::string("[object 1]\nlabel = cup\ncenter = 0 0 1\n"),
-           std::string("[object 1]\nsize = 0.1 0.1 0.1\n"), "[cup 1]\n" + good,
-           "[object ]\n" + good})
+           std::string("[object 1]\ncenter = 0 0 1\nsize = 0.1 0.1 0.1\n"),
+           std::string("[object 1]\nlabel = cup\nsize = 0.1 0.1 0.1\n"),
+           std::string("[object 1]\nlabel = 9%\ncenter = 0 0 1\nsize = 1 1 1\n"),
+           "[cup 1]\n" + good, "[object ]\n" + good})
     try
     {
       readProposals(folder.write("p.ini", wrong));
@@ -68,4 +90,16 @@ TEST(ProposalFile, NamesWhatIsWrongInIt)
       EXPECT_NE(std::string(e.what()).find("p.ini: ["), std::string::npos) << e.what();
     }
   EXPECT_THROW(readProposals(folder.path("none.ini")), std::runtime_error);
+  try
+  {
+    readProposals(folder.write("p.ini", "[object 1]\nlabel = ${x}\n"));
+    FAIL() << "x is no variable";
+  }
+  catch (const std::invalid_argument& e)
+  {
+    EXPECT_NE(std::string(e.what()).find("Line 2: Unknown variable"), std::string::npos)
+        << e.what();
+    EXPECT_EQ(std::string(e.what()).rfind(folder.path("p.ini: "), 0), 0u) << e.what();
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << "one line";
+  }
 }

@@ -4,9 +4,12 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>
 
+#include <cctype>
+#include <optional>
 #include <stdexcept>
 
 #include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/base/OptionGroup.h"
 #include "quadmap/base/OptionList.h"
 
@@ -15,6 +18,46 @@ namespace quadmap
 namespace
 {
 const std::string kSection = "object ";
+
+/** Whether a byte of a label stands in the file as it is: INI files give others a meaning. */
+bool isPlain(const std::string& label, std::size_t at)
+{
+  const auto byte = static_cast<unsigned char>(label[at]);
+  if (byte == ' ') return at > 0 && at + 1 < label.size();  // around a value they are dropped
+  return byte < 0x80 && (std::isalnum(byte) || byte == '_' || byte == '-' || byte == '.');
+}
+
+/** A label as the file has it: other bytes than plain ones are %XX, as in web addresses. */
+std::string encoded(const std::string& label)
+{
+  std::string text;
+  for (std::size_t i = 0; i < label.size(); ++i)
+    text += isPlain(label, i) ? std::string(1, label[i])
+                              : mrpt::format("%%%02X", static_cast<unsigned char>(label[i]));
+  return text;
+}
+
+/** The opposite of encoded(). \exception std::invalid_argument For a % without two digits. */
+std::string decoded(const std::string& text)
+{
+  std::string label;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    if (text[i] != '%')
+    {
+      label += text[i];
+      continue;
+    }
+    const std::string digits = text.substr(i + 1, 2);
+    if (digits.size() != 2 || !std::isxdigit(static_cast<unsigned char>(digits[0])) ||
+        !std::isxdigit(static_cast<unsigned char>(digits[1])))
+      throw std::invalid_argument(
+          "label=" + text + ": after % must be two hexadecimal digits (%25 is the sign itself)");
+    label += static_cast<char>(std::stoi(digits, nullptr, 16));
+    i += 2;
+  }
+  return label;
+}
 
 /** One section of a file of proposals. */
 struct ProposalEntry : public OptionGroup
@@ -28,14 +71,14 @@ struct ProposalEntry : public OptionGroup
   void describe(OptionList& list) override
   {
     list.text(
-        "label", [this] { return label; }, [this](const std::string& text) { label = text; },
-        "a text", "Class of the object.");
+        "label", [this] { return encoded(label); },
+        [this](const std::string& text) { label = decoded(text); }, "a text",
+        "Class of the object.");
     list.flag("accept", accept, "Whether the object becomes a part of the truth.");
     list.vector("center", center.data(), {-1e6, 1e6}, "m", "Centre of the cuboid in the map.");
     list.vector("size", size.data(), {1e-4, 1e4}, "m", "Full edge lengths of the cuboid.");
     list.angle("yaw_deg", yaw, {-360, 360}, "Heading of its x axis about the vertical.");
     list.flag("orientation_defined", orientationDefined, "Whether the heading means something.");
-    list.require([this] { return !label.empty(); }, "label: must not be empty");
     list.require([this] { return size.minCoeff() > 0; }, "size: must be there, of numbers > 0");
   }
 };
@@ -59,12 +102,31 @@ std::string sectionText(const CuboidProposal& proposal)
   const ObjectRecord& record = proposal.record;
   mrpt::poses::CPose3D pose = record.object.pose();
   return "\n[" + kSection + record.id + "]\n" + mrpt::format("; %zu points; ", proposal.points) +
-         unseenText(proposal) + "\nlabel = " + record.label +
+         unseenText(proposal) + "\nlabel = " + encoded(record.label) +
          "\naccept = " + (proposal.fullySeen() ? "yes" : "no") +
          "\ncenter = " + numbersText(record.object.center()) +
          "\nsize = " + numbersText(2 * record.object.semiAxes()) +
          mrpt::format("\nyaw_deg = %.2f", mrpt::RAD2DEG(pose.yaw())) +
          "\norientation_defined = " + (record.orientationDefined ? "yes" : "no") + "\n";
+}
+
+/** \exception std::invalid_argument For a section that is no proposal. */
+JudgedProposal readSection(const mrpt::config::CConfigFileBase& config, const std::string& section)
+{
+  ProposalEntry entry;
+  entry.loadFromConfigFile(config, section);
+  for (const char* key : {"label", "center"})
+    if (!config.keyExists(section, key))
+      throw std::invalid_argument("[" + section + "] " + key + ": must be there");
+  JudgedProposal proposal;
+  proposal.accept = entry.accept;
+  proposal.record.id = section.substr(kSection.size());
+  proposal.record.label = entry.label;
+  proposal.record.orientationDefined = entry.orientationDefined;
+  const Eigen::Vector3d& c = entry.center;
+  proposal.record.object =
+      Ellipsoid(mrpt::poses::CPose3D(c.x(), c.y(), c.z(), entry.yaw, 0, 0), 0.5 * entry.size);
+  return proposal;
 }
 
 }  // namespace
@@ -90,32 +152,34 @@ std::string proposalText(const std::vector<CuboidProposal>& proposals)
 std::vector<JudgedProposal> readProposals(const std::string& path)
 {
   requireReadableIni(path);
-  const mrpt::config::CConfigFile config(path);
+  std::optional<mrpt::config::CConfigFile> config;
+  try
+  {
+    config.emplace(path);
+  }
+  catch (const std::exception& e)  // a directive of MRPT, such as ${x}, that means nothing
+  {
+    throw std::invalid_argument(path + ": " + rootMessage(e));
+  }
   std::vector<std::string> sections;
-  config.getAllSections(sections);
+  config->getAllSections(sections);
   std::vector<JudgedProposal> proposals;
   for (const std::string& section : sections)
   {
     if (section.rfind(kSection, 0) != 0 || section.size() == kSection.size())
       throw std::invalid_argument(path + ": [" + section + "]: expected [object ID]");
-    ProposalEntry entry;
     try
     {
-      entry.loadFromConfigFile(config, section);
+      proposals.push_back(readSection(*config, section));
     }
     catch (const std::invalid_argument& e)
     {
       throw std::invalid_argument(path + ": " + e.what());
     }
-    JudgedProposal proposal;
-    proposal.accept = entry.accept;
-    proposal.record.id = section.substr(kSection.size());
-    proposal.record.label = entry.label;
-    proposal.record.orientationDefined = entry.orientationDefined;
-    const Eigen::Vector3d& c = entry.center;
-    proposal.record.object =
-        Ellipsoid(mrpt::poses::CPose3D(c.x(), c.y(), c.z(), entry.yaw, 0, 0), 0.5 * entry.size);
-    proposals.push_back(proposal);
+    catch (const std::exception& e)  // of MRPT, which does not name the section
+    {
+      throw std::invalid_argument(path + ": [" + section + "]: " + rootMessage(e));
+    }
   }
   return proposals;
 }

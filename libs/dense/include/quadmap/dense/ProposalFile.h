@@ -19,7 +19,7 @@ std::vector<JudgedProposal> judged(const std::vector<CuboidProposal>& proposals)
 
 /** The text of a file of proposals, to be corrected by hand: an INI section `[object ID]` for each,
  * with the keys label, accept, center, size, yaw_deg and orientation_defined, below a comment about
- * the sides that no camera saw. */
+ * the sides that no camera saw. In a label, bytes that an INI file could misread are %XX. */
 std::string proposalText(const std::vector<CuboidProposal>& proposals);
 
 /** Reads a file of proposals, in its order. \exception std::runtime_error,std::invalid_argument For
