@@ -52,13 +52,15 @@ struct Cli
                   line.args()};
   cli::Group comparison{line, "Comparison"};
   Text json{"", "json", "Write the figures to this file too.", false, "", "FILE", line.args()};
-  Text html{"",
-            "html",
-            "Write the report of the run with the figures as a page, too (of OUTDIR).",
-            false,
-            "",
-            "FILE",
-            line.args()};
+  Text html{
+      "",
+      "html",
+      "Write the report of the run with the figures as a page, too (of OUTDIR); needs "
+      "--objects or --trajectory.",
+      false,
+      "",
+      "FILE",
+      line.args()};
   TCLAP::SwitchArg inPlace{
       "", "in-place", "Both worlds are the same: compare without aligning them.", line.args()};
   TCLAP::SwitchArg self{
@@ -119,6 +121,8 @@ void run(Cli& cli)
   if (!hasTruth && !cli.self.getValue())
     throw cli::UsageError(
         "nothing to compare with: give --objects, --trajectory, --self or several");
+  if (cli.html.isSet() && !hasTruth)
+    throw cli::UsageError("--html: needs --objects or --trajectory");
   if (cli.config.isSet() && !cli.self.getValue())
     throw cli::UsageError("--config: belongs to --self");
   if (!(cli.maxTimeDifference.getValue() >= 0))

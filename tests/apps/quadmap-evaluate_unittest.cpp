@@ -166,7 +166,8 @@ TEST_F(QuadmapEvaluate, AnswersWrongUsageWithStatus2AndOneLine)
 {
   for (const char* arguments :
        {"", "DIR", "--objects DIR/gt.json", "DIR --objects", "DIR --objcts DIR/gt.json",
-        "DIR another --objects DIR/gt.json", "DIR --objects DIR/gt.json -v loud",
+        "DIR --self --html DIR/r.html", "DIR another --objects DIR/gt.json",
+        "DIR --objects DIR/gt.json -v loud",
         "DIR --trajectory DIR/gt.tum --max-time-difference ten",
         "DIR --trajectory DIR/gt.tum --max-time-difference -1"})
   {

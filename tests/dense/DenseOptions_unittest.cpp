@@ -32,3 +32,18 @@ TEST(DenseOptions, NameTheFileAndTheKeyOfAWrongValue)
     }
   EXPECT_THROW(readDenseOptions(folder.path("none.ini")), std::runtime_error);
 }
+
+TEST(DenseOptions, MissTheirSection)
+{
+  const TemporaryFolder folder;
+  for (const char* text : {"", "[dens]\nroomCell = 0.02\n", "roomCell = 0.02\n"}) try
+    {
+      readDenseOptions(folder.write("d.ini", text));
+      ADD_FAILURE() << text;
+    }
+    catch (const std::invalid_argument& e)
+    {
+      EXPECT_NE(std::string(e.what()).find("d.ini: has no section [dense]"), std::string::npos);
+    }
+  EXPECT_EQ(readDenseOptions(folder.write("d.ini", "[dense]\n")).roomCell, 0.01);
+}

@@ -59,6 +59,8 @@ DenseOptions readDenseOptions(const std::string& path)
 {
   requireReadableIni(path);
   const mrpt::config::CConfigFile config(path);
+  if (!config.sectionExists("dense"))
+    throw std::invalid_argument(path + ": has no section [dense]");
   DenseOptions options;
   try
   {

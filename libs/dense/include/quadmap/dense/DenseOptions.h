@@ -20,7 +20,7 @@ struct DenseOptions : public OptionGroup
                                    //!< distance plus this many standard deviations, > 0
   int normalNeighbours = 24;       //!< A normal is that of the plane through so many points, >= 3
 
-  double boxShare = 0.8;        //!< An object's points lie in this share of its boxes, in (0.5, 1]
+  double boxShare = 0.8;        //!< An object's points lie in this share of its boxes, in [0.5, 1]
   double clearance = 0.004;     //!< Points nearer to a support or a wall belong to it [m], >= 0
   double growDistance = 0.025;  //!< Largest gap between the points of one part [m], > 0
   double smoothingRadius = 0.01;  //!< An object's points move onto the plane of those so near [m]
@@ -32,8 +32,8 @@ struct DenseOptions : public OptionGroup
 };
 
 /** Reads section [dense] of an INI file, strictly.
- * \exception std::runtime_error, std::invalid_argument For a file that cannot be read and a value
- * that makes no sense; the message names file, section and key. */
+ * \exception std::runtime_error, std::invalid_argument For a file that cannot be read, one
+ * without the section, and a value that makes no sense; the message names file, section and key. */
 DenseOptions readDenseOptions(const std::string& path);
 
 }  // namespace quadmap
