@@ -61,6 +61,7 @@ void writeProposalPictures(
         renderer.render(*builder.picture(content, camera, size), camera),
         files.add(fileNameOf(proposal, ".png")));
   }
+  removeFormerFiles(files, ".png");
   files.commit();
 }
 

@@ -60,6 +60,8 @@ std::vector<JudgedProposal> proposalsOf(
 {
   if (std::filesystem::exists(file)) return readProposals(file);
   const auto proposals = propose(result, options);
+  if (proposals.empty())
+    throw std::runtime_error(result + ": no object has points enough for a proposal");
   writeTextFile(file, proposalText(proposals));
   std::cout << "wrote " << file << ": " << proposals.size() << " proposals\n";
   return judged(proposals);

@@ -23,6 +23,8 @@ void writeDenseClouds(
   {
     cli::ProgressBar bar;
     const DenseCloud cloud = fuseRoom(result, options, [&](double share) { bar(share); });
+    if (cloud.empty())
+      throw std::runtime_error(result + ": --cloud found no points in its depth images");
     writeCloud(cloud, *wanted.cloud);
     std::cout << "wrote " << *wanted.cloud << ": " << cloud.size() << " points\n";
   }

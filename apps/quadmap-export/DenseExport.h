@@ -18,7 +18,7 @@ struct DenseExport
 
 /** Makes the clouds from the keyframes of a run, with a bar on a terminal, and says what was
  * written. \param result Folder of quadmap-slam. \param objects The objects of its map. \exception
- * std::runtime_error For files that cannot be read or written, and without PCL. */
+ * std::runtime_error For files that cannot be read or written, without points, and without PCL. */
 void writeDenseClouds(
     const std::string& result, const std::vector<ObjectRecord>& objects, const DenseExport& wanted);
 

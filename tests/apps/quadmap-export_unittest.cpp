@@ -300,6 +300,12 @@ TEST_F(QuadmapExport, WritesTheSameCloudsWhateverTheThreads)
     ++clouds;
   }
   EXPECT_GE(clouds, 5u);
+
+  folder_.write("d.ini", "[dense]\nmaxRange = 0.5\n");
+  const auto empty = run("DIR/room -c DIR/d.ini --cloud DIR/empty.ply");
+  EXPECT_EQ(empty.status, 1);
+  EXPECT_NE(empty.err.find("found no points"), kNotFound) << empty.err;
+  EXPECT_FALSE(exists("empty.ply"));
 }
 #endif
 

@@ -118,6 +118,14 @@ TEST(CuboidProposal, OfAFewPointsIsNone)
   EXPECT_FALSE(proposeCuboid(points));
 }
 
+TEST(CuboidProposal, OfASheetIsThickEnoughForItsText)
+{
+  const Ellipsoid sheet(CPose3D(0, 0, 0.4, 0, 0, 0), {0.5, 0.00001, 0.4});
+  const auto proposal = proposeCuboid(pointsOf(sheet, 0));
+  ASSERT_TRUE(proposal);
+  EXPECT_GE(proposal->record.object.semiAxes().minCoeff(), 0.001);
+}
+
 TEST(CuboidProposal, OfThingsWithoutHeadingIsAsNarrowAsCanBe)
 {
   // A cup: a cylinder with a handle, whose rectangle of least area is a diagonal one.

@@ -142,6 +142,31 @@ TEST(RoomCloud, NamesTheKeyframeWhoseDepthCannotBeUsed)
   }
 }
 
+TEST(RoomCloud, NeedsADepthImage)
+{
+  const SyntheticRoom room;
+  const ResultFolder result(room, 2);
+  auto scan = room.scanFrom(room.robotAt(0), 0);
+  scan->hasRangeImage = false;
+  mrpt::maps::CSimpleMap map;
+  mrpt::obs::CSensoryFrame frame;
+  frame.insert(scan);
+  map.insert(mrpt::poses::CPose3DPDFGaussian(), frame);
+  ASSERT_TRUE(map.saveToFile(result.folder().path("map.simplemap")));
+  try
+  {
+    fuseRoom(result.path(), {}, ignoreProgress);
+    FAIL() << "no depth";
+  }
+  catch (const std::runtime_error& e)
+  {
+    EXPECT_NE(
+        std::string(e.what()).find("map.simplemap: no keyframe has a depth image"),
+        std::string::npos)
+        << e.what();
+  }
+}
+
 TEST(ObjectPoints, AreTheSurfaceOfTheObjectWhateverSizeTheMapSays)
 {
   const SyntheticRoom room;
@@ -192,6 +217,34 @@ TEST(ObjectPoints, GoToFilesNamedByIdAndLabel)
   const auto names = writeObjectClouds({table, nothing}, folder.path("new/clouds"));
   EXPECT_EQ(names, std::vector<std::string>{"7_dining_table____x.pcd"});
   EXPECT_TRUE(std::filesystem::exists(folder.path("new/clouds/7_dining_table____x.pcd")));
+}
+
+TEST(ObjectPoints, HaveShortFileNames)
+{
+  ObjectRecord record;
+  record.id = "7";
+  record.label = std::string(300, 'x');
+  EXPECT_EQ(fileNameOf(record, ".pcd"), "7_" + std::string(64, 'x') + ".pcd");
+}
+
+TEST(ObjectPoints, ReplaceTheFilesOfAnEarlierCallOnly)
+{
+  const TemporaryFolder folder;
+  ObjectPoints cup, table;
+  cup.record.id = "3";
+  cup.record.label = "cup";
+  table.record.id = "7";
+  table.record.label = "table";
+  cup.cloud = table.cloud = {samplePoint(1)};
+  writeObjectClouds({cup, table}, folder.path(""));
+  folder.write("3_scan.pcd", "# .PCD v0.7 - Point Cloud Data file format\n");
+  folder.write("3_notes.txt", "mine");
+  table.record.label = "desk";
+  writeObjectClouds({table}, folder.path(""));
+  std::set<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder.folder()))
+    names.insert(file.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"3_notes.txt", "3_scan.pcd", "7_desk.pcd"}));
 }
 
 TEST(CloudFiles, PcdHasTheFieldsThatItsHeaderNames)

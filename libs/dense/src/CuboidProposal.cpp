@@ -10,6 +10,7 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kFewestPoints = 50;
+constexpr double kLeastHalfLength = 0.001;  // [m]; a file of proposals has four decimals
 
 struct Interval
 {
@@ -129,8 +130,8 @@ std::optional<CuboidProposal> proposeCuboid(const ObjectPoints& object)
   Interval z = endsOf(heights);
   if (object.supportHeight) z.low = std::min(*object.supportHeight, z.high - 0.002);
 
-  const Eigen::Vector3d half(0.5 * x.length(), 0.5 * y.length(), 0.5 * z.length());
-  if (!(half.minCoeff() > 0)) return std::nullopt;
+  const Eigen::Vector3d half =
+      (0.5 * Eigen::Vector3d(x.length(), y.length(), z.length())).cwiseMax(kLeastHalfLength);
   const Eigen::Rotation2Dd R(yaw);
   const Eigen::Vector2d center = R * Eigen::Vector2d(x.middle(), y.middle());
   CuboidProposal proposal;

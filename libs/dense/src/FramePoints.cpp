@@ -90,12 +90,14 @@ void forEachDepthImage(
 {
   ResultKeyframes keyframes(result, boxes);
   const std::size_t step = (keyframes.size() + options.maxKeyframes - 1) / options.maxKeyframes;
+  bool hasDepth = false;
   while (const auto images = keyframes.next())
   {
     const std::size_t number = keyframes.keyframesRead();
     for (const KeyframeScan& image : *images)
     {
       if ((number - 1) % step != 0 || !image.scan->hasRangeImage) continue;
+      hasDepth = true;
       try
       {
         visit(image);
@@ -108,6 +110,7 @@ void forEachDepthImage(
     }
     progress(static_cast<double>(number) / static_cast<double>(keyframes.size()));
   }
+  if (!hasDepth) throw std::runtime_error(keyframes.path() + ": no keyframe has a depth image");
 }
 
 }  // namespace quadmap

@@ -19,7 +19,8 @@ void forEachPoint(
 
 /** Gives the images of a run that have depth, of at most options.maxKeyframes keyframes.
  * \param progress Called with the share that is done, in [0, 1].
- * \exception std::runtime_error For files that cannot be read. Names the file and the keyframe. */
+ * \exception std::runtime_error For files that cannot be read, and when no image has depth. Names
+ * the file and the keyframe. */
 void forEachDepthImage(
     const std::string& result,
     ResultKeyframes::Boxes boxes,

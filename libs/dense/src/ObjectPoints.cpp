@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 
 #include "BackgroundPlanes.h"
 #include "GridCloud.h"
@@ -213,14 +214,44 @@ class Separation
   std::vector<Claim> claims_;            // of each point
 };
 
+/** Whether a file is one that this library wrote for an object: its name is like those of
+ * fileNameOf() and, as the user chooses the folder of clouds, a cloud begins as ours do. */
+bool isOfAnObject(const std::filesystem::directory_entry& file, const std::string& extension)
+{
+  const std::string stem = file.path().stem().string();
+  const bool isNamedSo =
+      file.path().extension() == extension && stem.find('_') != std::string::npos &&
+      std::all_of(
+          stem.begin(), stem.end(),
+          [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+  if (!isNamedSo || file.symlink_status().type() != std::filesystem::file_type::regular)
+    return false;
+  if (extension != ".pcd") return true;
+  std::string firstLine;
+  std::getline(std::ifstream(file.path()), firstLine);
+  return firstLine.rfind("# .PCD v0.7 - quadmap", 0) == 0;
+}
+
 }  // namespace
 
 std::string fileNameOf(const ObjectRecord& record, const std::string& extension)
 {
-  std::string name = record.id + "_" + record.label;
+  constexpr std::size_t kLongestLabel = 64;  // of the 255 bytes that a name may have
+  std::string name = record.id + "_" + record.label.substr(0, kLongestLabel);
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
   return name + extension;
+}
+
+void removeFormerFiles(OutputSet& files, const std::string& extension)
+{
+  const auto names = files.names();
+  for (const auto& file : std::filesystem::directory_iterator(files.folder()))
+  {
+    const std::string name = file.path().filename().string();
+    if (std::find(names.begin(), names.end(), name) == names.end() && isOfAnObject(file, extension))
+      files.addRemoval(name);
+  }
 }
 
 std::vector<ObjectPoints> findObjectPoints(
@@ -249,6 +280,7 @@ std::vector<std::string> writeObjectClouds(
   for (const ObjectPoints& object : objects)
     if (!object.cloud.empty())
       writeCloud(object.cloud, files.add(fileNameOf(object.record, ".pcd")));
+  removeFormerFiles(files, ".pcd");
   files.commit();
   return files.names();
 }

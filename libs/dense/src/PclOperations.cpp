@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "PointOperations.h"
 #include "quadmap/dense/DenseCloud.h"
@@ -38,10 +39,16 @@ void requirePcl(const std::string&) {}
 std::vector<std::size_t> pointOperations::withoutOutliers(
     const Points& points, int neighbours, double standardDeviations)
 {
-  if (points.empty()) return {};
+  if (points.size() < 3)
+  {
+    std::vector<std::size_t> all(points.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
   pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
   filter.setInputCloud(pclCloud(points));
-  filter.setMeanK(neighbours);
+  filter.setMeanK(
+      std::min(neighbours, static_cast<int>(points.size()) - 1));  // PCL reads beyond them
   filter.setStddevMulThresh(standardDeviations);
   pcl::Indices kept;
   filter.filter(kept);

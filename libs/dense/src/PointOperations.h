@@ -14,7 +14,7 @@ using Points = std::vector<Eigen::Vector3f>;  //!< [m]
 
 /** The indices of the points that are no outliers, ascending. An outlier is farther from its
  * neighbours, on average, than all points are from theirs, by more than so many standard
- * deviations. */
+ * deviations. Of fewer than three points all are kept. */
 std::vector<std::size_t> withoutOutliers(
     const Points& points, int neighbours, double standardDeviations);
 

@@ -22,7 +22,7 @@ struct CuboidProposal
 
 /** Fits a cuboid to the points of an object: the bottom is where it stands, the sides are the
  * rectangle of least area around the plan, the top is where its points end: doc/mathematics.md,
- * (22.2) and (22.3).
+ * (22.2) and (22.3). No side is shorter than 2 mm.
  * \return Nothing when there are too few points. */
 std::optional<CuboidProposal> proposeCuboid(const ObjectPoints& object);
 

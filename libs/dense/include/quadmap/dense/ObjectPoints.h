@@ -11,6 +11,8 @@
 
 namespace quadmap
 {
+class OutputSet;
+
 /** The points of one object of a map, as the depth images and the detector's boxes tell them: what
  * lies in its boxes, stands on its support and hangs together. The map says which boxes are of the
  * object and about where it is, but nothing about its size. */
@@ -36,12 +38,18 @@ std::vector<ObjectPoints> findObjectPoints(
     const DenseOptions& options,
     const std::function<void(double)>& progress);
 
-/** ID_LABEL and an extension, where everything but letters, digits and '-' is '_'. */
+/** ID_LABEL and an extension, where everything but letters, digits and '-' is '_', and LABEL ends
+ * after 64 bytes. */
 std::string fileNameOf(const ObjectRecord& record, const std::string& extension);
 
-/** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd, all of them or none. The
- * folder is made when missing. \return The names of the files.
- * \exception std::runtime_error If they cannot be written. */
+/** Has the commit of a set remove the files of its folder that an earlier call wrote for objects
+ * and that are not in the set. Call it when all files were added. \param extension ".pcd" or
+ * ".png". */
+void removeFormerFiles(OutputSet& files, const std::string& extension);
+
+/** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd, all of them or none; the
+ * clouds of an earlier call are removed. The folder is made when missing. \return The names of the
+ * files. \exception std::runtime_error If they cannot be written. */
 std::vector<std::string> writeObjectClouds(
     const std::vector<ObjectPoints>& objects, const std::string& folder);
 
