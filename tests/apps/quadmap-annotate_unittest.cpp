@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "RunProgram.h"
+#include "MappedRoom.h"
 #include "quadmap/evaluation/ObjectEvaluation.h"
 
 using namespace quadmap;
@@ -39,17 +39,9 @@ class QuadmapAnnotate : public ::testing::Test
  protected:
   void simulate(const std::string& scene, int frames) const
   {
-    const std::string path = folder_.path("room");
-    ASSERT_EQ(
-        runProgram(
-            "quadmap-simulate", scene + " --resolution 320x240 --frames " + std::to_string(frames) +
-                                    " -o " + path + ".rawlog")
-            .status,
-        0);
-    ASSERT_EQ(
-        runProgram("quadmap-slam", path + ".rawlog --every 1 --odometry ground-truth -o " + path)
-            .status,
-        0);
+    mapRoom(
+        folder_.path("room"), scene + " --resolution 320x240 --frames " + std::to_string(frames),
+        "--odometry ground-truth");
   }
 
   ProgramResult annotate(const std::string& options = "") const

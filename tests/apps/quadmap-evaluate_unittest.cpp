@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "RunProgram.h"
+#include "MappedRoom.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/obs/Trajectory.h"
 
@@ -225,17 +225,8 @@ TEST_F(QuadmapEvaluate, ComparesWithTheDepthImagesWhereTheyAre)
   expectError("DIR --self", 1, "map.simplemap");
   expectError("DIR/gt.tum --self", 1, "needs a folder");
 
-  const auto recording = folder_.path("room");
-  ASSERT_EQ(
-      runProgram(
-          "quadmap-simulate", "home --resolution 160x120 --frames 30 -o " + recording + ".rawlog")
-          .status,
-      0);
-  ASSERT_EQ(
-      runProgram(
-          "quadmap-slam", recording + ".rawlog --every 1 --odometry ground-truth -o " + recording)
-          .status,
-      0);
+  ASSERT_NO_FATAL_FAILURE(mapRoom(
+      folder_.path("room"), "home --resolution 160x120 --frames 30", "--odometry ground-truth"));
   folder_.write("d.ini", "[dense]\nobjectCell = 0.02\ngrowDistance = 0.06\n");
   const auto result = run("DIR/room --self -c DIR/d.ini --json DIR/self.json");
   ASSERT_EQ(result.status, 0) << result.err;

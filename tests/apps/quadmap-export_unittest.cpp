@@ -8,7 +8,7 @@
 
 #include "../obs/FileSizeLimit.h"
 #include "../review/SampleScene.h"
-#include "RunProgram.h"
+#include "MappedRoom.h"
 #include "SampleMap.h"
 #include "quadmap/obs/Trajectory.h"
 
@@ -210,13 +210,7 @@ TEST_F(QuadmapExport, NeedsNothingButTheMap)
 
 TEST_F(QuadmapExport, DrawsThePicturesOfTheKeyframes)
 {
-  const auto recording = folder_.path("room");
-  ASSERT_EQ(
-      runProgram(
-          "quadmap-simulate", "home --resolution 160x120 --frames 12 -o " + recording + ".rawlog")
-          .status,
-      0);
-  ASSERT_EQ(runProgram("quadmap-slam", recording + ".rawlog --every 1 -o " + recording).status, 0);
+  ASSERT_NO_FATAL_FAILURE(mapRoom(folder_.path("room"), "home --resolution 160x120 --frames 12"));
   const auto result = run("DIR/room --frames DIR/new/frames");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("wrote 12 pictures into "), kNotFound) << result.out;
@@ -267,17 +261,8 @@ TEST_F(QuadmapExport, RefusesCloudsThatItCannotWrite)
 #ifdef QUADMAP_WITH_PCL
 TEST_F(QuadmapExport, WritesTheSameCloudsWhateverTheThreads)
 {
-  const auto recording = folder_.path("room");
-  ASSERT_EQ(
-      runProgram(
-          "quadmap-simulate", "home --resolution 160x120 --frames 30 -o " + recording + ".rawlog")
-          .status,
-      0);
-  ASSERT_EQ(
-      runProgram(
-          "quadmap-slam", recording + ".rawlog --every 1 --odometry ground-truth -o " + recording)
-          .status,
-      0);
+  ASSERT_NO_FATAL_FAILURE(mapRoom(
+      folder_.path("room"), "home --resolution 160x120 --frames 30", "--odometry ground-truth"));
   folder_.write("d.ini", "[dense]\nroomCell = 0.03\nobjectCell = 0.02\n");
   for (const char* threads : {"1", "3"})
   {
