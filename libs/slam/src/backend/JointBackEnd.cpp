@@ -5,7 +5,6 @@
 
 #include "GraphOptions.h"
 #include "MergedObjects.h"
-#include "OdometryChain.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ViewRedundancy.h"
 #include "quadmap/estimation/ViewResiduals.h"
@@ -60,12 +59,6 @@ JointBackEnd::JointBackEnd(
 {
 }
 
-CPose3D JointBackEnd::predict(const CPose3D& T_odom_robot) const
-{
-  if (graph_.poses() == 0) return T_odom_robot;
-  return graph_.pose(graph_.poses() - 1) + (T_odom_robot - lastOdometry_);
-}
-
 std::optional<BoxMeasurement> JointBackEnd::viewFor(
     const CObservationObjects& boxes,
     std::size_t box,
@@ -111,8 +104,8 @@ CPose3D JointBackEnd::addKeyframe(
     const CObservationObjects* boxes,
     SlamResult& result)
 {
-  const CPose3D predicted = predict(T_odom_robot);
-  lastOdometry_ = T_odom_robot;
+  const auto motion = odometry_.next(T_odom_robot);
+  const CPose3D predicted = motion ? graph_.pose(graph_.poses() - 1) + *motion : T_odom_robot;
   const std::size_t pose = graph_.addPose(predicted);
   if (pose > 0 && step) graph_.addStep(pose - 1, pose, stiffAtRest(*step));
   if (!boxes) return predicted;

@@ -10,6 +10,7 @@
 
 #include "BackEnd.h"
 #include "MergedObjects.h"
+#include "OdometryChain.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap
@@ -43,10 +44,6 @@ class JointBackEnd : public BackEnd
       const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
-  /** Where the robot is by odometry from the last keyframe's pose.
-   *  \param T_odom_robot Its pose as the odometry has it. */
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
-
   using Decisions = std::vector<CQuadricObjectMap::Decision>;
 
   std::optional<BoxMeasurement> viewFor(
@@ -84,8 +81,8 @@ class JointBackEnd : public BackEnd
   ExistenceOptions existence_;
   const LabelTable& labels_;
   FactorGraph graph_;
-  StepFit stepFit_;                    //!< Of the steps that have left the window
-  mrpt::poses::CPose3D lastOdometry_;  //!< Of the last keyframe
+  StepFit stepFit_;  //!< Of the steps that have left the window
+  OdometryMotion odometry_;
   CamerasOf cameras_;
 };
 

@@ -3,6 +3,7 @@
 #include <mrpt/poses/Lie/SE.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace quadmap
 {
@@ -26,6 +27,13 @@ std::vector<double> odometryVariances(const std::vector<Keyframe>& keyframes)
 }
 
 }  // namespace
+
+std::optional<CPose3D> OdometryMotion::next(const CPose3D& T_odom_robot)
+{
+  const auto before = std::exchange(last_, T_odom_robot);
+  if (!before) return std::nullopt;
+  return T_odom_robot - *before;
+}
 
 CPose3DPDFGaussian stiffAtRest(CPose3DPDFGaussian step)
 {

@@ -3,12 +3,26 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
 {
+/** Follows the odometry from keyframe to keyframe. */
+class OdometryMotion
+{
+ public:
+  /** Goes on to the next keyframe.
+   *  \param T_odom_robot Its pose as the odometry has it.
+   *  \return The motion from the keyframe before; nothing for the first one. */
+  std::optional<mrpt::poses::CPose3D> next(const mrpt::poses::CPose3D& T_odom_robot);
+
+ private:
+  std::optional<mrpt::poses::CPose3D> last_;
+};
+
 /** The same step, but nearly exact when the robot did not move: images of several cameras at one
  * moment have one pose. */
 mrpt::poses::CPose3DPDFGaussian stiffAtRest(mrpt::poses::CPose3DPDFGaussian step);

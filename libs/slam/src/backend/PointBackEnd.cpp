@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "OdometryChain.h"
 #include "quadmap/geometry/PoseAngles.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
@@ -59,12 +58,6 @@ PointBackEnd::PointBackEnd(
 {
 }
 
-CPose3D PointBackEnd::predict(const CPose3D& T_odom_robot) const
-{
-  if (!correctPoses_ || seen_.empty()) return T_odom_robot;
-  return mrptPose(slam_.pose()) + (T_odom_robot - lastOdometry_);
-}
-
 std::vector<PointMeasurement<3>> PointBackEnd::measure(
     const CObservationObjects& boxes, const CPose3D& T_map_robot)
 {
@@ -100,16 +93,17 @@ CPose3D PointBackEnd::addKeyframe(
     const CObservationObjects* boxes,
     SlamResult&)
 {
-  const CPose3D predicted = predict(T_odom_robot);
-  CPose3DPDFGaussian motion;
-  if (!seen_.empty()) motion.mean = T_odom_robot - lastOdometry_;
-  motion.cov.setIdentity();
-  if (step) motion.cov = stiffAtRest(*step).cov;
-  lastOdometry_ = T_odom_robot;
+  const auto motion = odometry_.next(T_odom_robot);
+  const CPose3D predicted =
+      correctPoses_ && motion ? mrptPose(slam_.pose()) + *motion : T_odom_robot;
+  CPose3DPDFGaussian uncertain;
+  if (motion) uncertain.mean = *motion;
+  uncertain.cov.setIdentity();
+  if (step) uncertain.cov = stiffAtRest(*step).cov;
   seen_.emplace_back();
   std::vector<PointMeasurement<3>> measurements;
   if (boxes) measurements = measure(*boxes, predicted);
-  slam_.addFrame(odometryOf(motion), measurements, pointPose(T_odom_robot));
+  slam_.addFrame(odometryOf(uncertain), measurements, pointPose(T_odom_robot));
   return correctPoses_ ? mrptPose(slam_.pose()) : T_odom_robot;
 }
 

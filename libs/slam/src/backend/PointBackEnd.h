@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "BackEnd.h"
+#include "OdometryChain.h"
 #include "quadmap/estimation/ObjectView.h"
 #include "quadmap/points/PointSlam.h"
 
@@ -29,10 +30,6 @@ class PointBackEnd : public BackEnd
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
-  /** Where the robot is by odometry from the last keyframe's pose.
-   *  \param T_odom_robot Its pose as the odometry has it. */
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
-
   /** A measurement that was handed on. */
   struct Seen
   {
@@ -60,7 +57,7 @@ class PointBackEnd : public BackEnd
   const LabelTable& labels_;
   PointSlam<3> slam_;
   std::vector<std::vector<Seen>> seen_;  //!< By keyframe and measurement
-  mrpt::poses::CPose3D lastOdometry_;
+  OdometryMotion odometry_;
 };
 
 }  // namespace quadmap

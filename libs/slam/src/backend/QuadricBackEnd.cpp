@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "GraphOptions.h"
-#include "OdometryChain.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ViewRedundancy.h"
 
@@ -58,12 +57,6 @@ QuadricBackEnd::QuadricBackEnd(
 {
 }
 
-CPose3D QuadricBackEnd::predict(const CPose3D& T_odom_robot) const
-{
-  if (!correctPoses_ || graph_.poses() == 0) return T_odom_robot;
-  return graph_.pose(graph_.poses() - 1) + (T_odom_robot - lastOdometry_);
-}
-
 QuadricBackEnd::Decisions QuadricBackEnd::associate(
     const CObservationObjects& boxes,
     std::size_t keyframe,
@@ -86,8 +79,9 @@ CPose3D QuadricBackEnd::addKeyframe(
     const CObservationObjects* boxes,
     SlamResult& result)
 {
-  const std::size_t pose = graph_.addPose(predict(T_odom_robot));
-  lastOdometry_ = T_odom_robot;
+  const auto motion = odometry_.next(T_odom_robot);
+  const std::size_t pose = graph_.addPose(
+      correctPoses_ && motion ? graph_.pose(graph_.poses() - 1) + *motion : T_odom_robot);
   if (pose > 0 && step) graph_.addStep(pose - 1, pose, stiffAtRest(*step));
   if (!boxes) return graph_.pose(pose);
 

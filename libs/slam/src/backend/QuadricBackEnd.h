@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "BackEnd.h"
+#include "OdometryChain.h"
 #include "quadmap/graph/FactorGraph.h"
 #include "quadmap/quadric/QuadricObjects.h"
 
@@ -37,10 +38,6 @@ class QuadricBackEnd : public BackEnd
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
  private:
-  /** Where the robot is by odometry from the last keyframe's pose.
-   *  \param T_odom_robot Its pose as the odometry has it. */
-  mrpt::poses::CPose3D predict(const mrpt::poses::CPose3D& T_odom_robot) const;
-
   using Decisions = std::vector<CQuadricObjectMap::Decision>;
 
   Decisions associate(
@@ -65,7 +62,7 @@ class QuadricBackEnd : public BackEnd
   const LabelTable& labels_;
   FactorGraph graph_;
   QuadricObjects objects_;
-  mrpt::poses::CPose3D lastOdometry_;                        //!< Of the last keyframe
+  OdometryMotion odometry_;
   std::map<ObjectId, std::deque<Eigen::Vector3d>> cameras_;  //!< Latest places it was seen from
 };
 
