@@ -17,7 +17,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
  * says nothing about the poses. */
 constexpr double kLooseSigma = 100;  // [m], [rad]
 
-constexpr double kLeast = 1e-9;  // information added to every unknown, so that no pivot is zero
+constexpr double kLeastInformation = 1e-9;  // information added to every unknown, so that no pivot is zero
 
 SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
 {
@@ -91,7 +91,7 @@ GraphProblem::NormalMatrix GraphProblem::normalMatrix(double positionSigma, doub
 
   SparseMatrix& H = normal.H;
   H = squaredJacobian(problem_, options);
-  for (Eigen::Index i = 0; i < H.cols(); ++i) H.coeffRef(i, i) += kLeast;
+  for (Eigen::Index i = 0; i < H.cols(); ++i) H.coeffRef(i, i) += kLeastInformation;
   for (const auto& [id, at] : normal.objectAt)
   {
     const int angles = graph_.objects_.at(id).freedom == ObjectFreedom::Upright ? 1 : 3;

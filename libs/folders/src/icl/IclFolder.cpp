@@ -14,8 +14,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr double kDepthFactor = 5000;
-constexpr double kImagesPerSecond = 1;  // as the trajectories count
+constexpr double kIclDepthFactor = 5000;
+constexpr double kIclImagesPerSecond = 1;  // as the trajectories count
 
 /** Files with trajectories of ICL-NUIM. */
 std::vector<std::string> trajectoriesIn(const std::string& folder)
@@ -54,12 +54,12 @@ FolderContent readIclFolder(const std::string& folder, const FrameFolderOptions&
 {
   FolderContent content;
   content.folder = folder;
-  content.camera = cameraOfFolder(folder, options, "icl", kDepthFactor);
+  content.camera = cameraOfFolder(folder, options, "icl", kIclDepthFactor);
   content.camera.depth.reset();  // rendered by one camera
   if (fs::exists(fs::path(folder) / "associations.txt"))
     readTumFrames(content, options.maxPairDelay);
   else
-    framesByName(content, "rgb", "depth", kImagesPerSecond);
+    framesByName(content, "rgb", "depth", kIclImagesPerSecond);
   const std::string poses = findTrajectory(folder);
   if (poses.empty())
     content.notes.push_back(folder + ": no *.gt.freiburg and no groundtruth.txt, hence no poses");

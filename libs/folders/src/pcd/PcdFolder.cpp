@@ -22,8 +22,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr double kDepthFactor = 5000;  // of the depth images that are made of the clouds
-constexpr double kImagesPerSecond = 30;
+constexpr double kPcdDepthFactor = 5000;  // of the depth images that are made of the clouds
+constexpr double kPcdImagesPerSecond = 30;
 
 /** Makes images of clouds. */
 class PcdImages : public FrameImageReader
@@ -38,7 +38,7 @@ class PcdImages : public FrameImageReader
       for (int u = 0; u < columns; ++u, ++i)
       {
         const auto k = static_cast<std::size_t>(i);
-        const double steps = std::round(kDepthFactor * static_cast<double>(cloud.z[k]));
+        const double steps = std::round(kPcdDepthFactor * static_cast<double>(cloud.z[k]));
         const bool isSeen = steps >= 1 && steps <= std::numeric_limits<std::uint16_t>::max();
         images.depth.at<std::uint16_t>(v, u) = isSeen ? static_cast<std::uint16_t>(steps) : 0;
         const std::uint32_t c = cloud.color[k];
@@ -140,7 +140,7 @@ std::vector<FolderFrame> framesIn(const std::string& folder)
   for (const auto& file : files)
   {
     frames.push_back(
-        {timeOf(file).value_or(static_cast<double>(frames.size()) / kImagesPerSecond),
+        {timeOf(file).value_or(static_cast<double>(frames.size()) / kPcdImagesPerSecond),
          file,
          file,
          fs::path(file).filename().string(),
@@ -193,10 +193,10 @@ FolderContent readPcdFolder(const std::string& folder, const FrameFolderOptions&
   if (options.camera.empty())
     content.camera.color = cameraOf(readPcd(first), first);
   else
-    content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
+    content.camera = cameraOfFolder(folder, options, "", kPcdDepthFactor);
   if (options.camera.empty()) content.camera.origin = "the first cloud";
   content.camera.depth.reset();
-  content.camera.depthFactor = kDepthFactor;
+  content.camera.depthFactor = kPcdDepthFactor;
   const std::string trajectory = (fs::path(folder) / "groundtruth.txt").string();
   if (takeMatrices(content))
     content.poses = "the files beside the clouds";

@@ -16,8 +16,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr double kDepthFactor = 1000;
-constexpr double kImagesPerSecond = 30;
+constexpr double kScanNetDepthFactor = 1000;
+constexpr double kScanNetImagesPerSecond = 30;
 constexpr double kColumnsOfScanNet = 1296, kRowsOfScanNet = 968;  // of its colour images
 
 /** The matrix of a file in intrinsic/. */
@@ -64,7 +64,7 @@ void readCamera(FolderContent& content, const FolderFrame& first)
 {
   auto& camera = content.camera;
   camera.origin = "intrinsic/";
-  camera.depthFactor = kDepthFactor;
+  camera.depthFactor = kScanNetDepthFactor;
   camera.worldUp = Eigen::Vector3d::UnitZ();  // as ScanNet's scenes are turned
   const cv::Size colorSize = sizeOfImage(first.color), depthSize = sizeOfImage(first.depth);
   Eigen::Matrix4d K = matrixOf(content.folder, "intrinsic_color.txt");
@@ -106,11 +106,11 @@ FolderContent readScanNetFolder(const std::string& folder, const FrameFolderOpti
 {
   FolderContent content;
   content.folder = folder;
-  framesByName(content, "color", "depth", kImagesPerSecond);
+  framesByName(content, "color", "depth", kScanNetImagesPerSecond);
   if (options.camera.empty())
     readCamera(content, content.frames.front());
   else
-    content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
+    content.camera = cameraOfFolder(folder, options, "", kScanNetDepthFactor);
   if (fs::is_directory(fs::path(folder) / "pose"))
     readPoses(content);
   else

@@ -15,9 +15,9 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr double kDepthFactor = 1000;
+constexpr double kSevenScenesDepthFactor = 1000;
 constexpr std::uint16_t kNoDepth = 65535;
-constexpr double kImagesPerSecond = 30;
+constexpr double kSevenScenesImagesPerSecond = 30;
 const std::string kPrefix = "frame-";
 
 /** The number of an image of a folder by the end of its name, such as 16 of
@@ -56,7 +56,8 @@ void readPoses(FolderContent& content, const std::map<int, std::string>& files)
   content.poses = "frame-*.pose.txt";
   for (auto& frame : content.frames)
   {
-    const auto file = files.find(static_cast<int>(std::lround(frame.time * kImagesPerSecond)));
+    const auto file =
+        files.find(static_cast<int>(std::lround(frame.time * kSevenScenesImagesPerSecond)));
     if (file == files.end()) continue;
     frame.T_world_optical = readMatrixPose(file->second);
     if (frame.T_world_optical && content.camera.posesAreOfDepth)
@@ -74,16 +75,17 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
 {
   FolderContent content;
   content.folder = folder;
-  content.camera = cameraOfFolder(folder, options, "7scenes", kDepthFactor);
+  content.camera = cameraOfFolder(folder, options, "7scenes", kSevenScenesDepthFactor);
   // A calibration.yaml and the cameras known by name have the factor of registered images.
-  if (fs::path(options.camera).extension() != ".ini") content.camera.depthFactor = kDepthFactor;
+  if (fs::path(options.camera).extension() != ".ini")
+    content.camera.depthFactor = kSevenScenesDepthFactor;
   if (content.camera.noDepth == 0) content.camera.noDepth = kNoDepth;
   content.camera.posesAreOfDepth = content.camera.depth.has_value();
   const auto colors = colorFilesOf(folder), depths = filesOf(folder, ".depth.png");
   for (const auto& [number, color] : colors)
     if (const auto depth = depths.find(number); depth != depths.end())
       content.frames.push_back(
-          {number / kImagesPerSecond,
+          {number / kSevenScenesImagesPerSecond,
            color,
            depth->second,
            fs::path(color).filename().string(),

@@ -16,7 +16,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr double kDepthFactor = 5000;
+constexpr double kTumDepthFactor = 5000;
 /** Most depth images that may be near one colour image: those of a camera at 2.5 kHz. */
 constexpr std::ptrdiff_t kMostCandidates = 100;
 
@@ -146,7 +146,7 @@ FolderContent readTumFolder(const std::string& folder, const FrameFolderOptions&
 {
   FolderContent content;
   content.folder = folder;
-  content.camera = cameraOfFolder(folder, options, "", kDepthFactor);
+  content.camera = cameraOfFolder(folder, options, "", kTumDepthFactor);
   content.camera.depth.reset();  // the benchmark's images are registered
   readTumFrames(content, options.maxPairDelay);
   const std::string poses = (fs::path(folder) / "groundtruth.txt").string();

@@ -12,7 +12,6 @@ namespace quadmap
 namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
-constexpr std::size_t kTop = 4, kBottom = 5;
 
 }  // namespace
 

@@ -31,6 +31,7 @@ struct FaceEstimate
 
 /** Faces in the order +x, -x, +y, -y, +z, -z. */
 using Faces = std::array<FaceEstimate, kFaces>;
+constexpr std::size_t kTop = 4, kBottom = 5;
 
 /** Looks at an object's cloud along the axes of its cuboid (doc/mathematics.md, "Faces"). */
 class FaceEstimator

@@ -12,8 +12,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::size_t kTop = 4;
-
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
 {
@@ -206,7 +204,6 @@ FaceEstimator::Beyond FaceEstimator::beyond(
 
 std::optional<double> FaceEstimator::distanceOfWhatHidesFoot() const
 {
-  constexpr std::size_t kBottom = 5;
   const Eigen::Vector3d ahead = 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
   const Outline lines = outlineTowards(kBottom);
   std::vector<double> distances;
