@@ -7,6 +7,7 @@
 #include "cloud/HorizontalTop.h"
 #include "cloud/WallsBehind.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
+#include "support/SupportEvidence.h"
 
 namespace quadmap
 {
@@ -42,9 +43,10 @@ CandidateRule::CandidateRule(
     cloud_(cloud), planes_(planes), task_(task), options_(options)
 {
   if (task.support) support_ = &planes.plane(*task.support).plane;
-  // Share of a plane inside the box that makes it the object's own; others reach beyond. What hangs
-  // on a wall covers much of what is seen of it.
-  const double minOwnShare = task.label.support == UsualSupport::Wall ? 0.85 : 0.5;
+  // Planes that are not the object's own reach beyond the box. What hangs on a wall covers much of
+  // what is seen of it.
+  const double minOwnShare =
+      task.label.support == UsualSupport::Wall ? 0.85 : RoughObject::kOwnShare;
   for (const double share : planes.all.sharesWithin(range))
     reachesBeyond_.push_back(share < minOwnShare);
 }

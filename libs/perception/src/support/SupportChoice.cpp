@@ -114,13 +114,6 @@ class SupportJudge
     return planes_.plane(*planes_.floor).plane.signedDistance(middle) < 0;
   }
 
-  bool isMostlyInBox(int i) const
-  {
-    constexpr double kMostly = 0.5;
-    const auto index = static_cast<std::size_t>(i);
-    return index < object_.planeShares.size() && object_.planeShares[index] > kMostly;
-  }
-
   double usual(int i) const
   {
     switch (label_.support)
@@ -151,7 +144,7 @@ class SupportJudge
     const auto e = standingEvidence(cloud_, surface, object_, detection_.box, label_, options_);
     // A thing's own top is in its box, too, with little above it; thin things rise little above the
     // noise.
-    const bool mayBeItsTop = label_.support == UsualSupport::Floor || isMostlyInBox(i);
+    const bool mayBeItsTop = label_.support == UsualSupport::Floor || object_.owns(i);
     const double minAbove = mayBeItsTop ? 0.5 : 0.15;
     // A surface that shows all around a thing is not its top. What lies on it may be thinner than
     // the noise of single points.
@@ -255,12 +248,11 @@ Tops addTops(
 /** A surface that lies mostly in a detector's box belongs to a thing, as the top of a bed does. */
 void markFurniture(const std::vector<std::optional<RoughObject>>& objects, ScenePlanes& planes)
 {
-  constexpr double kMostly = 0.5;
   for (const auto& object : objects)
   {
     if (!object) continue;
     for (std::size_t i = 0; i < object->planeShares.size(); ++i)
-      if (object->planeShares[i] > kMostly) planes.all.planes[i].isFurniture = true;
+      if (object->owns(static_cast<int>(i))) planes.all.planes[i].isFurniture = true;
   }
 }
 

@@ -146,7 +146,6 @@ RoughObject roughObject(
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
-  constexpr double kMinOwnShare = 0.5;  // of a plane inside the box, that makes it the object's own
   constexpr double kCentrality = 0.35;  // spread of the weight over the box, share of its size
   const ImageBox box = detection.box.clipped(cloud.camera().width, cloud.camera().height);
   const auto range = cloud.cellsOf(box);
@@ -165,7 +164,7 @@ RoughObject roughObject(
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
       const double tolerance = options.onPlane(p.z());
       const int plane = planes.all.planeAt(cloud, c, r, tolerance);
-      if (plane >= 0 && out.planeShares[static_cast<std::size_t>(plane)] < kMinOwnShare) continue;
+      if (plane >= 0 && !out.owns(plane)) continue;
       const double du = (u - box.centerX()) / (kCentrality * box.width());
       const double dv = (v - box.centerY()) / (kCentrality * box.height());
       all.push_back({p, std::exp(-0.5 * (du * du + dv * dv))});
@@ -237,9 +236,8 @@ std::optional<ScenePlane> topOf(
   constexpr double kFacesUp = 0.9;     // cosine
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
   constexpr std::size_t kFewest = 20;  // cells
-  constexpr double kOwnShare = 0.5;
-  constexpr double kMinFilled = 0.4;  // several things of one height are no surface
-  constexpr int kFinest = 4;          // times more cells than elsewhere: tops are small
+  constexpr double kMinFilled = 0.4;   // several things of one height are no surface
+  constexpr int kFinest = 4;           // times more cells than elsewhere: tops are small
   const auto range = cloud.cellsOf(box);
   std::vector<DepthCloud::CellRange> holes;
   for (const auto& other : others) holes.push_back(cloud.cellsOf(other));
@@ -252,7 +250,7 @@ std::optional<ScenePlane> topOf(
       if (!cloud.valid(c, r) || std::any_of(holes.begin(), holes.end(), isHole)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
       const int plane = planes.all.planeAt(cloud, c, r, options.onPlane(p.z()));
-      if (plane >= 0 && object.planeShares[std::size_t(plane)] < kOwnShare) continue;
+      if (plane >= 0 && !object.owns(plane)) continue;
       const auto normal = cloud.normal(c, r);
       if (normal && normal->cast<double>().dot(planes.up) >= kFacesUp) points.push_back(p);
     }

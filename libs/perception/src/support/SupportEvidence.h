@@ -16,10 +16,19 @@ namespace quadmap
  * most of the box lies, without those of surfaces that reach far beyond the box. */
 struct RoughObject
 {
+  /** Share of a plane inside the box that makes it the object's own, as the top of a bed is. */
+  static constexpr double kOwnShare = 0.5;
+
   std::vector<Eigen::Vector3d> points;  //!< Some hundred, from the lowest up, optical frame [m]
   std::vector<double> planeShares;      //!< Of each plane of the scene the share inside the box
 
   bool empty() const { return points.empty(); }
+  /** \param plane Index in the scene. Of one that was added later nothing is known: it is not. */
+  bool owns(int plane) const
+  {
+    const auto index = static_cast<std::size_t>(plane);
+    return index < planeShares.size() && planeShares[index] >= kOwnShare;
+  }
 };
 
 RoughObject roughObject(
