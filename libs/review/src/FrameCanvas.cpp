@@ -13,7 +13,7 @@ namespace
 {
 constexpr double kNear = 0.05;  // nearer parts of cuboids are not drawn [m]
 constexpr int kWidth = 1200;    // pictures are about as wide [px]
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+constexpr int kCanvasFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kFontScale = 0.5;
 constexpr int kRowHeight = 18;  // of a row of text [px of the picture]
 
@@ -53,14 +53,15 @@ void FrameCanvas::text(
     const Eigen::Vector2d& at, int row, const std::string& text, cv::Scalar color)
 {
   if (text.empty()) return;
-  const cv::Size size(cv::getTextSize(text, kFont, kFontScale, 1, nullptr).width + 6, kRowHeight);
+  const cv::Size size(
+      cv::getTextSize(text, kCanvasFont, kFontScale, 1, nullptr).width + 6, kRowHeight);
   cv::Point corner = onPicture(at);
   corner.x = std::clamp(corner.x, 0, std::max(0, picture_.cols - size.width));
   corner.y = std::clamp(corner.y + row * kRowHeight, 0, std::max(0, picture_.rows - kRowHeight));
   cv::Mat ground = picture_(cv::Rect(corner, size) & cv::Rect(0, 0, picture_.cols, picture_.rows));
   ground *= 0.35;
   cv::putText(
-      picture_, text, corner + cv::Point(3, kRowHeight - 5), kFont, kFontScale, color, 1,
+      picture_, text, corner + cv::Point(3, kRowHeight - 5), kCanvasFont, kFontScale, color, 1,
       cv::LINE_AA);
 }
 

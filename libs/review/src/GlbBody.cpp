@@ -33,7 +33,7 @@ void pad(std::string& bytes, char filler)
   bytes.append((kAlignment - bytes.size() % kAlignment) % kAlignment, filler);
 }
 
-Json vectorJson(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+Json floatsJson(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 /** glTF wants colours in proportion to light; ours are as screens have them (about gamma 2.2). */
 Json linearColor(const mrpt::img::TColor& color, double alpha)
@@ -99,8 +99,8 @@ std::size_t GlbBody::addPositions(const std::vector<Eigen::Vector3f>& points)
     std::memcpy(&bytes[i * 3 * sizeof(float)], points[i].data(), 3 * sizeof(float));
   }
   const std::size_t index = addAccessor(bytes, kVertices, kFloat, "VEC3", points.size());
-  json_["accessors"][index]["min"] = vectorJson(box.min());
-  json_["accessors"][index]["max"] = vectorJson(box.max());
+  json_["accessors"][index]["min"] = floatsJson(box.min());
+  json_["accessors"][index]["max"] = floatsJson(box.max());
   return index;
 }
 

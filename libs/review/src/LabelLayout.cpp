@@ -68,15 +68,14 @@ CSetOfObjects::Ptr plate(
   return group;
 }
 
-/** The point above an object's centre at the height of its highest corner. */
+}  // namespace
+
 Eigen::Vector3d topOf(const ObjectRecord& record)
 {
   Eigen::Vector3d top = record.object.center();
   top.z() = record.object.cuboidCorners().row(2).maxCoeff();
   return top;
 }
-
-}  // namespace
 
 CSetOfObjects::Ptr standingLabels(
     const std::vector<ObjectRecord>& objects, const RenderCamera& camera, double height)

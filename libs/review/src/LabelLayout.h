@@ -2,6 +2,7 @@
 
 #include <mrpt/opengl/CSetOfObjects.h>
 
+#include <Eigen/Dense>
 #include <vector>
 
 #include "quadmap/obs/ObjectList.h"
@@ -13,5 +14,8 @@ namespace quadmap
  * the letters [m]. */
 mrpt::opengl::CSetOfObjects::Ptr standingLabels(
     const std::vector<ObjectRecord>& objects, const RenderCamera& camera, double height);
+
+/** The point above an object's centre at the height of its highest corner. */
+Eigen::Vector3d topOf(const ObjectRecord& record);
 
 }  // namespace quadmap

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "LabelLayout.h"
 #include "SceneColors.h"
 #include "quadmap/obs/LabelColor.h"
 
@@ -91,13 +92,6 @@ struct Label
   cv::Scalar color;
   Eigen::Vector3d top;  //!< Point of the map above which it stands
 };
-
-Eigen::Vector3d topOf(const ObjectRecord& record)
-{
-  Eigen::Vector3d top = record.object.center();
-  top.z() = record.object.cuboidCorners().row(2).maxCoeff();
-  return top;
-}
 
 std::vector<Label> labelsOf(const SceneContent& content)
 {

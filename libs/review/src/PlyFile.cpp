@@ -101,7 +101,7 @@ std::int32_t numberOf(const ObjectRecord& record, std::size_t place)
 }
 
 /** A line of a header: labels may hold line ends. */
-std::string oneLine(std::string text)
+std::string withoutLineEnds(std::string text)
 {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
@@ -117,7 +117,7 @@ void writePly(const SceneContent& content, const std::string& path)
   {
     const ObjectRecord& record = content.objects[i];
     const std::int32_t number = numberOf(record, i);
-    ply.addComment(oneLine("object " + std::to_string(number) + " " + record.label));
+    ply.addComment(withoutLineEnds("object " + std::to_string(number) + " " + record.label));
     addEllipsoid(record, number, ply);
   }
   for (const CloudPoint& p : content.cloud) ply.addVertex(p.position, p.rgb, -1);

@@ -4,7 +4,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::uint64_t kFloat = sizeof(float), kDepth = sizeof(std::uint16_t), kTime = 8;
+constexpr std::uint64_t kDepth = sizeof(std::uint16_t);
 
 void points(RecordCheck& c, int version)
 {

@@ -8,7 +8,7 @@ namespace
 {
 using Head = RecordCheck::Head;
 
-constexpr std::uint64_t kFloat = sizeof(float), kDouble = sizeof(double), kWord = 4, kTime = 8;
+constexpr std::uint64_t kDouble = sizeof(double), kWord = 4;
 
 /** So many observations or actions are never in one record, and MRPT makes room for them first. */
 constexpr std::uint32_t kMostMembers = 1000;

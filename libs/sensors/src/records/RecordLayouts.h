@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -7,6 +8,8 @@
 
 namespace quadmap
 {
+constexpr std::uint64_t kFloat = sizeof(float), kTime = 8;  // of members [bytes]
+
 /** How a class of MRPT 2.5.8 stores itself, for the versions that can be followed. */
 struct Layout
 {

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace
 {
-constexpr double kNear = 0.01;  // nearer corners give no tight bounds [m]
+constexpr double kNearCorner = 0.01;  // nearer corners give no tight bounds [m]
 
 /** The image with a margin of one image size all around. */
 PixelRect surroundings(const PinholeCamera& camera)
@@ -38,7 +38,7 @@ PixelRect boundsOf(const SeenPrimitive& seen, const PinholeCamera& camera)
   {
     const Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
     const Vector3d p = P * (sign.cwiseProduct(seen.primitive->halfSize) - seen.o);
-    if (p.z() < kNear)
+    if (p.z() < kNearCorner)
       ++behind;
     else
     {

@@ -9,8 +9,8 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kSameFloor = 0.12;    // [m]; a table top is higher above the floor than this
-constexpr double kMinFloorArea = 1.0;  // of one that ends [m^2]: a step or a seat is smaller
+constexpr double kSameFloorInFrame = 0.12;  // [m]; a table top is higher above the floor than this
+constexpr double kMinFloorArea = 1.0;       // of one that ends [m^2]: a step or a seat is smaller
 
 /** Does the frame show something under a surface, away from its rim? */
 bool isHollow(const DepthCloud& cloud, const ScenePlane& surface, const SurfaceOptions& options)
@@ -52,7 +52,7 @@ std::vector<ScenePlane*> atFloor(ScenePlanes& planes, const Plane& known)
   for (const int i : planes.horizontal)
   {
     ScenePlane& plane = planes.all.planes[static_cast<std::size_t>(i)];
-    if (std::abs(known.signedDistance(plane.centroid)) < kSameFloor) out.push_back(&plane);
+    if (std::abs(known.signedDistance(plane.centroid)) < kSameFloorInFrame) out.push_back(&plane);
   }
   return out;
 }
@@ -82,8 +82,8 @@ void useKnownFloor(ScenePlanes& planes, const DepthCloud& cloud, const Plane& kn
 {
   constexpr double kClearly = 0.15;  // below the floor [m]; poses err
   const double own =
-      planes.floor ? known.signedDistance(planes.plane(*planes.floor).centroid) : kSameFloor;
-  if (std::abs(own) < kSameFloor) return;
+      planes.floor ? known.signedDistance(planes.plane(*planes.floor).centroid) : kSameFloorInFrame;
+  if (std::abs(own) < kSameFloorInFrame) return;
   const auto shown = atFloor(planes, known);
   if (own < 0)
     for (ScenePlane* plane : shown) plane->isFloor = true;
@@ -101,7 +101,7 @@ void useKnownFloor(ScenePlanes& planes, const DepthCloud& cloud, const Plane& kn
 bool isFloorThatEnds(const ScenePlanes& planes, const Eigen::Vector3d& point, double area)
 {
   if (area < kMinFloorArea || !planes.floor) return false;
-  return std::abs(planes.plane(*planes.floor).plane.signedDistance(point)) > kSameFloor;
+  return std::abs(planes.plane(*planes.floor).plane.signedDistance(point)) > kSameFloorInFrame;
 }
 
 }  // namespace quadmap
