@@ -91,7 +91,8 @@ struct ObjectCloud
   bool empty() const { return points.empty(); }
 };
 
-/** Do two boxes of one frame show the same thing, perhaps under two labels? */
+/** Do two boxes of one frame show the same thing, perhaps under two labels? One does not hide the
+ * other then. AgreementOptions::duplicateIoU asks for more, as a box is dropped by it. */
 inline bool showOneThing(const ImageBox& a, const ImageBox& b) { return imageBoxIoU(a, b) > 0.55; }
 
 /** Coordinates of some points [m], enough of them for a quantile of the middle.
