@@ -29,7 +29,8 @@ function(quadmap_target_options target)
     # MRPT's 3-D objects (2.5.8) have misaligned virtual bases: creating an ellipsoid is enough.
     target_compile_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE}
       -fno-sanitize=alignment -fno-sanitize-recover=all -fno-omit-frame-pointer)
-    target_link_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE})
+    target_link_options(${target} PRIVATE -fsanitize=${QUADMAP_SANITIZE}
+      $<$<CXX_COMPILER_ID:Clang>:-fuse-ld=lld>)
   endif()
 endfunction()
 
@@ -73,11 +74,11 @@ quadmap_precompile(quadmap_common_headers
     <vector>)
 set_target_properties(quadmap_common_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
-# quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... [PRECOMPILED]): target quadmap::<name>, file
+# quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... [PRECOMPILED] [SEPARATE]): target quadmap::<name>, file
 # libquadmap-<name>.so (shared: programs of MRPT load them as plug-ins), headers in
-# include/quadmap/<name>, component <name> of the package.
+# include/quadmap/<name>, component <name> of the package. Its sources are never compiled together when they are SEPARATE.
 function(quadmap_add_library name)
-  cmake_parse_arguments(arg "PRECOMPILED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "PRECOMPILED;SEPARATE" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(quadmap_${name} SHARED ${arg_SOURCES})
   add_library(quadmap::${name} ALIAS quadmap_${name})
   set_target_properties(quadmap_${name} PROPERTIES
@@ -92,6 +93,16 @@ function(quadmap_add_library name)
     quadmap_reuse_precompiled(quadmap_${name} quadmap_common_headers)
   endif()
   quadmap_target_options(quadmap_${name})
+  if(QUADMAP_TOGETHER AND NOT arg_SEPARATE)
+    # Most of what is compiled are templates that sources have in common. Names in unnamed namespaces are unique within
+    # a library for it; those of functions still hide them.
+    set_target_properties(quadmap_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    target_compile_options(quadmap_${name} PRIVATE -Wno-shadow)
+  endif()
+  if(QUADMAP_SANITIZE)
+    # Otherwise templates that a test instantiates, too, would be those of the test, which is not optimised.
+    target_link_options(quadmap_${name} PRIVATE -Wl,-Bsymbolic-functions)
+  endif()
   install(TARGETS quadmap_${name} EXPORT quadmap-${name}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib NAMELINK_COMPONENT dev)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
@@ -127,12 +138,13 @@ function(quadmap_add_program name)
   install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
 endfunction()
 
-# quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ...): a GoogleTest program whose cases CTest lists one by one,
-# with TIMEOUT seconds each (120) and the label <name>.
+# quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ... [LIGHT]): a GoogleTest program whose cases CTest lists one by one,
+# with TIMEOUT seconds each (120) and the label <name>. With sanitizers the code of LIGHT tests, which compute little
+# themselves, is not optimised: that takes half as long to compile.
 # The private headers of the libraries in INTERNALS are found from their src folders.
 # Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
+  cmake_parse_arguments(arg "LIGHT" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -144,9 +156,14 @@ function(quadmap_add_test name)
   foreach(library IN LISTS arg_INTERNALS)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/libs/${library}/src)
   endforeach()
-  quadmap_reuse_precompiled(${name} quadmap_test_headers)
   quadmap_target_options(${name})
-  target_compile_options(${name} PRIVATE ${QUADMAP_TEST_OPTIONS})
+  if(QUADMAP_SANITIZE AND arg_LIGHT)
+    quadmap_reuse_precompiled(${name} quadmap_light_test_headers)
+    target_compile_options(${name} PRIVATE -O0)
+  else()
+    quadmap_reuse_precompiled(${name} quadmap_test_headers)
+    target_compile_options(${name} PRIVATE ${QUADMAP_TEST_OPTIONS})
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS ${name})
 endfunction()
