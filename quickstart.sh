@@ -82,6 +82,9 @@ run_tests() {
   build_targets all
   say "running the tests"
   ctest --test-dir "$build" --output-on-failure -j "$(nproc)" </dev/null
+  local skipped
+  skipped=$(grep -aE '^\[  SKIPPED \] .* \([0-9]+ ms\)$' "$build/Testing/Temporary/LastTest.log" | sort -u || true)
+  [[ -z $skipped ]] || say "not run here:"$'\n'"$skipped"
 }
 
 case "${1:-}:$#" in

@@ -138,13 +138,14 @@ function(quadmap_add_program name)
   install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
 endfunction()
 
-# quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ... [LIGHT]): a GoogleTest program whose cases CTest lists one by one,
-# with TIMEOUT seconds each (120) and the label <name>. With sanitizers the code of LIGHT tests, which compute little
+# quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ... [LIGHT] [EACH_CASE]): a GoogleTest program with the label
+# <name>. CTest runs its suites one by one, because the start of a program takes a fifth of a second, or its cases when
+# these take long. A case may take TIMEOUT seconds (120). With sanitizers the code of LIGHT tests, which compute little
 # themselves, is not optimised: that takes half as long to compile.
 # The private headers of the libraries in INTERNALS are found from their src folders.
 # Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)
-  cmake_parse_arguments(arg "LIGHT" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
+  cmake_parse_arguments(arg "LIGHT;EACH_CASE" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -164,6 +165,14 @@ function(quadmap_add_test name)
     quadmap_reuse_precompiled(${name} quadmap_test_headers)
     target_compile_options(${name} PRIVATE ${QUADMAP_TEST_OPTIONS})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS ${name})
+  set(tests ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  file(CONFIGURE OUTPUT ${tests} @ONLY CONTENT [[
+set(program "@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/@name@")
+set(list "@CMAKE_CURRENT_BINARY_DIR@/@name@_tests.cmake")
+set(label @name@)
+set(timeout @arg_TIMEOUT@)
+set(eachCase @arg_EACH_CASE@)
+include("@PROJECT_SOURCE_DIR@/cmake/TestSuites.cmake")
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${tests})
 endfunction()
