@@ -72,7 +72,7 @@ TEST(Doubles, OddsOfOnePairAreThoseOfItsDensity)
           {{0, 0}, "chair"}
   },
       {{{0.3, 0.4}, "chair"}}, 1.0);
-  problem.floorSigma = 0;
+  problem.leastSigma = 0;
   // Each of the two has the variance 0.05^2 of its own, and the second one also 1 for the drift.
   const double variance = 2 * 0.05 * 0.05 + 1.0;
   const double density = std::exp(-0.5 * 0.25 / variance) / (2 * M_PI * variance);

@@ -43,7 +43,7 @@ class Conditioned
 {
  public:
   explicit Conditioned(const DoublesProblem& problem) :
-      P_(problem.covariance), floor_(problem.floorSigma)
+      P_(problem.covariance), leastSigma_(problem.leastSigma)
   {
     dimension_ = problem.objects.front().position.size();
     x_.resize(P_.rows());
@@ -86,7 +86,7 @@ class Conditioned
   {
     const auto block = [&](std::size_t i, std::size_t j)
     { return P_.block(row(i), row(j), dimension_, dimension_); };
-    const double sigma = std::hypot(floor_, kNonlinearity * correction_);
+    const double sigma = std::hypot(leastSigma_, kNonlinearity * correction_);
     return block(p.first, p.first) + block(p.second, p.second) - block(p.first, p.second) -
            block(p.second, p.first) +
            sigma * sigma * Eigen::MatrixXd::Identity(dimension_, dimension_);
@@ -95,7 +95,7 @@ class Conditioned
   Eigen::VectorXd x_;
   Eigen::MatrixXd P_;
   Eigen::Index dimension_ = 0;
-  double floor_ = 0;       // least standard deviation of a difference [m]
+  double leastSigma_ = 0;  // least standard deviation of a difference [m]
   double correction_ = 0;  // largest correction so far [m]
 };
 

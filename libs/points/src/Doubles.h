@@ -27,7 +27,7 @@ struct DoublesProblem
   double density = 0.1;      //!< Objects per volume of the world [1/m^D], > 0
   double beta = 0.1;         //!< Dirichlet prior of the label histograms, > 0
   unsigned labels = 5;       //!< Number of labels
-  double floorSigma = 0.03;  //!< Least standard deviation of a difference of positions [m]
+  double leastSigma = 0.03;  //!< Least standard deviation of a difference of positions [m]
 };
 
 /** A set of pairs, each of which is one object that was mapped twice. */
