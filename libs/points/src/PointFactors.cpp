@@ -72,7 +72,30 @@ struct OdometryResidual
   }
 };
 
-constexpr int kBlock2 = 3, kBlock3 = 7;
+template <int D>
+constexpr int kBlock = D == 2 ? 3 : 7;
+
+/** As Ceres writes derivatives. */
+template <int Rows, int Columns>
+using RowMajor = Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>;
+
+/** Derivatives by the increments (shift, turn) of a pose, from those by its block. */
+template <int D, int Rows>
+Eigen::Matrix<double, Rows, kPoseIncrement<D>> byIncrements(
+    const RowMajor<Rows, kBlock<D>>& byBlock, const PointPoseBlock<D>& pose)
+{
+  if constexpr (D == 2)
+    return byBlock;
+  else
+  {
+    RowMajor<7, 6> plus;
+    poseManifold()->PlusJacobian(pose.data(), plus.data());
+    const RowMajor<Rows, 6> byTurnAndShift = byBlock * plus;
+    Eigen::Matrix<double, Rows, 6> ordered;
+    ordered << byTurnAndShift.template rightCols<3>(), byTurnAndShift.template leftCols<3>();
+    return ordered;
+  }
+}
 
 }  // namespace
 
@@ -111,20 +134,50 @@ std::unique_ptr<ceres::Manifold> pointPoseManifold<3>()
 template <int D>
 std::unique_ptr<ceres::CostFunction> createSightFactor(const typename PointGraph<D>::Sight& sight)
 {
-  constexpr int kBlock = D == 2 ? kBlock2 : kBlock3;
-  return std::make_unique<ceres::AutoDiffCostFunction<SightResidual<D>, D, kBlock, D>>(
+  return std::make_unique<ceres::AutoDiffCostFunction<SightResidual<D>, D, kBlock<D>, D>>(
       new SightResidual<D>{sight.position, whitening<D>(sight.covariance)});
 }
 
 template <int D>
 std::unique_ptr<ceres::CostFunction> createPointStepFactor(const PointOdometry<D>& step)
 {
-  constexpr int kBlock = D == 2 ? kBlock2 : kBlock3;
   using Residual = OdometryResidual<D>;
-  return std::make_unique<ceres::AutoDiffCostFunction<Residual, kPoseIncrement<D>, kBlock, kBlock>>(
-      new Residual{
-          partsOf<D>(pointBlockOf<D>(step.T_from_to).data()),
-          whitening<kPoseIncrement<D>>(step.covariance)});
+  using Factor = ceres::AutoDiffCostFunction<Residual, kPoseIncrement<D>, kBlock<D>, kBlock<D>>;
+  return std::make_unique<Factor>(new Residual{
+      partsOf<D>(pointBlockOf<D>(step.T_from_to).data()),
+      whitening<kPoseIncrement<D>>(step.covariance)});
+}
+
+template <int D>
+LinearisedSight<D> linearised(
+    const typename PointGraph<D>::Sight& sight,
+    const PointPose<D>& pose,
+    const PointVector<D>& object)
+{
+  const PointPoseBlock<D> block = pointBlockOf<D>(pose);
+  RowMajor<D, kBlock<D>> byBlock;
+  RowMajor<D, D> byObject;
+  const std::array<const double*, 2> at = {block.data(), object.data()};
+  std::array<double*, 2> derivatives = {byBlock.data(), byObject.data()};
+  LinearisedSight<D> out;
+  createSightFactor<D>(sight)->Evaluate(at.data(), out.r.data(), derivatives.data());
+  out.byPose = byIncrements<D, D>(byBlock, block);
+  out.byObject = byObject;
+  return out;
+}
+
+template <int D>
+LinearisedStep<D> linearised(
+    const PointOdometry<D>& step, const PointPose<D>& from, const PointPose<D>& to)
+{
+  constexpr int kRows = kPoseIncrement<D>;
+  const PointPoseBlock<D> start = pointBlockOf<D>(from), end = pointBlockOf<D>(to);
+  RowMajor<kRows, kBlock<D>> byStart, byEnd;
+  const std::array<const double*, 2> at = {start.data(), end.data()};
+  std::array<double*, 2> derivatives = {byStart.data(), byEnd.data()};
+  Vector<double, kRows> r;
+  createPointStepFactor<D>(step)->Evaluate(at.data(), r.data(), derivatives.data());
+  return {byIncrements<D, kRows>(byStart, start), byIncrements<D, kRows>(byEnd, end)};
 }
 
 template PointPose<2> pointPoseOf<2>(const PointPoseBlock<2>&);
@@ -133,5 +186,13 @@ template std::unique_ptr<ceres::CostFunction> createSightFactor<2>(const PointGr
 template std::unique_ptr<ceres::CostFunction> createSightFactor<3>(const PointGraph<3>::Sight&);
 template std::unique_ptr<ceres::CostFunction> createPointStepFactor<2>(const PointOdometry<2>&);
 template std::unique_ptr<ceres::CostFunction> createPointStepFactor<3>(const PointOdometry<3>&);
+template LinearisedSight<2> linearised<2>(
+    const PointGraph<2>::Sight&, const PointPose<2>&, const PointVector<2>&);
+template LinearisedSight<3> linearised<3>(
+    const PointGraph<3>::Sight&, const PointPose<3>&, const PointVector<3>&);
+template LinearisedStep<2> linearised<2>(
+    const PointOdometry<2>&, const PointPose<2>&, const PointPose<2>&);
+template LinearisedStep<3> linearised<3>(
+    const PointOdometry<3>&, const PointPose<3>&, const PointPose<3>&);
 
 }  // namespace quadmap

@@ -33,4 +33,31 @@ std::unique_ptr<ceres::CostFunction> createSightFactor(const typename PointGraph
 template <int D>
 std::unique_ptr<ceres::CostFunction> createPointStepFactor(const PointOdometry<D>& step);
 
+/** Residuals of a measurement of a point [sigmas], and their derivatives by the increments of the
+ * pose and by the object. */
+template <int D>
+struct LinearisedSight
+{
+  PointVector<D> r;
+  Eigen::Matrix<double, D, kPoseIncrement<D>> byPose;
+  PointMatrix<D> byObject;
+};
+
+template <int D>
+LinearisedSight<D> linearised(
+    const typename PointGraph<D>::Sight& sight,
+    const PointPose<D>& pose,
+    const PointVector<D>& object);
+
+/** Derivatives of an odometry residual [sigmas] by the increments of its two poses. */
+template <int D>
+struct LinearisedStep
+{
+  PoseIncrementMatrix<D> byFrom, byTo;
+};
+
+template <int D>
+LinearisedStep<D> linearised(
+    const PointOdometry<D>& step, const PointPose<D>& from, const PointPose<D>& to);
+
 }  // namespace quadmap

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "PointGraph.h"
+#include "PointFactors.h"
 #include "quadmap/estimation/RobustKernel.h"
 
 namespace quadmap
@@ -24,58 +24,28 @@ struct Chain
   Eigen::MatrixXd border;  //!< The block of the objects
 };
 
-/** Adds the step from pose k to the next one: doc/mathematics.md, (16.2). Its residual has a shift,
- * R_f^t (t_t - t_f) - t_m, and the turn from the measured pose to `to`. */
+/** Adds the step from pose k to the next one. */
 template <int D>
-void addStep(
-    const PointPose<D>& from,
-    const PointPose<D>& to,
-    const PointOdometry<D>& step,
-    std::size_t k,
-    Chain<D>& chain)
+void addStep(const LinearisedStep<D>& step, std::size_t k, Chain<D>& chain)
 {
-  PoseIncrementMatrix<D> byFrom = PoseIncrementMatrix<D>::Zero(),
-                         byTo = PoseIncrementMatrix<D>::Zero();
-  byFrom.template topLeftCorner<D, D>() = -from.R.transpose();
-  byFrom.template topRightCorner<D, kTurn<D>>() =
-      -from.R.transpose() * movedByTurn<D>(to.t - from.t);
-  byTo.template topLeftCorner<D, D>() = from.R.transpose();
-  if constexpr (D == 2)
-  {
-    byFrom(2, 2) = -1;
-    byTo(2, 2) = 1;
-  }
-  else
-  {
-    byFrom.template bottomRightCorner<3, 3>() = -to.R.transpose();
-    byTo.template bottomRightCorner<3, 3>() = to.R.transpose();
-  }
-  const PoseIncrementMatrix<D> information = step.covariance.inverse();
-  chain.own[k] += byFrom.transpose() * information * byFrom;
-  chain.own[k + 1] += byTo.transpose() * information * byTo;
-  chain.next[k] += byFrom.transpose() * information * byTo;
+  chain.own[k] += step.byFrom.transpose() * step.byFrom;
+  chain.own[k + 1] += step.byTo.transpose() * step.byTo;
+  chain.next[k] += step.byFrom.transpose() * step.byTo;
 }
 
 template <int D>
 void addSight(
-    const PointPose<D>& pose,
-    const PointVector<D>& object,
-    const typename PointGraph<D>::Sight& sight,
+    const LinearisedSight<D>& sight,
+    std::size_t pose,
+    std::size_t object,
     double huber,
     Chain<D>& chain)
 {
-  const PointMatrix<D> Rt = pose.R.transpose();
-  const PointVector<D> r = Rt * (object - pose.t) - sight.position;
-  PointMatrix<D> information = sight.covariance.inverse();
-  const double sigmas = std::sqrt(r.dot(information * r));
-  information *= RobustKernel::huber(huber).weight(sigmas);
-  Eigen::Matrix<double, D, kPoseIncrement<D>> byPose;
-  byPose.template leftCols<D>() = -Rt;
-  byPose.template rightCols<kTurn<D>>() = -Rt * movedByTurn<D>(object - pose.t);
-  const auto o = D * static_cast<Eigen::Index>(sight.object);
-  chain.own[sight.pose] += byPose.transpose() * information * byPose;
-  chain.objects[sight.pose].push_back({o, byPose.transpose() * information * Rt});
-  chain.border.template block<D, D>(o, o) += Rt.transpose() * information * Rt;
+  const double weight = RobustKernel::huber(huber).weight(sight.r.norm());
+  const auto o = D * static_cast<Eigen::Index>(object);
+  chain.own[pose] += weight * sight.byPose.transpose() * sight.byPose;
+  chain.objects[pose].push_back({o, weight * sight.byPose.transpose() * sight.byObject});
+  chain.border.template block<D, D>(o, o) += weight * sight.byObject.transpose() * sight.byObject;
 }
 
 template <int D>
@@ -99,9 +69,11 @@ Chain<D> informationOf(const PointGraph<D>& graph, double huber)
   for (std::size_t k = 0; k < poses.size(); ++k)
     if (k == 0 || graph.posesFixed) chain.own[k] += kFixed * PoseIncrementMatrix<D>::Identity();
   for (std::size_t k = 0; k < graph.steps.size() && !graph.posesFixed; ++k)
-    addStep<D>(poses[k], poses[k + 1], graph.steps[k], k, chain);
+    addStep<D>(linearised<D>(graph.steps[k], poses[k], poses[k + 1]), k, chain);
   for (const auto& sight : graph.sights)
-    addSight<D>(poses[sight.pose], graph.objects[sight.object], sight, huber, chain);
+    addSight<D>(
+        linearised<D>(sight, poses[sight.pose], graph.objects[sight.object]), sight.pose,
+        sight.object, huber, chain);
   return chain;
 }
 
