@@ -67,6 +67,14 @@ TEST(Questions, FindTheNearestAndTheFarthest)
   EXPECT_EQ(asked("closest cup to the couch"), Ids{"5"});
   EXPECT_EQ(asked("cup nearest the couch"), Ids{"5"});
   EXPECT_EQ(asked("the cup that is farthest from the couch"), Ids{"8"});
+  EXPECT_EQ(asked("what is nearest to the tv"), asked("nearest thing to the tv"));
+  EXPECT_EQ(asked("what is nearest the tv"), asked("nearest thing to the tv"));
+  EXPECT_EQ(asked("nearest to the tv"), asked("nearest thing to the tv"));
+  EXPECT_EQ(asked("which is the nearest cup to the tv"), Ids{"8"});
+  EXPECT_EQ(asked("what is the nearest cup to the tv"), Ids{"8"});
+  EXPECT_EQ(
+      asked("what is nearest to the tv on the table"), asked("nearest thing to the tv on table"));
+  EXPECT_EQ(complaintAbout("what is the nearest tv"), complaintAbout("nearest tv"));
   EXPECT_EQ(asked("nearest cup to cup 5"), Ids{"8"}) << "it is not its own neighbour";
   // The tv ends at x = 0.5, y = 2.05, z = 0.5; the cup begins at x = 0.86, y = 2.86, z = 0.1.
   EXPECT_EQ(reasonOf("nearest cup to the tv"), "0.97 m from tv 1");

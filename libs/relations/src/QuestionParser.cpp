@@ -70,9 +70,11 @@ class Parser
   {
     skip(kSilent);
     if (isAtEnd()) throw QuestionError("the question is empty; ask for example \"cup on table\"");
+    const bool hasSubject = !isAboutAnything();
     takeExtreme();
     skip(kSilent);
-    if (!isAtEnd() && !isRelationAhead()) question_.subject = takeNoun();
+    if (hasSubject && !isAtEnd() && !isRelationAhead()) question_.subject = takeNoun();
+    if (!hasSubject) takeReference();
     for (skip(kSilent); !isAtEnd(); skip(kSilent)) takeClause();
     return question_;
   }
@@ -103,6 +105,26 @@ class Parser
   }
 
   bool isRelationAhead() const { return ahead(kRelations) || ahead(kExtremes); }
+
+  /** Whether an extreme is ahead that has no label of its own: "what is nearest to the tv", "what
+   *  is nearest the tv". "The nearest tv" and "nearest tv" ask for a tv. */
+  bool isAboutAnything() const
+  {
+    if (!ahead(kExtremes)) return false;
+    std::size_t next = at_ + 1;
+    while (next < words_.size() && kSilent.count(words_[next]) != 0) ++next;
+    if (next < words_.size() && kTowards.count(words_[next]) != 0) return true;
+    const bool asksWhat = at_ > 1 && (words_[0] == "what" || words_[0] == "which");
+    return asksWhat && words_[at_ - 1] != "the" && next > at_ + 1;
+  }
+
+  /** What the extreme of isAboutAnything() refers to. */
+  void takeReference()
+  {
+    std::string before = textOf(*question_.extreme);
+    if (!isAtEnd() && kTowards.count(word()) != 0) before = words_[at_++];
+    question_.extremeTo = takeNounAfter(before);
+  }
 
   bool takeExtreme()
   {
