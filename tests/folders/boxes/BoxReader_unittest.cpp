@@ -85,6 +85,21 @@ TEST_F(BoxFiles, YoloFormHasSharesOfTheImage)
   EXPECT_TRUE(read("none.png")->empty());
 }
 
+TEST_F(BoxFiles, YoloOutlinesGiveTheBoxesAroundThem)
+{
+  // As -seg models write them: the last one with its score, which is no coordinate.
+  files_.write(
+      "a.txt",
+      "56 0.5 0.25 0.6 0.75 0.4 0.5\n39 0.1 0.2 0.3 0.2 0.3 0.4 0.1 0.4\n"
+      "41 0.5 0 1 0 1 1 0.5 1 0.125\n");
+  const auto boxes = read("a.png");
+  ASSERT_TRUE(boxes);
+  ASSERT_EQ(boxes->size(), 3u);
+  expectBox(boxes->at(0), "chair", 1.0, {256, 120, 384, 360});
+  expectBox(boxes->at(1), "bottle", 1.0, {64, 96, 192, 192});
+  expectBox(boxes->at(2), "cup", 0.125, {320, 0, 640, 480});
+}
+
 TEST_F(BoxFiles, YoloNamesAreTakenFromAFile)
 {
   files_.write("a.txt", "1 0.5 0.5 0.5 0.5\n");
@@ -110,8 +125,7 @@ TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
   expect("0 0.5 0.5 0.5 0.5\n80 0.5 0.5 0.5 0.5\n", "2: class 80 is none of the 80 of ");
   expect("1.5 0.5 0.5 0.5 0.5\n", "1: class 1.5 is none");
   expect("0 0.5 0.5 0.5 0.5x\n", "1: '0.5x' is not a number");
-  // Outlines, as YOLO writes them for masks, are not boxes.
-  expect("0 0.1 0.1 0.2 0.1 0.2 0.2 0.1 0.2\n", "1: expected 5 columns, got 9");
+  expect("0 0.1 0.1 0.2 0.1 0.2 0.2 0.1 1.2\n", "1: expected 5 columns, got 9");
   expectIn(errorOfReading("a.png", "", files_.path("no.names")), "no.names: cannot be read");
 }
 

@@ -19,7 +19,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kYoloColumns = 5;  // without a score
+constexpr std::size_t kYoloColumns = 5;     // without a score
+constexpr std::size_t kOutlineColumns = 7;  // of a triangle, without a score
 /** Files with the names of classes, in the order in which they are looked for. */
 const std::vector<std::string> kNameFiles = {"classes.txt", "obj.names", "names.txt", "coco.names"};
 
@@ -34,6 +35,35 @@ bool isNumber(const TextLine& line, std::size_t column)
   {
     return false;
   }
+}
+
+/** Whether a line has the number of a class and the outline of an object, x1 y1 x2 y2 ... in shares
+ * of the image, as YOLO writes them for masks. The number of a track behind a box and its score
+ * makes seven columns as well, but is a whole number, which coordinates hardly are. */
+bool isOutline(const TextLine& line)
+{
+  if (line.words.size() < kOutlineColumns) return false;
+  for (std::size_t i = 0; i < line.words.size(); ++i)
+    if (!isNumber(line, i)) return false;
+  for (std::size_t i = 1; i < line.words.size(); ++i)
+    if (const double share = numberIn(line, i); !(share >= 0 && share <= 1)) return false;
+  const double last = numberIn(line, line.words.size() - 1);
+  return line.words.size() > kOutlineColumns || last != std::floor(last);
+}
+
+/** The bounds of an outline, in shares of the image. */
+ImageBox boundsOfOutline(const TextLine& line)
+{
+  ImageBox bounds{1, 1, 0, 0};
+  for (std::size_t i = 1; i + 1 < line.words.size(); i += 2)
+  {
+    const double x = numberIn(line, i), y = numberIn(line, i + 1);
+    bounds.x1 = std::min(bounds.x1, x);
+    bounds.y1 = std::min(bounds.y1, y);
+    bounds.x2 = std::max(bounds.x2, x);
+    bounds.y2 = std::max(bounds.y2, y);
+  }
+  return bounds;
 }
 
 /** Text files beside each other, one per image. */
@@ -114,7 +144,9 @@ class YoloBoxes : public BoxLines
  private:
   DetectedObject boxIn(const TextLine& line, const mrpt::img::TCamera& camera) const override
   {
-    if (line.words.size() != kYoloColumns + 1) requireColumns(line, kYoloColumns);
+    const std::size_t columns = line.words.size();
+    const bool hasOutline = isOutline(line);
+    if (!hasOutline && columns != kYoloColumns + 1) requireColumns(line, kYoloColumns);
     const double id = numberIn(line, 0);
     if (!(id >= 0 && id < static_cast<double>(names_.size()) && id == std::floor(id)))
       throw std::runtime_error(mrpt::format(
@@ -122,7 +154,15 @@ class YoloBoxes : public BoxLines
           names_.size(), namesFile_.c_str()));
     DetectedObject object;
     object.label = names_[static_cast<std::size_t>(id)];
-    object.score = line.words.size() > kYoloColumns ? numberIn(line, kYoloColumns) : 1.0;
+    const bool hasScore = columns % 2 == 0;  // as class and pairs of coordinates are an odd number
+    object.score = hasScore ? numberIn(line, columns - 1) : 1.0;
+    if (hasOutline)
+    {
+      const ImageBox b = boundsOfOutline(line);
+      object.box = {
+          b.x1 * camera.ncols, b.y1 * camera.nrows, b.x2 * camera.ncols, b.y2 * camera.nrows};
+      return object;
+    }
     const double x = numberIn(line, 1) * camera.ncols, y = numberIn(line, 2) * camera.nrows,
                  halfWidth = 0.5 * numberIn(line, 3) * camera.ncols,
                  halfHeight = 0.5 * numberIn(line, 4) * camera.nrows;
@@ -165,7 +205,8 @@ bool hasYoloBoxes(const std::string& folder)
     const auto lines = readTextLines(file);
     if (lines.empty()) continue;
     const auto columns = lines[0].words.size();
-    return (columns == kYoloColumns || columns == kYoloColumns + 1) && isNumber(lines[0], 1);
+    return ((columns == kYoloColumns || columns == kYoloColumns + 1) && isNumber(lines[0], 1)) ||
+           isOutline(lines[0]);
   }
   return false;
 }
