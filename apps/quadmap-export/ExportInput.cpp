@@ -35,8 +35,13 @@ std::vector<ObjectRecord> readTruth(const ExportInput& input)
   EvaluationInput alignment;
   alignment.estimate = input.path;
   alignment.trueTrajectoryPath = input.trajectoryPath;
-  const mrpt::poses::CPose3D T_map_truth = -evaluateRun(alignment).T_truth_estimated;
-  for (ObjectRecord& record : truth) record.object = record.object.transformed(T_map_truth);
+  const EvaluationReport aligned = evaluateRun(alignment);
+  const mrpt::poses::CPose3D T_map_truth = -aligned.T_truth_estimated;
+  for (ObjectRecord& record : truth)
+  {
+    if (aligned.reflection) record.object = (*aligned.reflection)(record.object);
+    record.object = record.object.transformed(T_map_truth);
+  }
   return truth;
 }
 

@@ -54,8 +54,7 @@ std::string turnUpright(FrameFolder& folder)
     return mrpt::format(
         "(%.3f, %.3f, %.3f) in the world of the poses, as %s says", up->x(), up->y(), up->z(),
         folder.camera().origin.c_str());
-  const bool isTurned = folder.rectifiedCamera().fy() < 0;
-  const auto floors = isTurned ? std::vector<Eigen::Vector3d>() : floorsIn(folder);
+  const auto floors = floorsIn(folder);
   const auto up = agreedDirection(floors);
   const auto votes = static_cast<std::size_t>(std::count_if(
       floors.begin(), floors.end(), [&](const auto& f) { return isWithin(f, *up, kAgreement); }));

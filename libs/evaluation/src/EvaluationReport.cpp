@@ -23,8 +23,12 @@ bool isTrajectoryAlone(const EvaluationInput& input)
   return !input.mapObjects && std::filesystem::is_regular_file(input.estimate);
 }
 
+/** \param reflection Of the true poses, if any. */
 std::vector<PosePair> pairsWithTruth(
-    const std::string& path, const Trajectory& estimated, const EvaluationInput& input)
+    const std::string& path,
+    const Trajectory& estimated,
+    const EvaluationInput& input,
+    const std::optional<TruthReflection>& reflection)
 {
   const Trajectory truth = readTumTrajectory(*input.trueTrajectoryPath);
   const double maxTimeDifference = input.maxTimeDifference.value_or(
@@ -34,6 +38,8 @@ std::vector<PosePair> pairsWithTruth(
     throw std::runtime_error(mrpt::format(
         "%s: none of its %zu poses is within %g s of one of the %zu poses of %s", path.c_str(),
         estimated.size(), maxTimeDifference, truth.size(), input.trueTrajectoryPath->c_str()));
+  if (reflection)
+    for (PosePair& pair : pairs) pair.T_truth_body = (*reflection)(pair.T_truth_body);
   return pairs;
 }
 
@@ -42,30 +48,41 @@ double ateOf(const std::vector<PosePair>& pairs, bool inPlace)
   return ateRmse(pairs, inPlace ? mrpt::poses::CPose3D() : alignPositions(pairs));
 }
 
+/** The reflection of the truth when its world is left-handed, which a note then says. */
+std::optional<TruthReflection> findReflection(
+    const std::vector<PosePair>& pairs, const EvaluationInput& input, EvaluationReport& report)
+{
+  if (input.inPlace || isTrajectoryAlone(input)) return std::nullopt;
+  const auto reflection = reflectionOfTruth(pairs);
+  if (reflection)
+    report.notes.push_back(
+        "The true world is left-handed, as its poses turn the other way: y is negated in it.");
+  return reflection;
+}
+
 /** Evaluates the trajectory.
- * \param T_truth_estimated Receives the alignment, unless the comparison is in place. */
-TrajectoryEvaluation evaluateTrajectory(
-    const EvaluationInput& input,
-    mrpt::poses::CPose3D& T_truth_estimated,
-    std::vector<std::string>& notes)
+ * \param report Receives the alignment and the reflection, unless the comparison is in place. */
+TrajectoryEvaluation evaluateTrajectory(const EvaluationInput& input, EvaluationReport& report)
 {
   const std::string path =
       isTrajectoryAlone(input) ? input.estimate : inFolder(input, "trajectory.tum");
   const Trajectory estimated = readTumTrajectory(path);
-  const auto pairs = pairsWithTruth(path, estimated, input);
+  auto pairs = pairsWithTruth(path, estimated, input, std::nullopt);
+  report.reflection = findReflection(pairs, input, report);
+  if (report.reflection) pairs = pairsWithTruth(path, estimated, input, report.reflection);
   if (!input.inPlace && pairs.size() == 1)
   {
     const std::string text =
         path + ": only one pose has a true one: aligned to it, its error is zero whatever it is";
     if (!input.trueObjectsPath) throw std::runtime_error(text + "; try --in-place");
-    notes.push_back(text + ".");
+    report.notes.push_back(text + ".");
   }
   if (!input.inPlace)
   {
     const TrajectoryAlignment alignment = alignTrajectories(pairs);
-    T_truth_estimated = alignment.T_truth_estimated;
+    report.T_truth_estimated = alignment.T_truth_estimated;
     if (alignment.source == AlignmentSource::Orientations && input.trueObjectsPath)
-      notes.push_back(mrpt::format(
+      report.notes.push_back(mrpt::format(
           "The positions do not determine the rotation between the two worlds (their second extent "
           "is %.3f m, less than %.3f m): for the objects the orientations of the poses were used "
           "as well.",
@@ -74,20 +91,26 @@ TrajectoryEvaluation evaluateTrajectory(
   return {estimated.size(), pairs.size(), ateOf(pairs, input.inPlace), std::nullopt};
 }
 
-std::optional<double> odometryAte(const EvaluationInput& input)
+std::optional<double> odometryAte(
+    const EvaluationInput& input, const std::optional<TruthReflection>& reflection)
 {
   if (isTrajectoryAlone(input)) return std::nullopt;
   const std::string path = inFolder(input, "trajectory_odometry.tum");
   if (!std::filesystem::exists(path)) return std::nullopt;
   const Trajectory odometry = readTumTrajectory(path);
   if (odometry.empty()) return std::nullopt;
-  return ateOf(pairsWithTruth(path, odometry, input), input.inPlace);
+  return ateOf(pairsWithTruth(path, odometry, input, reflection), input.inPlace);
 }
 
 /** The true objects that are there when the run ends. */
-std::vector<ObjectRecord> trueObjects(const EvaluationInput& input, std::vector<std::string>& notes)
+std::vector<ObjectRecord> trueObjects(
+    const EvaluationInput& input,
+    const std::optional<TruthReflection>& reflection,
+    std::vector<std::string>& notes)
 {
   auto truth = readObjectsJson(*input.trueObjectsPath);
+  if (reflection)
+    for (ObjectRecord& record : truth) record.object = (*reflection)(record.object);
   const auto comesOrGoes = [](const ObjectRecord& object) { return object.from || object.to; };
   if (std::none_of(truth.begin(), truth.end(), comesOrGoes)) return truth;
   if (input.mapObjects)
@@ -137,15 +160,15 @@ EvaluationReport evaluateRun(const EvaluationInput& input)
 
   if (input.trueTrajectoryPath)
   {
-    report.trajectory = evaluateTrajectory(input, report.T_truth_estimated, report.notes);
-    report.trajectory->ateRmseOdometry = odometryAte(input);
+    report.trajectory = evaluateTrajectory(input, report);
+    report.trajectory->ateRmseOdometry = odometryAte(input, report.reflection);
   }
   const std::string objectsPath =
       input.mapObjects ? input.estimate : inFolder(input, "objects.json");
   if (input.trueObjectsPath) try
     {
       report.objects = evaluateObjects(
-          trueObjects(input, report.notes),
+          trueObjects(input, report.reflection, report.notes),
           input.mapObjects ? *input.mapObjects : readObjectsJson(objectsPath),
           report.T_truth_estimated, input.objects);
     }

@@ -2,8 +2,10 @@
 #include <mrpt/core/format.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "../../obs/TemporaryFolder.h"
 #include "quadmap/folders/FolderKinds.h"
@@ -39,6 +41,64 @@ class IclFolder : public testing::Test
 
   TemporaryFolder files_;
 };
+
+/** Points of a left-handed world with y up, as ICL-NUIM's renderer has it. They are seen from all
+ * poses below. */
+const Eigen::Matrix<double, 3, 4> kPoints =
+    (Eigen::Matrix<double, 3, 4>() << 0, 0.5, 0, 0.1, 1, 1, 1.4, 0.9, 2, 2.1, 2.2, 2.6).finished();
+
+struct LeftHandedPose
+{
+  Eigen::Vector3d t;
+  Eigen::Quaterniond q;
+};
+
+/** The camera goes to the right, turns to the left and rolls. */
+LeftHandedPose leftHandedPose(int i)
+{
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(-0.1 * i, Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(0.05 * i, Eigen::Vector3d::UnitX()) *
+      Eigen::AngleAxisd(0.07 * i, Eigen::Vector3d::UnitZ()));
+  return {
+      {0.1 * i, 1.1, 0.05 * i},
+      turn
+  };
+}
+
+/** A depth image that has the points alone, by the formula of the data set: v = fy y / z + cy with
+ * the negative fy. \param pixels Receives where they are. */
+cv::Mat imageOfPoints(const LeftHandedPose& pose, std::vector<cv::Point>& pixels)
+{
+  cv::Mat depth(480, 640, CV_16UC1, cv::Scalar(0));
+  for (int k = 0; k < kPoints.cols(); ++k)
+  {
+    const Eigen::Vector3d p = pose.q.conjugate() * (kPoints.col(k) - pose.t);
+    pixels.emplace_back(
+        static_cast<int>(std::lround(481.2 * p.x() / p.z() + 319.5)),
+        static_cast<int>(std::lround(-480 * p.y() / p.z() + 239.5)));
+    depth.at<std::uint16_t>(pixels.back()) = static_cast<std::uint16_t>(std::lround(5000 * p.z()));
+  }
+  return depth;
+}
+
+/** Where a pixel is in the world of a recording. */
+Eigen::Vector3d placeOf(const FrameFolder& folder, std::size_t frame, const cv::Point& pixel)
+{
+  const auto scan = folder.scan(frame);
+  const auto& c = scan->cameraParams;
+  const double z = static_cast<double>(scan->rangeUnits) * scan->rangeImage(pixel.y, pixel.x);
+  // In the sensor's frame: x forward, y left, z up.
+  const mrpt::math::TPoint3D p(
+      z, -z * (pixel.x - c.cx()) / c.fx(), -z * (pixel.y - c.cy()) / c.fy());
+  const auto placed = folder.T_world_robot(frame)->composePoint(p);
+  return {placed.x, placed.y, placed.z};
+}
+
+double volume(const Eigen::Matrix<double, 3, 4>& points)
+{
+  return (points.rightCols<3>().colwise() - points.col(0)).determinant();
+}
 }  // namespace
 
 TEST_F(IclFolder, IsReadAsDownloaded)
@@ -50,7 +110,7 @@ TEST_F(IclFolder, IsReadAsDownloaded)
   EXPECT_EQ(room.frames()[2].depth, files_.path("depth/2.png"));
   EXPECT_EQ(room.posesCount(), 3u) << "the first image has none";
   const auto scan = room.scan(2);
-  EXPECT_NEAR(scan->cameraParams.fy(), -480, 1e-9);
+  EXPECT_NEAR(scan->cameraParams.fy(), 480, 1e-9);
   EXPECT_FLOAT_EQ(static_cast<float>(scan->rangeImage(9, 9)) * scan->rangeUnits, 1.0f);
 }
 
@@ -61,6 +121,37 @@ TEST_F(IclFolder, TurnsItsWorldsYUp)
   ASSERT_TRUE(T);
   EXPECT_NEAR(T->z(), 1.5, 1e-9);
   EXPECT_NEAR(T->x(), 0.2, 1e-9) << "the smallest rotation leaves x alone";
+}
+
+TEST_F(IclFolder, WorldIsTheRoomAndNotItsMirrorImage)
+{
+  std::string poses;
+  std::vector<std::vector<cv::Point>> pixels(4);
+  for (int i = 0; i < 4; ++i)
+  {
+    const auto pose = leftHandedPose(i);
+    cv::imwrite(
+        files_.path(mrpt::format("depth/%d.png", i)),
+        imageOfPoints(pose, pixels[static_cast<std::size_t>(i)]));
+    poses += mrpt::format(
+        "%d %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", i, pose.t.x(), pose.t.y(), pose.t.z(),
+        pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w());
+  }
+  files_.write("livingRoom0.gt.freiburg", poses);
+  const FrameFolder room = openFrameFolder("icl", folder());
+  Eigen::Matrix<double, 3, 4> first;
+  for (std::size_t frame = 0; frame < 4; ++frame)
+  {
+    Eigen::Matrix<double, 3, 4> places;
+    for (int k = 0; k < 4; ++k)
+      places.col(k) = placeOf(room, frame, pixels[frame][static_cast<std::size_t>(k)]);
+    if (frame == 0) first = places;
+    // Pixels round by half of one, which is 3 mm at 2.6 m.
+    EXPECT_LT((places - first).cwiseAbs().maxCoeff(), 0.006) << "frame " << frame << " [m]";
+    EXPECT_LT((places.row(2) - kPoints.row(1)).cwiseAbs().maxCoeff(), 0.006) << "up is +z";
+    EXPECT_NEAR(volume(places), -volume(kPoints), 0.05 * std::abs(volume(kPoints)))
+        << "right-handed: the numbers of the recording are those of the mirror image";
+  }
 }
 
 TEST_F(IclFolder, PairsByNumberWithoutAssociations)

@@ -157,12 +157,14 @@ TEST(TumFolder, InterpolatesPosesAtTheFramesTimes)
       << "0.1 s apart";
 }
 
-TEST(TumFolder, KeepsANegativeFy)
+TEST(TumFolder, MakesAWorldOfNegativeFyRightHanded)
 {
   const SampleRecording recording;
   recording.writeCalibration(withValue("fy", "-62.0"));
   const FrameFolder dataset = openFrameFolder("tum", recording.folder());
-  EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.fy(), -62.0);
+  EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.fy(), 62.0);
+  ASSERT_EQ(dataset.notes().size(), 1u);
+  expectIn(dataset.notes()[0], "fy of calibration.yaml is negative: the world of the recording is");
 }
 
 TEST(TumFolder, TakesTheDistortionOutOfImagesAndBoxes)

@@ -9,6 +9,7 @@
 #include "boxes/BoxReader.h"
 #include "frames/FrameImages.h"
 #include "frames/FrameRectification.h"
+#include "frames/RightHanded.h"
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/sensors/RgbdScan.h"
 
@@ -37,7 +38,7 @@ std::unique_ptr<const BoxReader> findBoxes(
 }  // namespace
 
 FrameFolder::FrameFolder(FolderContent content, const FrameFolderOptions& options) :
-    content_(std::move(content)),
+    content_(rightHanded(std::move(content))),
     rectified_(rectifiedCameraOf(content_.camera)),
     boxes_(findBoxes(content_.folder, options))
 {

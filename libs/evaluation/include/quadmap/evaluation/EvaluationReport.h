@@ -8,6 +8,7 @@
 #include "quadmap/evaluation/ObjectEvaluation.h"
 #include "quadmap/evaluation/SelfCheck.h"
 #include "quadmap/evaluation/TrajectoryAlignment.h"
+#include "quadmap/evaluation/TruthReflection.h"
 
 namespace quadmap
 {
@@ -44,14 +45,18 @@ struct EvaluationReport
   std::optional<TrajectoryEvaluation> trajectory;  //!< Empty without a true trajectory
   std::optional<ObjectEvaluation> objects;         //!< Empty without true objects
   std::optional<SelfCheck> self;                   //!< Empty when it was not asked for
-  mrpt::poses::CPose3D T_truth_estimated;          //!< Identity when compared in place
+  /** Set when the true world is left-handed; the figures are over its mirror image. */
+  std::optional<TruthReflection> reflection;
+  /** Into the true world, or its mirror image; identity when compared in place. */
+  mrpt::poses::CPose3D T_truth_estimated;
   std::vector<std::string> notes;  //!< What a reader of the figures must know, one sentence each
 };
 
 /** Compares a run with the truth: doc/mathematics.md, section 20. It reads trajectory.tum,
  * trajectory_odometry.tum (if it exists) and objects.json of OUTDIR, as far as there is a truth for
  * them. Objects that come and go (`from`, `to`) are judged as of the last pose of trajectory.tum.
- * The ATE is that of `evo_ape --align`.
+ * The ATE is that of `evo_ape --align`. A truth whose world is left-handed is reflected, unless it
+ * is compared in place or with a trajectory alone.
  * \exception std::runtime_error For files that are missing, malformed or without common times. */
 EvaluationReport evaluateRun(const EvaluationInput& input);
 

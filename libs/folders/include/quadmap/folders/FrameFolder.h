@@ -26,6 +26,7 @@ struct FolderFrame
   std::string color, depth;  //!< Full paths; the same file when it has both
   std::string listed;        //!< The place in a list ("associations.txt:12"), or the file
   std::optional<mrpt::poses::CPose3D> T_world_optical;  //!< Of the colour camera
+  std::string poseProblem = {};  //!< Why the pose it has cannot be used; names the file
 };
 
 /** What the reader of one kind of folder finds in it. */
@@ -64,6 +65,7 @@ struct RecordedFrame
 
 /** A recording of an RGB-D camera in a folder, of any kind. See openFrameFolder().
  *
+ * A recording of a camera with a negative fy is in a left-handed world, and comes out right-handed.
  * Images and boxes come out rectified, with depth registered to colour. Poses come out as
  * T_world_robot. The robot's frame is the sensor's (x forward, z up), and the world is turned so
  * that up is +z. */
@@ -77,7 +79,8 @@ class FrameFolder
 
   const std::string& kind() const { return content_.kind; }
   const std::string& folder() const { return content_.folder; }
-  const FolderCamera& camera() const { return content_.camera; }  //!< As it is in the files
+  /** As it is in the files, but that a negative fy is made positive. */
+  const FolderCamera& camera() const { return content_.camera; }
   const mrpt::img::TCamera& rectifiedCamera() const { return rectified_; }
   const std::vector<FolderFrame>& frames() const { return content_.frames; }
   const std::string& pairing() const { return content_.pairing; }
