@@ -86,6 +86,8 @@ FolderImportReport importFolder(
     }
     const auto loaded = load(folder, i, options, report);
     if (!loaded) continue;
+    if (!frames[i].poseProblem.empty() && options.posesAs != PosesAs::None)
+      drop(report, options, frames[i].poseProblem);
     lastTime = frames[i].time;
     const auto T_world_robot = folder.T_world_robot(i);
     if (T_world_robot && options.posesAs != PosesAs::None)

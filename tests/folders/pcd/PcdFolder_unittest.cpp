@@ -10,12 +10,14 @@
 #include "../../obs/TemporaryFolder.h"
 #include "pcd/Lzf.h"
 #include "pcd/PcdFile.h"
+#include "quadmap/folders/FolderCheck.h"
 #include "quadmap/folders/FolderKinds.h"
 
 using namespace quadmap;
 
 namespace
 {
+constexpr auto kNotFound = std::string::npos;
 constexpr int kColumns = 32, kRows = 24;
 constexpr double kFocal = 30.0, kCx = 15.0, kCy = 12.0;
 
@@ -68,17 +70,19 @@ class PcdFolder : public testing::Test
         kColumns, kRows, viewpoint.c_str(), kColumns * kRows, data.c_str());
   }
 
+  /** \param shift Of the points to the right [m]. */
   void write(
       const std::string& name,
       const std::string& data,
-      const std::string& viewpoint = "0 0 0 1 0 0 0") const
+      const std::string& viewpoint = "0 0 0 1 0 0 0",
+      float shift = 0) const
   {
     std::string points;
     std::string fields[5];
     for (int v = 0; v < kRows; ++v)
       for (int u = 0; u < kColumns; ++u)
       {
-        const Eigen::Vector3f p = pointAt(u, v);
+        const Eigen::Vector3f p = pointAt(u, v) + Eigen::Vector3f(shift, 0, 0);
         const std::string values[5] = {
             bytesOf(p.x()), bytesOf(p.y()), bytesOf(p.z()), "L", bytesOf(colorAt(u, v))};
         for (int i = 0; i < 5; ++i) fields[i] += values[i];
@@ -225,4 +229,36 @@ TEST_F(PcdFolder, RefusesWhatItCannotUse)
   // x forward, y left, z up, as in the frame of a robot.
   write("a.pcd", "binary");
   expect("FIELDS x y z", "FIELDS z x y", "its points are not those of a camera's image");
+}
+
+TEST_F(PcdFolder, RefusesLaterCloudsOfAnotherCamera)
+{
+  write("a.pcd", "binary");
+  write("b.pcd", "binary", "0 0 0 1 0 0 0", 0.5F);
+  const FrameFolder clouds = openFrameFolder("pcd", folder());
+  EXPECT_NO_THROW(clouds.scan(0));
+  const auto error = errorOf([&] { clouds.scan(1); });
+  EXPECT_NE(error.find("b.pcd: its points are not those of the first cloud's camera"), kNotFound)
+      << error;
+}
+
+TEST_F(PcdFolder, ADamagedCloudOrPoseSpoilsItsFrameAlone)
+{
+  write("a.pcd", "binary");
+  write("b.pcd", "binary");
+  files_.write("a.pcd", readFile(files_.path("a.pcd")).substr(0, 500));
+  files_.write("a.txt", "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  files_.write("b.txt", "1 0 0 0\n0 1 0 7\n0 0 1 0\n0 0 0 1\n");
+  const FrameFolder clouds = openFrameFolder("pcd", folder());
+  EXPECT_NEAR(clouds.scan(1)->cameraParams.fx(), kFocal, 1e-3) << "of the next cloud";
+  EXPECT_NE(errorOf([&] { clouds.scan(0); }).find("a.pcd: ends before"), kNotFound);
+  EXPECT_NE(clouds.frames()[0].poseProblem.find("a.txt: is no rigid transformation"), kNotFound);
+  EXPECT_TRUE(clouds.T_world_robot(1));
+  const auto problems = checkFolder(clouds, {}, [](double) {});
+  EXPECT_EQ(problems.count("pose"), 1u);
+  EXPECT_EQ(problems.count("image"), 1u);
+  EXPECT_EQ(problems.count("no pose"), 0u) << "it is told once";
+  std::filesystem::remove(files_.path("a.txt"));
+  std::filesystem::remove(files_.path("b.txt"));
+  EXPECT_EQ(openFrameFolder("pcd", folder()).posesCount(), 0u) << "the headers have none";
 }

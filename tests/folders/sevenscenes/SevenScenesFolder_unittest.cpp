@@ -95,8 +95,11 @@ TEST_F(SevenScenes, RefusesMatricesThatAreNoPoses)
   const auto expect = [&](const std::string& text, const std::string& what)
   {
     files_.write("frame-000000.pose.txt", text);
-    const auto error = errorOf([&] { openFrameFolder("7scenes", folder()); });
-    EXPECT_NE(error.find("frame-000000.pose.txt" + what), std::string::npos) << error;
+    const FrameFolder kitchen = openFrameFolder("7scenes", folder());
+    const std::string& problem = kitchen.frames()[0].poseProblem;
+    EXPECT_NE(problem.find("frame-000000.pose.txt" + what), std::string::npos) << problem;
+    EXPECT_FALSE(kitchen.T_world_robot(0));
+    EXPECT_TRUE(kitchen.T_world_robot(1)) << "the others can be used";
   };
   expect("1 0 0 0\n0 1 0 0\n0 0 1 0\n", ": expected 4 lines, got 3");
   expect("1 0 0 0\n0 1 0 0\n0 0 1\n0 0 0 1\n", ":3: expected 4 columns, got 3");

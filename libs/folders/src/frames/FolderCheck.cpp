@@ -147,6 +147,11 @@ std::vector<Motion> motionsOf(const FrameFolder& folder, FolderProblems& problem
   for (std::size_t i = 0; i < folder.frames().size(); ++i)
   {
     const auto T_world_robot = folder.T_world_robot(i);
+    if (const std::string& problem = folder.frames()[i].poseProblem; !problem.empty())
+    {
+      problems["pose"].push_back(problem);
+      continue;
+    }
     if (!T_world_robot)
     {
       problems["no pose"].push_back(mrpt::format(

@@ -139,4 +139,14 @@ std::optional<mrpt::poses::CPose3D> readMatrixPose(const std::string& path)
   return poseOf(matrix);
 }
 
+void takeMatrixPose(FolderFrame& frame, const std::string& path)
+try
+{
+  frame.T_world_optical = readMatrixPose(path);
+}
+catch (const std::exception& e)
+{
+  frame.poseProblem = e.what();
+}
+
 }  // namespace quadmap

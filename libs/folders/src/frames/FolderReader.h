@@ -46,6 +46,10 @@ void framesByName(
  * \exception std::runtime_error If it is no rigid transformation. Names the file. */
 std::optional<mrpt::poses::CPose3D> readMatrixPose(const std::string& path);
 
+/** Gives a frame the pose of a file, see readMatrixPose(). A file that cannot be read or used
+ * becomes the frame's poseProblem, as the other frames can be. */
+void takeMatrixPose(FolderFrame& frame, const std::string& path);
+
 /** The matrix of a text file with 4 lines of 4 numbers, some of which may not be finite.
  * \exception std::runtime_error If it is none. Names file and line. */
 Eigen::Matrix4d readMatrix(const std::string& path);

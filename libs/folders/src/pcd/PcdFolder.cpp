@@ -25,31 +25,6 @@ namespace fs = std::filesystem;
 constexpr double kPcdDepthFactor = 5000;  // of the depth images that are made of the clouds
 constexpr double kPcdImagesPerSecond = 30;
 
-/** Makes images of clouds. */
-class PcdImages : public FrameImageReader
-{
- public:
-  FrameImages read(const FolderFrame& frame) const override
-  {
-    const PcdCloud cloud = readPcd(frame.color);
-    const int rows = static_cast<int>(cloud.height), columns = static_cast<int>(cloud.width);
-    FrameImages images{cv::Mat(rows, columns, CV_8UC3), cv::Mat(rows, columns, CV_16UC1)};
-    for (int v = 0, i = 0; v < rows; ++v)
-      for (int u = 0; u < columns; ++u, ++i)
-      {
-        const auto k = static_cast<std::size_t>(i);
-        const double steps = std::round(kPcdDepthFactor * static_cast<double>(cloud.z[k]));
-        const bool isSeen = steps >= 1 && steps <= std::numeric_limits<std::uint16_t>::max();
-        images.depth.at<std::uint16_t>(v, u) = isSeen ? static_cast<std::uint16_t>(steps) : 0;
-        const std::uint32_t c = cloud.color[k];
-        images.color.at<cv::Vec3b>(v, u) = cv::Vec3b(
-            static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(c >> 8),
-            static_cast<std::uint8_t>(c >> 16));
-      }
-    return images;
-  }
-};
-
 /** The line pixel = slope * ratio + offset through many pairs of a ratio and a pixel. */
 class PixelLine
 {
@@ -79,6 +54,9 @@ class PixelLine
   int count_ = 0;
 };
 
+constexpr int kFewest = 100;              // points that tell of a camera
+constexpr double kLargestPixelError = 1;  // root mean square [px]
+
 /** The pinhole camera at whose pixels the points of a cloud are seen. */
 mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& file)
 {
@@ -91,11 +69,9 @@ mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& file)
       columns.add(x / z, static_cast<double>(u));
       rows.add(y / z, static_cast<double>(v));
     }
-  constexpr int kFewest = 100;         // points
-  constexpr double kLargestError = 1;  // [px]
   const Eigen::Vector2d c = columns.solution(), r = rows.solution();
   if (columns.count() < kFewest || !(c[0] > 0) || !(r[0] > 0) ||
-      !(columns.residual() < kLargestError) || !(rows.residual() < kLargestError))
+      !(columns.residual() < kLargestPixelError) || !(rows.residual() < kLargestPixelError))
     throw std::runtime_error(
         file + ": its points are not those of a camera's image (x right, y down, z forward)");
   mrpt::img::TCamera camera;
@@ -104,6 +80,78 @@ mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& file)
   camera.nrows = static_cast<unsigned>(cloud.height);
   return camera;
 }
+
+/** A cloud of another camera, or of another frame, would get wrong places with this one's.
+ * \exception std::runtime_error If the points are not at the pixels at which the camera sees them.
+ */
+void requireSeenBy(const mrpt::img::TCamera& camera, const PcdCloud& cloud, const std::string& file)
+{
+  double squares = 0;  // of the distances from the pixels [px^2]
+  int count = 0;
+  for (std::size_t v = 0, i = 0; v < cloud.height; ++v)
+    for (std::size_t u = 0; u < cloud.width; ++u, ++i)
+    {
+      const double x = cloud.x[i], y = cloud.y[i], z = cloud.z[i];
+      if (!std::isfinite(x) || !std::isfinite(y) || !(z > 0)) continue;
+      const double du = camera.fx() * x / z + camera.cx() - static_cast<double>(u),
+                   dv = camera.fy() * y / z + camera.cy() - static_cast<double>(v);
+      squares += du * du + dv * dv;
+      ++count;
+    }
+  if (count < kFewest || std::sqrt(squares / count) < 2 * kLargestPixelError) return;
+  throw std::runtime_error(mrpt::format(
+      "%s: its points are not those of the first cloud's camera, which sees them %.1f px beside "
+      "their places",
+      file.c_str(), std::sqrt(squares / count)));
+}
+
+/** The camera of the first cloud that can be read, as a damaged one need not end the work.
+ * \exception std::runtime_error If there is none; says what is wrong with the first one. */
+mrpt::img::TCamera cameraOfFirst(const std::vector<FolderFrame>& frames)
+{
+  std::string problem;
+  for (const auto& frame : frames) try
+    {
+      return cameraOf(readPcd(frame.color), frame.color);
+    }
+    catch (const std::exception& e)
+    {
+      if (problem.empty()) problem = e.what();
+    }
+  throw std::runtime_error(problem);
+}
+
+/** Makes images of clouds. */
+class PcdImages : public FrameImageReader
+{
+ public:
+  /** \param camera Whose images the clouds must be; empty when a user answers for that. */
+  explicit PcdImages(std::optional<mrpt::img::TCamera> camera) : camera_(std::move(camera)) {}
+
+  FrameImages read(const FolderFrame& frame) const override
+  {
+    const PcdCloud cloud = readPcd(frame.color);
+    if (camera_) requireSeenBy(*camera_, cloud, frame.color);
+    const int rows = static_cast<int>(cloud.height), columns = static_cast<int>(cloud.width);
+    FrameImages images{cv::Mat(rows, columns, CV_8UC3), cv::Mat(rows, columns, CV_16UC1)};
+    for (int v = 0, i = 0; v < rows; ++v)
+      for (int u = 0; u < columns; ++u, ++i)
+      {
+        const auto k = static_cast<std::size_t>(i);
+        const double steps = std::round(kPcdDepthFactor * static_cast<double>(cloud.z[k]));
+        const bool isSeen = steps >= 1 && steps <= std::numeric_limits<std::uint16_t>::max();
+        images.depth.at<std::uint16_t>(v, u) = isSeen ? static_cast<std::uint16_t>(steps) : 0;
+        const std::uint32_t c = cloud.color[k];
+        images.color.at<cv::Vec3b>(v, u) = cv::Vec3b(
+            static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(c >> 8),
+            static_cast<std::uint8_t>(c >> 16));
+      }
+    return images;
+  }
+
+ private:
+  std::optional<mrpt::img::TCamera> camera_;
+};
 
 /** A name that is a number with a point is a time [s].
  * \exception std::runtime_error If it is negative or too large. */
@@ -158,7 +206,7 @@ bool takeMatrices(FolderContent& content)
     {
       const fs::path file = fs::path(frame.color).replace_extension(end);
       if (!fs::exists(file)) continue;
-      frame.T_world_optical = readMatrixPose(file.string());
+      takeMatrixPose(frame, file.string());
       any = true;
     }
   return any;
@@ -170,7 +218,14 @@ bool takeViewpoints(FolderContent& content)
   bool any = false;
   for (auto& frame : content.frames)
   {
-    frame.T_world_optical = readPcd(frame.color).viewpoint;
+    try
+    {
+      frame.T_world_optical = readPcd(frame.color).viewpoint;
+    }
+    catch (const std::exception&)
+    {
+      continue;  // who reads the cloud as an image meets the same error and reports it
+    }
     any = any || frame.T_world_optical->asVectorVal().asEigen().norm() > 0;
   }
   if (!any)
@@ -188,13 +243,17 @@ FolderContent readPcdFolder(const std::string& folder, const FrameFolderOptions&
   content.frames = framesIn(folder);
   if (content.frames.empty()) throw std::runtime_error(folder + ": has no *.pcd");
   content.pairing = "of one cloud";
-  content.images = std::make_shared<PcdImages>();
-  const std::string& first = content.frames.front().color;
   if (options.camera.empty())
-    content.camera.color = cameraOf(readPcd(first), first);
+  {
+    content.camera.color = cameraOfFirst(content.frames);
+    content.camera.origin = "the first cloud";
+    content.images = std::make_shared<PcdImages>(content.camera.color);
+  }
   else
+  {
     content.camera = cameraOfFolder(folder, options, "", kPcdDepthFactor);
-  if (options.camera.empty()) content.camera.origin = "the first cloud";
+    content.images = std::make_shared<PcdImages>(std::nullopt);
+  }
   content.camera.depth.reset();
   content.camera.depthFactor = kPcdDepthFactor;
   const std::string trajectory = (fs::path(folder) / "groundtruth.txt").string();

@@ -89,7 +89,7 @@ void readPoses(FolderContent& content)
     const fs::path file =
         fs::path(content.folder) / "pose" / fs::path(frame.color).stem().concat(".txt");
     if (!fs::exists(file)) continue;
-    frame.T_world_optical = readMatrixPose(file.string());
+    takeMatrixPose(frame, file.string());
     if (frame.T_world_optical && content.camera.posesAreOfDepth)
       frame.T_world_optical = *frame.T_world_optical + (-content.camera.depth->T_color_depth);
   }

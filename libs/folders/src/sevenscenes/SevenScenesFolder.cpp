@@ -59,7 +59,7 @@ void readPoses(FolderContent& content, const std::map<int, std::string>& files)
     const auto file =
         files.find(static_cast<int>(std::lround(frame.time * kSevenScenesImagesPerSecond)));
     if (file == files.end()) continue;
-    frame.T_world_optical = readMatrixPose(file->second);
+    takeMatrixPose(frame, file->second);
     if (frame.T_world_optical && content.camera.posesAreOfDepth)
       frame.T_world_optical = *frame.T_world_optical + (-content.camera.depth->T_color_depth);
   }
