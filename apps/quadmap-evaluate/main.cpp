@@ -99,8 +99,14 @@ std::optional<std::vector<ObjectRecord>> mapObjectsOf(const std::string& estimat
 
 void writeReport(Cli& cli, const EvaluationReport& figures)
 {
-  ReportTruth truth{figures, std::nullopt};
+  ReportTruth truth;
+  truth.figures = figures;
+  truth.inPlace = cli.inPlace.getValue();
+  truth.maxTimeDifference = cli.maxTimeDifference.getValue();
   if (cli.trajectory.isSet()) truth.trajectory = readTumTrajectory(cli.trajectory.getValue());
+  if (figures.reflection && truth.trajectory)
+    for (StampedPose& stamped : *truth.trajectory)
+      stamped.pose = (*figures.reflection)(stamped.pose);
   writeTextFile(cli.html.getValue(), reportPage(cli.estimate.getValue(), truth));
 }
 

@@ -177,6 +177,38 @@ TEST_F(ReportPage, ShowsErrorsAgainstATruth)
   EXPECT_NE(line("#8a8a8a"), line("#2b7de0"));
 }
 
+TEST_F(ReportPage, ErrorsAreThoseOfTheComparison)
+{
+  // The truth lies 5 m beside the corrected way, and its clock is 0.3 s late.
+  ReportTruth truth;
+  truth.trajectory = way(0, 5);
+  for (StampedPose& stamped : *truth.trajectory) stamped.time += 0.3;
+  const auto error = [&]
+  {
+    const std::string html = page(truth);
+    const std::string plot = html.substr(html.find("Error of the positions"));
+    return plot.find("<polyline") < plot.find("</svg>");
+  };
+  EXPECT_FALSE(error()) << "no pair of poses is of the same time";
+  truth.maxTimeDifference = 0.5;
+  EXPECT_TRUE(error());
+  const auto largestError = [&]
+  {
+    const std::string html = page(truth);
+    const std::string plot = html.substr(html.find("Error of the positions"));
+    const std::regex tick("text-anchor=\"end\"[^>]*>([0-9.]+)</text>");
+    double largest = 0;
+    const std::string svg = plot.substr(0, plot.find("</svg>"));
+    for (auto it = std::sregex_iterator(svg.begin(), svg.end(), tick); it != std::sregex_iterator();
+         ++it)
+      largest = std::max(largest, std::stod((*it)[1]));
+    return largest;
+  };
+  EXPECT_LT(largestError(), 1);
+  truth.inPlace = true;
+  EXPECT_GE(largestError(), 4) << "[m], a tick of the axis";
+}
+
 TEST_F(ReportPage, DrawsOdometryWhereTheKnownMapIs)
 {
   // The odometry has its own frame when a run started in a known map.

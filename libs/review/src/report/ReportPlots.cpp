@@ -52,11 +52,10 @@ Trajectory inMap(const ReportTruth& truth)
   return moved;
 }
 
-/** Distances of the positions of two trajectories over time since `start`.
- * \param isAligned The second one is carried to the first one before. */
-Points distances(const Trajectory& truth, const Trajectory& estimated, bool isAligned, double start)
+/** Distances of the positions of pairs over time since `start`.
+ * \param isAligned The estimated positions are carried to the true ones before. */
+Points distances(const std::vector<PosePair>& pairs, bool isAligned, double start)
 {
-  const std::vector<PosePair> pairs = pairByTime(truth, estimated);
   if (pairs.empty()) return {};
   const mrpt::poses::CPose3D T = isAligned ? alignPositions(pairs) : mrpt::poses::CPose3D();
   Points points;
@@ -89,13 +88,18 @@ std::string errorPlot(const ReportTracks& tracks)
   const double start = tracks.corrected.front().time;
   if (tracks.truth && tracks.truth->trajectory)
   {
-    const Trajectory& truth = *tracks.truth->trajectory;
+    const ReportTruth& truth = *tracks.truth;
+    const auto errors = [&](const Trajectory& estimated)
+    {
+      return distances(
+          pairByTime(*truth.trajectory, estimated, truth.maxTimeDifference), !truth.inPlace, start);
+    };
     SvgPlot plot({"Error of the positions", "time [s]", "error [m]"});
-    plot.addLine(distances(truth, tracks.odometry, true, start), kBefore, "before (odometry)");
-    plot.addLine(distances(truth, tracks.corrected, true, start), kAfter, "after");
+    plot.addLine(errors(tracks.odometry), kBefore, "before (odometry)");
+    plot.addLine(errors(tracks.corrected), kAfter, "after");
     return plot.toSvg();
   }
-  const Points moved = distances(tracks.odometry, tracks.corrected, false, start);
+  const Points moved = distances(pairByTime(tracks.odometry, tracks.corrected), false, start);
   if (moved.empty()) return "";
   SvgPlot plot({"How far the correction moved positions", "time [s]", "moved [m]"});
   plot.addLine(moved, kAfter, "after to before");

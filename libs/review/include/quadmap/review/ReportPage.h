@@ -13,6 +13,9 @@ struct ReportTruth
 {
   EvaluationReport figures;
   std::optional<Trajectory> trajectory;  //!< In the world of the truth
+  bool inPlace = false;                  //!< Was compared without alignment
+  /** Most time between an estimated and a true pose [s], >= 0. */
+  double maxTimeDifference = kMaxTimeDifference;
 };
 
 /** What happened in a run as one page for any browser: trajectory before and after, errors, boxes
