@@ -42,11 +42,12 @@ struct Cli
 std::vector<CuboidProposal> propose(const std::string& result, const DenseOptions& options)
 {
   cli::ProgressBar bar;
+  const LabelTable labels = LabelTable::installed();
   std::vector<CuboidProposal> proposals;
   for (const ObjectPoints& points : findObjectPoints(
            result, readObjectsJson(result + "/objects.json"), options,
            [&](double share) { bar(share); }))
-    if (const auto proposal = proposeCuboid(points))
+    if (const auto proposal = proposeCuboid(points, labels))
       proposals.push_back(*proposal);
     else
       std::cerr << "quadmap-annotate: warning: object " << points.record.id << " ("

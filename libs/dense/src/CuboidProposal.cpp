@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
+#include <utility>
 
 #include "quadmap/base/OptionGroup.h"
 
@@ -112,21 +115,108 @@ bool isSeen(const ObjectPoints& object, const Ellipsoid& cuboid, int axis, doubl
   return std::count(bins.begin(), bins.end(), true) >= kMostBins;
 }
 
+/** Squares of a plan that points cover. */
+std::size_t coveredSquares(
+    const DenseCloud& cloud, const std::function<bool(const DensePoint&)>& is)
+{
+  constexpr float kSquare = 0.015F;  // [m], so that cells of objects cover it whole
+  std::set<std::pair<int, int>> squares;
+  for (const DensePoint& point : cloud)
+    if (is(point))
+      squares.insert(
+          {static_cast<int>(std::floor(point.position.x() / kSquare)),
+           static_cast<int>(std::floor(point.position.y() / kSquare))});
+  return squares.size();
+}
+
+/** A level surface that most of the plan of an object lies under. */
+struct LevelTop
+{
+  float height = 0;  //!< [m]
+  double above = 0;  //!< Share of the plan that points above it cover
+};
+
+std::optional<LevelTop> levelTopOf(const DenseCloud& cloud)
+{
+  constexpr float kFacing = 0.9F, kWithin = 0.01F;  // of normals' z; of heights [m]
+  constexpr double kCovered = 0.6;                  // share of the plan
+  std::vector<float> heights;
+  for (const DensePoint& point : cloud)
+    if (point.normal.z() > kFacing) heights.push_back(point.position.z());
+  if (heights.size() < kFewestPoints) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  std::size_t middle = 0, most = 0;
+  for (std::size_t i = 0, end = 0; i < heights.size(); ++i)
+  {
+    while (end < heights.size() && heights[end] <= heights[i] + kWithin) ++end;
+    if (end - i <= most) continue;
+    most = end - i;
+    middle = i + most / 2;
+  }
+  const float top = heights[middle];
+  const auto covered = [&](const auto& is)
+  { return static_cast<double>(coveredSquares(cloud, is)); };
+  const double all = covered([](const DensePoint&) { return true; });
+  const double level =
+      covered([&](const DensePoint& p)
+              { return p.normal.z() > kFacing && std::abs(p.position.z() - top) < kWithin; });
+  if (level < kCovered * all) return std::nullopt;
+  return LevelTop{
+      top, covered([&](const DensePoint& p) { return p.position.z() > top + kWithin; }) / all};
+}
+
+/** Only the points up to a height [m]. */
+DenseCloud below(const DenseCloud& cloud, float height)
+{
+  DenseCloud kept;
+  for (const DensePoint& point : cloud)
+    if (point.position.z() <= height) kept.push_back(point);
+  return kept;
+}
+
+/** Whether other things are at a side of the cuboid. */
+bool isTouched(const ObjectPoints& object, const Ellipsoid& cuboid, int axis, double sign)
+{
+  constexpr double kGap = 0.015, kInside = 0.01;          // from the side, outwards and inwards [m]
+  constexpr double kAboveBottom = 0.015;                  // [m], as supports scatter
+  constexpr double kMostPoints = 20, kMostShare = 0.002;  // of the object's, may be noise
+  const Eigen::Matrix3d R = cuboid.rotation();
+  const Eigen::Vector3d half = cuboid.semiAxes();
+  const int along = axis == 0 ? 1 : 0;
+  const auto isAtSide = [&](const Eigen::Vector3f& position)
+  {
+    const Eigen::Vector3d p = R.transpose() * (position.cast<double>() - cuboid.center());
+    const double beyond = sign * p[axis] - half[axis];
+    return beyond > -kInside && beyond < kGap && std::abs(p[along]) < half[along] &&
+           p.z() > kAboveBottom - half.z() && p.z() < half.z();
+  };
+  const auto atSide = std::count_if(object.others.begin(), object.others.end(), isAtSide);
+  const double most = std::max(kMostPoints, kMostShare * static_cast<double>(object.cloud.size()));
+  return static_cast<double>(atSide) > most;
+}
+
 }  // namespace
 
 bool CuboidProposal::fullySeen() const
 {
-  return std::all_of(seen.begin(), seen.end(), [](bool side) { return side; });
+  const auto holds = [](bool is) { return is; };
+  return std::all_of(seen.begin(), seen.end(), holds) &&
+         std::none_of(touched.begin(), touched.end(), holds);
 }
 
-std::optional<CuboidProposal> proposeCuboid(const ObjectPoints& object)
+std::optional<CuboidProposal> proposeCuboid(const ObjectPoints& object, const LabelTable& labels)
 {
   if (object.cloud.size() < kFewestPoints) return std::nullopt;
-  const double yaw = headingOf(planOf(object.cloud, 6000), object.record.orientationDefined);
-  const auto plan = planOf(object.cloud, object.cloud.size());
+  constexpr float kScatter = 0.006F;  // of the points of a plane [m]
+  constexpr double kOwnPart = 0.1;    // of the plan: backs of chairs have more
+  const auto top = levelTopOf(object.cloud);
+  const bool isLevel = top && labels.properties(object.record.label).levelTop;
+  const DenseCloud cloud = isLevel ? below(object.cloud, top->height + kScatter) : object.cloud;
+  const double yaw = headingOf(planOf(cloud, 6000), object.record.orientationDefined);
+  const auto plan = planOf(cloud, cloud.size());
   const Interval x = extentAlong(plan, yaw), y = extentAlong(plan, yaw + M_PI / 2);
   std::vector<double> heights;
-  for (const DensePoint& point : object.cloud) heights.push_back(point.position.z());
+  for (const DensePoint& point : cloud) heights.push_back(point.position.z());
   Interval z = endsOf(heights);
   if (object.supportHeight) z.low = std::min(*object.supportHeight, z.high - 0.002);
 
@@ -141,10 +231,16 @@ std::optional<CuboidProposal> proposeCuboid(const ObjectPoints& object)
   proposal.record.object =
       Ellipsoid(mrpt::poses::CPose3D(center.x(), center.y(), z.middle(), yaw, 0, 0), half);
   proposal.points = object.cloud.size();
-  proposal.seen[4] = 2 * object.boxesWithTop >= object.eyes.size();
+  const bool hasSomethingOnTop = top && !isLevel && top->above > 0 && top->above < kOwnPart &&
+                                 z.high > static_cast<double>(top->height + kScatter);
+  proposal.seen[4] = 2 * object.boxesWithTop >= object.eyes.size() && !hasSomethingOnTop;
   for (std::size_t side = 0; side < 4; ++side)
-    proposal.seen[side] = isSeen(
-        object, proposal.record.object, static_cast<int>(side / 2), side % 2 == 0 ? 1.0 : -1.0);
+  {
+    const int axis = static_cast<int>(side / 2);
+    const double sign = side % 2 == 0 ? 1.0 : -1.0;
+    proposal.seen[side] = isSeen(object, proposal.record.object, axis, sign);
+    proposal.touched[side] = isTouched(object, proposal.record.object, axis, sign);
+  }
   return proposal;
 }
 

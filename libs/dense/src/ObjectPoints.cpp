@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "BackgroundPlanes.h"
 #include "GridCloud.h"
@@ -61,13 +62,20 @@ class Separation
       indices.push_back(i);
     }
     smooth(candidates);
-    keepForeground(backgroundOf(near, candidates, out), candidates, indices);
+    const auto background = backgroundOf(near, candidates, out);
+    keepForeground(background, candidates, indices);
+    std::set<std::size_t> own;
     for (const std::size_t i : mainParts(candidates))
     {
+      own.insert(indices[i]);
       out.cloud.push_back(cloud_[indices[i]]);
       out.cloud.back().position = candidates[i].position.cast<float>();
       out.weights.push_back(static_cast<float>(candidates[i].weight));
     }
+    for (const auto& entry : near_[object])
+      if (own.count(entry.point) == 0 &&
+          !isBackground(background, pointOf(entry.point, 0).position))
+        out.others.push_back(cloud_[entry.point].position);
     return out;
   }
 
@@ -161,6 +169,13 @@ class Separation
     return std::clamp(3 * plane.spread, options_.clearance, 2 * options_.clearance);
   }
 
+  bool isBackground(const std::vector<BackgroundPlane>& background, const Eigen::Vector3d& p) const
+  {
+    return std::any_of(
+        background.begin(), background.end(),
+        [&](const BackgroundPlane& plane) { return plane.height(p) <= clearanceOf(plane); });
+  }
+
   void keepForeground(
       const std::vector<BackgroundPlane>& background,
       std::vector<NearPoint>& candidates,
@@ -169,11 +184,7 @@ class Separation
     std::size_t kept = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i)
     {
-      const bool isBackground = std::any_of(
-          background.begin(), background.end(),
-          [&](const BackgroundPlane& plane)
-          { return plane.height(candidates[i].position) <= clearanceOf(plane); });
-      if (isBackground) continue;
+      if (isBackground(background, candidates[i].position)) continue;
       candidates[kept] = candidates[i];
       indices[kept++] = indices[i];
     }

@@ -88,13 +88,26 @@ std::string numbersText(const Eigen::Vector3d& v)
   return mrpt::format("%.4f %.4f %.4f", v.x(), v.y(), v.z());
 }
 
-std::string unseenText(const CuboidProposal& proposal)
+/** The names of the sides of which something holds. */
+template <std::size_t N>
+std::string sidesText(const std::array<bool, N>& sides, bool value)
 {
   constexpr const char* kNames[] = {"+x", "-x", "+y", "-y", "the top"};
   std::string names;
-  for (std::size_t side = 0; side < proposal.seen.size(); ++side)
-    if (!proposal.seen[side]) names += (names.empty() ? "" : ", ") + std::string(kNames[side]);
-  return names.empty() ? "all sides were seen" : "not seen along its length: " + names;
+  for (std::size_t side = 0; side < N; ++side)
+    if (sides[side] == value) names += (names.empty() ? "" : ", ") + std::string(kNames[side]);
+  return names;
+}
+
+/** Why a proposal is sure or not. */
+std::string reasonText(const CuboidProposal& proposal)
+{
+  const std::string unseen = sidesText(proposal.seen, false),
+                    touched = sidesText(proposal.touched, true);
+  std::string text =
+      unseen.empty() ? "all sides were seen" : "not seen along its length: " + unseen;
+  if (!touched.empty()) text += "; other things are at " + touched;
+  return text;
 }
 
 std::string sectionText(const CuboidProposal& proposal)
@@ -102,7 +115,7 @@ std::string sectionText(const CuboidProposal& proposal)
   const ObjectRecord& record = proposal.record;
   mrpt::poses::CPose3D pose = record.object.pose();
   return "\n[" + kSection + record.id + "]\n" + mrpt::format("; %zu points; ", proposal.points) +
-         unseenText(proposal) + "\nlabel = " + encoded(record.label) +
+         reasonText(proposal) + "\nlabel = " + encoded(record.label) +
          "\naccept = " + (proposal.fullySeen() ? "yes" : "no") +
          "\ncenter = " + numbersText(record.object.center()) +
          "\nsize = " + numbersText(2 * record.object.semiAxes()) +

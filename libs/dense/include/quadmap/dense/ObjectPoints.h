@@ -25,6 +25,9 @@ struct ObjectPoints
   /** Where the cameras of its boxes were, in the map [m]. */
   std::vector<Eigen::Vector3d> eyes;
   std::size_t boxesWithTop = 0;  //!< Number of these boxes whose upper edge is the object's
+  /** Points near by of other things, in the map [m]: neither the object's nor of what it stands on
+   * or at. */
+  std::vector<Eigen::Vector3f> others;
 };
 
 /** Finds the points of all objects of a run, in their order.
