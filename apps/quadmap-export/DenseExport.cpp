@@ -1,5 +1,6 @@
 #include "DenseExport.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -31,6 +32,10 @@ void writeDenseClouds(
   if (!wanted.objectClouds) return;
   cli::ProgressBar bar;
   const auto found = findObjectPoints(result, objects, options, [&](double share) { bar(share); });
+  if (std::all_of(found.begin(), found.end(), [](const auto& one) { return one.cloud.empty(); }))
+    throw std::runtime_error(
+        result + ": --object-clouds found no points of any of its " +
+        std::to_string(objects.size()) + " objects");
   const auto names = writeObjectClouds(found, *wanted.objectClouds);
   std::cout << "wrote the clouds of " << names.size() << " of " << objects.size()
             << " objects into " << *wanted.objectClouds << "\n";

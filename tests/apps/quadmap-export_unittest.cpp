@@ -274,6 +274,12 @@ TEST_F(QuadmapExport, WritesTheSameCloudsWhateverTheThreads)
     EXPECT_NE(result.out.find("points"), kNotFound) << result.out;
   }
   ::unsetenv("OMP_NUM_THREADS");
+  folder_.write("strict.ini", "[dense]\nminHits = 1000\n");
+  const auto nothing = run("DIR/room -c DIR/strict.ini --object-clouds DIR/nothing");
+  EXPECT_EQ(nothing.status, 1) << nothing.out;
+  EXPECT_NE(nothing.err.find("--object-clouds found no points of any of its"), kNotFound)
+      << nothing.err;
+  EXPECT_FALSE(exists("nothing"));
   EXPECT_EQ(readFile(folder_.path("1.ply")), readFile(folder_.path("3.ply")));
   EXPECT_GT(readFile(folder_.path("1.ply")).size(), 100000u);
   std::size_t clouds = 0;
