@@ -63,6 +63,18 @@ class CameraArguments
     return options;
   }
 
+  /** The same with the calibration of a known camera. \param camera See cameraPreset().
+   *  \exception UsageError For values out of range, and if --intrinsics is given as well.
+   *  \exception std::runtime_error If it is not known, or distorts. */
+  CameraOptions options(TCLAP::ValueArg<std::string>& camera)
+  {
+    CameraOptions all = options();
+    if (!camera.isSet()) return all;
+    if (all.intrinsics) throw UsageError("--intrinsics, --camera: give only one of them");
+    all.calibration = cameraPreset(camera.getValue());
+    return all;
+  }
+
  private:
   void readResolution(CameraOptions& options)
   {

@@ -27,15 +27,6 @@ std::string stateOf(const CameraSource& camera)
          (losses.empty() ? "" : ", " + losses);
 }
 
-/** Gives a scan the calibration of a known camera.
- *  \exception std::runtime_error If its images have other proportions. */
-void calibrate(mrpt::obs::CObservation3DRangeScan& scan, const FolderCamera& calibration)
-{
-  const auto& own = scan.cameraParams;
-  scan.cameraParams = scaledTo(calibration, own.ncols, own.nrows).color;
-  scan.cameraParamsIntensity = scan.cameraParams;
-}
-
 /** Writes all frames. \return Number of those that were written. */
 std::size_t writeFrames(
     CameraSource& camera, const CameraImportRequest& request, RawlogWriter& writer)
@@ -47,7 +38,6 @@ std::size_t writeFrames(
   {
     if (read++ % request.every == 0)
     {
-      if (request.calibration) calibrate(*frame->scan, *request.calibration);
       writer.write(*frame->scan);
       ++written;
     }

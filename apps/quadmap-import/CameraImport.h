@@ -1,10 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "quadmap/cameras/CameraOptions.h"
-#include "quadmap/folders/FolderCamera.h"
 #include "quadmap/sensors/RawlogWriter.h"
 
 namespace quadmap
@@ -15,8 +13,6 @@ struct CameraImportRequest
   std::string source;  //!< See openOpenNi2()
   std::string output;  //!< The rawlog
   CameraOptions camera;
-  /** Instead of the calibration that the device states; scaled to its images. May be empty. */
-  std::optional<FolderCamera> calibration;
   RawlogWriterOptions writing;
   std::size_t every = 1;  //!< Only every n-th frame, >= 1
 };

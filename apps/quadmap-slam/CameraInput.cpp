@@ -39,11 +39,15 @@ std::string listOf(const std::map<std::string, std::size_t>& objects)
 }
 }  // namespace
 
-CameraInput::CameraInput(RawlogRunRequest& run, cli::CameraArguments& arguments)
+CameraInput::CameraInput(
+    RawlogRunRequest& run,
+    cli::CameraArguments& arguments,
+    TCLAP::ValueArg<std::string>& calibration)
 {
   const bool isCamera = run.rawlog.compare(0, kPrefix.size(), kPrefix) == 0;
+  if (!isCamera && calibration.isSet()) throw cli::UsageError("--camera: for openni2 only");
   if (isCamera)
-    open(run, arguments.options());
+    open(run, arguments.options(calibration));
   else
     arguments.requireNone();
   if (run.isLive)

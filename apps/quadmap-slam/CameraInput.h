@@ -16,10 +16,14 @@ class CameraInput
 {
  public:
   /** Makes the camera the source of the run when its input is "openni2:...". Ctrl-C ends a camera,
-   * and stops the run on a recording. \param run Must outlive this object.
+   * and stops the run on a recording. \param run Must outlive this object. \param calibration The
+   * name of a known camera, if it is set.
    *  \exception cli::UsageError For arguments that do not fit the input, or a run without boxes.
    *  \exception std::runtime_error If the camera cannot be opened. */
-  CameraInput(RawlogRunRequest& run, cli::CameraArguments& arguments);
+  CameraInput(
+      RawlogRunRequest& run,
+      cli::CameraArguments& arguments,
+      TCLAP::ValueArg<std::string>& calibration);
 
   /** Call it when the run is over: what is printed next begins a new line. */
   void end() { line_.end(); }

@@ -142,6 +142,15 @@ struct Cli
       line.args()};
   cli::Group cameraGroup{line, "Camera"};
   cli::CameraArguments camera{line.args()};
+  TCLAP::ValueArg<std::string> cameraName{
+      "",
+      "camera",
+      "openni2: the calibration of a known camera, scaled to the images (a name of "
+      "share/quadmap/cameras or a file), instead of the field of view that the camera states.",
+      false,
+      "",
+      "NAME|FILE",
+      line.args()};
 };
 
 /** Sets an option by its setter. An error names the option as the command line does. */
@@ -278,7 +287,7 @@ int run(Cli& cli)
     writeTextFile(files.add("report.html"), reportPage(folder));
   };
   cli::onStop = cli::OnStop::Note;
-  CameraInput camera(request, cli.camera);
+  CameraInput camera(request, cli.camera, cli.cameraName);
 
   const RawlogRunSummary summary = runOnRawlog(request);
   camera.end();

@@ -161,6 +161,58 @@ TEST_F(ImportOpenNi2, TakesTheCalibrationOfAKnownCamera)
   EXPECT_NEAR(frames().front().scan->cameraParams.fx(), 52.5, 1e-9) << "a tenth of 640x480";
 }
 
+TEST_F(ImportOpenNi2, TakesOneCalibrationAlone)
+{
+  const auto camera = markedCamera(2);
+  expectRefusal(
+      import(camera, "live --resolution 64x48 --camera kinect --intrinsics 50,51,30,20"), 2,
+      "--intrinsics, --camera: give only one of them");
+}
+
+TEST_F(ImportOpenNi2, UnderstandsColourOfPairsOfPixels)
+{
+  auto camera = markedCamera(60);
+  for (int i = 0; i < camera.frames; ++i)  // the lower half is orange
+  {
+    auto* color = camera.images.data() + (camera.color(i) - camera.images.data());
+    for (int k = camera.width * camera.height / 2; k < camera.width * camera.height; ++k)
+      for (int channel = 0; channel < 3; ++channel)
+        color[3 * k + channel] = static_cast<std::uint8_t>(channel == 0 ? 220 : 120 - 50 * channel);
+  }
+  for (const int format : {1, 2})
+  {
+    SCOPED_TRACE(format);
+    camera.colorFormat = format;
+    ASSERT_EQ(import(camera, "live --resolution 64x48 --frames 5").status, 0);
+    const auto written = frames();
+    ASSERT_EQ(written.size(), 5u);
+    for (const auto& frame : written)
+    {
+      EXPECT_GE(numberOf(frame), 0);
+      const std::uint8_t* pixel = frame.scan->intensityImage.ptr<std::uint8_t>(40, 40);
+      EXPECT_NEAR(pixel[2], 220, 6) << "red; brightness and colour are rounded, and JPEG";
+      EXPECT_NEAR(pixel[1], 70, 6) << "green";
+      EXPECT_NEAR(pixel[0], 20, 6) << "blue";
+    }
+  }
+}
+
+TEST_F(ImportOpenNi2, TellsThatARecordingWasCutOff)
+{
+  const std::string oni = recordOni(markedCamera(60), 30, camera_);
+  const std::string bytes = readFile(oni);
+  const auto cut = [&](std::size_t percent)
+  { return importOni(camera_.write("cut.oni", bytes.substr(0, bytes.size() * percent / 100))); };
+  // OpenNI2 itself does not open a file that lacks images.
+  expectRefusal(cut(20), 1, "cut.oni: OpenNI2 cannot open it: it is no recording, or was cut off");
+  ASSERT_EQ(importOni(oni).status, 0);
+  const std::size_t all = frames().size();
+  cut(98);  // without the tables at its end
+  const auto written = frames();
+  EXPECT_EQ(written.size(), all);
+  for (const auto& frame : written) numberOf(frame);
+}
+
 TEST_F(ImportOpenNi2, ReplaysARecordingFrameByFrame)
 {
   const std::string oni = recordOni(markedCamera(60), 30, camera_);

@@ -23,6 +23,7 @@ namespace
 {
 using SteadyClock = std::chrono::steady_clock;
 
+const std::string kCutOff = "the recording is cut off: its end is missing";
 constexpr double kPoll = 0.1;  // longest time in which nobody looks whether to end [s]
 
 struct Capture
@@ -58,6 +59,10 @@ void check(const CameraOptions& o)
   require(o.width > 0 && o.height > 0 && o.fps > 0, "resolution: must be > 0");
   if (o.intrinsics)
     require((*o.intrinsics)[0] > 0 && (*o.intrinsics)[1] > 0, "intrinsics: fx and fy must be > 0");
+  require(!o.intrinsics || !o.calibration, "intrinsics, calibration: give only one of them");
+  if (o.calibration && o.calibration->isDistorted())
+    throw std::invalid_argument(
+        o.calibration->origin + " distorts, and images of a device are not rectified");
   require(o.maxPairDelay > 0, "maxPairDelay: must be > 0 s");
   require(o.duration >= 0, "duration: must be >= 0 s");
   require(o.timeout > 0, "timeout: must be > 0 s");
@@ -145,12 +150,14 @@ struct CameraSource::Impl
       else if (state != RgbdDevice::State::Running)
       {
         if (state == RgbdDevice::State::Unplugged) fail("the camera was unplugged");
+        if (camera.isCutOff) fail(kCutOff);
         return std::nullopt;
       }
       const std::chrono::duration<double> waited = SteadyClock::now() - begin;
       if (waited.count() > options.timeout)
       {
-        fail(mrpt::format("no frame for %g s", options.timeout));
+        // A recording has its next frame at once, or it has ended.
+        fail(camera.isLive ? mrpt::format("no frame for %g s", options.timeout) : kCutOff);
         return std::nullopt;
       }
     }
@@ -158,7 +165,7 @@ struct CameraSource::Impl
   }
   catch (const std::exception& e)
   {
-    fail(rootMessage(e));
+    fail(camera.isCutOff ? kCutOff : rootMessage(e));
     return std::nullopt;
   }
 

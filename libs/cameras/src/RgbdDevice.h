@@ -33,6 +33,7 @@ struct DeviceDescription
   double depthUnit = 0.001;         //!< [m]
   double fps = 30;                  //!< Frames per second, > 0
   std::size_t framesInFile = 0;     //!< 0 when it is not known
+  bool isCutOff = false;            //!< A recording whose end is missing
   std::vector<std::string> notes;   //!< What a user should know, one line each
 };
 

@@ -13,14 +13,16 @@ struct TestCamera
   int width = 0, height = 0;                      //!< [px]
   double horizontalFov = 1.0, verticalFov = 0.8;  //!< [rad]
   double fps = 100;
-  int frames = 0;                    //!< Number of images; the last one is shown for ever
-  int unplugAfter = 0;               //!< Is unplugged after this number of frames; 0: never
-  int silentAfter = 0;               //!< Gives no more images after this number of frames; 0: never
-  int interruptAfter = 0;            //!< Sends Ctrl-C after this number of frames; 0: never
-  int loseEvery = 0;                 //!< Every n-th frame never comes; 0: none
-  int registers = 1;                 //!< Can register depth to colour
-  int mirrors = 0;                   //!< Its images are mirrored, and nothing can be done about it
-  int startNumber = 1;               //!< Number of the first frame
+  int frames = 0;          //!< Number of images; the last one is shown for ever
+  int unplugAfter = 0;     //!< Is unplugged after this number of frames; 0: never
+  int silentAfter = 0;     //!< Gives no more images after this number of frames; 0: never
+  int interruptAfter = 0;  //!< Sends Ctrl-C after this number of frames; 0: never
+  int loseEvery = 0;       //!< Every n-th frame never comes; 0: none
+  int registers = 1;       //!< Can register depth to colour
+  int mirrors = 0;         //!< Its images are mirrored, and nothing can be done about it
+  int startNumber = 1;     //!< Number of the first frame
+  /** Its colour: 0 red, green and blue; 1 YUV 4:2:2, which begins with U; 2 YUYV. */
+  int colorFormat = 0;
   std::vector<std::uint8_t> images;  //!< Per frame depth [mm], 16 bits, and colour, red first
 
   std::size_t depthBytes() const { return 2u * static_cast<std::size_t>(width * height); }
@@ -51,6 +53,7 @@ struct TestCamera
     each("registers", self.registers);
     each("mirrors", self.mirrors);
     each("startNumber", self.startNumber);
+    each("colorFormat", self.colorFormat);
   }
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <thread>
@@ -22,6 +23,29 @@ namespace
 using quadmap::TestCamera;
 using Clock = std::chrono::steady_clock;
 
+std::uint8_t byteOf(double value)
+{
+  return static_cast<std::uint8_t>(std::lround(std::min(255.0, std::max(0.0, value))));
+}
+
+/** Two pixels (red, green, blue each) as brightness of either and their mean colour: ITU-R BT.601
+ * with black at 16 and white at 235, as cameras give it. \param beginsWithU U Y V Y, else Y U Y V.
+ */
+void packPair(const std::uint8_t* rgb, bool beginsWithU, std::uint8_t* out)
+{
+  double y[2], u = 128, v = 128;
+  for (int i = 0; i < 2; ++i)
+  {
+    const double r = rgb[3 * i] / 255.0, g = rgb[3 * i + 1] / 255.0, b = rgb[3 * i + 2] / 255.0,
+                 luma = 0.299 * r + 0.587 * g + 0.114 * b;
+    y[i] = 16 + 219 * luma;
+    u += 0.5 * 112 * (b - luma) / 0.886;
+    v += 0.5 * 112 * (r - luma) / 0.701;
+  }
+  const std::uint8_t bytes[4] = {byteOf(u), byteOf(y[0]), byteOf(v), byteOf(y[1])};
+  for (int i = 0; i < 4; ++i) out[i] = bytes[beginsWithU ? i : i ^ 1];
+}
+
 class Stream : public oni::driver::StreamBase
 {
  public:
@@ -29,8 +53,10 @@ class Stream : public oni::driver::StreamBase
 
   static OniVideoMode modeOf(const TestCamera& camera, OniSensorType sensor)
   {
+    constexpr OniPixelFormat kColors[] = {
+        ONI_PIXEL_FORMAT_RGB888, ONI_PIXEL_FORMAT_YUV422, ONI_PIXEL_FORMAT_YUYV};
     return {
-        sensor == ONI_SENSOR_DEPTH ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888,
+        sensor == ONI_SENSOR_DEPTH ? ONI_PIXEL_FORMAT_DEPTH_1_MM : kColors[camera.colorFormat],
         camera.width, camera.height, std::max(1, static_cast<int>(camera.fps))};
   }
 
@@ -88,8 +114,14 @@ class Stream : public oni::driver::StreamBase
     OniFrame* frame = getServices().acquireFrame();
     if (!frame) return;
     const bool isDepth = sensor_ == ONI_SENSOR_DEPTH;
-    const auto bytes = isDepth ? camera_.depthBytes() : camera_.colorBytes();
-    std::memcpy(frame->data, isDepth ? camera_.depth(image) : camera_.color(image), bytes);
+    const auto bytes = static_cast<std::size_t>(camera_.width * camera_.height * bytesPerPixel());
+    if (isDepth || camera_.colorFormat == 0)
+      std::memcpy(frame->data, isDepth ? camera_.depth(image) : camera_.color(image), bytes);
+    else
+      for (std::size_t i = 0; 4 * i < bytes; ++i)
+        packPair(
+            camera_.color(image) + 6 * i, camera_.colorFormat == 1,
+            static_cast<std::uint8_t*>(frame->data) + 4 * i);
     frame->dataSize = static_cast<int>(bytes);
     frame->sensorType = sensor_;
     frame->timestamp = static_cast<std::uint64_t>(1e6 * number / camera_.fps);
@@ -113,7 +145,10 @@ class Stream : public oni::driver::StreamBase
     *size = sizeof value;
     return ONI_STATUS_OK;
   }
-  int bytesPerPixel() const { return sensor_ == ONI_SENSOR_DEPTH ? 2 : 3; }
+  int bytesPerPixel() const
+  {
+    return sensor_ == ONI_SENSOR_DEPTH || camera_.colorFormat != 0 ? 2 : 3;
+  }
 
   const TestCamera& camera_;
   const OniSensorType sensor_;

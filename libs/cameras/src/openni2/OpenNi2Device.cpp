@@ -24,7 +24,9 @@ OpenNi2Device::OpenDevice::OpenDevice(const char* uri)
 {
   if (device.open(uri) == openni::STATUS_OK) return;
   const std::string why = OpenNi2Library::error();
-  if (uri) throw std::runtime_error("OpenNI2 cannot open it: " + why);
+  if (uri)
+    throw std::runtime_error(
+        "OpenNI2 cannot open it: it is no recording, or was cut off (" + why + ")");
   throw std::runtime_error(
       "no camera found: is it plugged in, and is there a driver of OpenNI2 for it? (" + why + ")");
 }
@@ -77,8 +79,9 @@ void OpenNi2Device::prepareRecording()
       depth.getResolutionY() != color.getResolutionY())
     throw std::runtime_error(
         "its depth images have another size than its colour images: they are not registered");
-  // A recording that was cut off states -1.
+  // A recording that was cut off states -1, as the numbers are written when it is closed.
   const int frames = playback->getNumberOfFrames(depth_.stream());
+  description_.isCutOff = frames < 0;
   description_.framesInFile = static_cast<std::size_t>(std::max(frames, 0));
   description_.notes.push_back(
       "the recording does not say whether its depth was registered to colour: it is taken to be");

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "openni2/OpenNi2Device.h"
 
@@ -14,10 +15,6 @@ const char* nameOf(openni::PixelFormat format)
 {
   switch (format)
   {
-    case openni::PIXEL_FORMAT_YUV422:
-      return "YUV 4:2:2";
-    case openni::PIXEL_FORMAT_YUYV:
-      return "YUYV";
     case openni::PIXEL_FORMAT_GRAY8:
     case openni::PIXEL_FORMAT_GRAY16:
       return "grey";
@@ -26,6 +23,25 @@ const char* nameOf(openni::PixelFormat format)
     default:
       return "another format";
   }
+}
+
+/** Whether two pixels have their own brightness and one colour together. */
+bool isYuv(openni::PixelFormat format)
+{
+  return format == openni::PIXEL_FORMAT_YUV422 || format == openni::PIXEL_FORMAT_YUYV;
+}
+
+/** The colours of an image in OpenCV's order. OpenNI2's YUV 4:2:2 begins with U. */
+cv::Mat blueGreenRed(const cv::Mat& pixels, openni::PixelFormat format)
+{
+  cv::Mat bgr;
+  if (format == openni::PIXEL_FORMAT_YUV422)
+    cv::cvtColor(pixels, bgr, cv::COLOR_YUV2BGR_UYVY);
+  else if (format == openni::PIXEL_FORMAT_YUYV)
+    cv::cvtColor(pixels, bgr, cv::COLOR_YUV2BGR_YUYV);
+  else
+    cv::cvtColor(pixels, bgr, cv::COLOR_RGB2BGR);
+  return bgr;
 }
 
 std::string sizeOf(const openni::VideoMode& mode)
@@ -45,7 +61,7 @@ OpenNi2Stream::OpenNi2Stream(openni::Device& device, openni::SensorType sensor) 
 
 bool OpenNi2Stream::isUnderstood(openni::PixelFormat format) const
 {
-  if (!isDepth()) return format == openni::PIXEL_FORMAT_RGB888;
+  if (!isDepth()) return format == openni::PIXEL_FORMAT_RGB888 || isYuv(format);
   return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
 }
 
@@ -64,8 +80,12 @@ void OpenNi2Stream::choose(const CameraOptions& options)
 {
   const auto& modes = stream_.getSensorInfo().getSupportedVideoModes();
   const openni::VideoMode* best = nullptr;
+  // Full colours before those of pairs of pixels, then the nearest rate.
   const auto distance = [&](const openni::VideoMode& mode)
-  { return std::abs(mode.getFps() - static_cast<int>(options.fps)); };
+  {
+    return std::make_pair(
+        isYuv(mode.getPixelFormat()), std::abs(mode.getFps() - static_cast<int>(options.fps)));
+  };
   for (int i = 0; i < modes.getSize(); ++i)
     if (isUnderstood(modes[i].getPixelFormat()) &&
         modes[i].getResolutionX() == static_cast<int>(options.width) &&
@@ -109,6 +129,7 @@ mrpt::img::TCamera OpenNi2Stream::calibration(const CameraOptions& options) cons
     camera.setIntrinsicParamsFromValues(fx, fy, cx, cy);
     return camera;
   }
+  if (options.calibration) return scaledTo(*options.calibration, camera.ncols, camera.nrows).color;
   const double horizontal = static_cast<double>(stream_.getHorizontalFieldOfView()),
                vertical = static_cast<double>(stream_.getVerticalFieldOfView());
   if (!(horizontal > 0 && horizontal < M_PI && vertical > 0 && vertical < M_PI))
@@ -128,14 +149,17 @@ DeviceImage OpenNi2Stream::read()
     throw std::runtime_error(
         std::string("a ") + name() + " image cannot be read: " + OpenNi2Library::error());
   const openni::VideoMode expected = mode();
-  const int bytesPerPixel = isDepth() ? 2 : 3, stride = frame.getStrideInBytes();
+  const auto format = expected.getPixelFormat();
+  const bool hasTwoBytes = isDepth() || isYuv(format);
+  const int bytesPerPixel = hasTwoBytes ? 2 : 3, stride = frame.getStrideInBytes();
   if (frame.getWidth() != expected.getResolutionX() ||
       frame.getHeight() != expected.getResolutionY() || stride < frame.getWidth() * bytesPerPixel ||
       frame.getDataSize() < frame.getHeight() * stride)
     throw std::runtime_error(std::string("a ") + name() + " image is not " + sizeOf(expected));
+  const int type = isDepth() ? CV_16UC1 : hasTwoBytes ? CV_8UC2 : CV_8UC3;
   const cv::Mat pixels(
-      frame.getHeight(), frame.getWidth(), isDepth() ? CV_16UC1 : CV_8UC3,
-      const_cast<void*>(frame.getData()), static_cast<std::size_t>(stride));
+      frame.getHeight(), frame.getWidth(), type, const_cast<void*>(frame.getData()),
+      static_cast<std::size_t>(stride));
   DeviceImage image;
   image.kind = isDepth() ? DeviceImage::Kind::Depth : DeviceImage::Kind::Color;
   image.time = 1e-6 * static_cast<double>(frame.getTimestamp());
@@ -143,7 +167,7 @@ DeviceImage OpenNi2Stream::read()
   if (isDepth())
     pixels.copyTo(image.pixels);
   else
-    cv::cvtColor(pixels, image.pixels, cv::COLOR_RGB2BGR);
+    image.pixels = blueGreenRed(pixels, format);
   if (isMirrored_) cv::flip(image.pixels, image.pixels, 1);
   return image;
 }

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "quadmap/folders/FolderCamera.h"
+
 namespace quadmap
 {
 /** How a camera or a recording of one is read. */
@@ -16,6 +18,9 @@ struct CameraOptions
   /** Focal lengths and centre (fx, fy, cx, cy) of the images [px]; f > 0. Without them they follow
    * from the field of view that the camera states. */
   std::optional<std::array<double, 4>> intrinsics;
+  /** The same from a known camera, whose calibration is scaled to the images; without distortion,
+   * and not together with `intrinsics`. */
+  std::optional<FolderCamera> calibration;
   double maxPairDelay = 0.02;     //!< Most time between a depth image and its colour image [s], > 0
   double duration = 0;            //!< Ends after this time of the camera's clock [s]; 0: never
   std::size_t frames = 0;         //!< Ends after this number of frames; 0: never
