@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <iostream>
 
 #include "../common/CameraArguments.h"
@@ -7,6 +8,7 @@
 #include "FloorUp.h"
 #include "FolderImport.h"
 #include "FolderSummary.h"
+#include "RawlogImport.h"
 #include "quadmap/folders/FolderCheck.h"
 #include "quadmap/folders/FolderKinds.h"
 
@@ -15,12 +17,14 @@ namespace
 using namespace quadmap;
 
 constexpr const char* kOpenNi2 = "openni2";
+constexpr const char* kRawlog = "rawlog";
 constexpr const char* kAuto = "auto";
 
 /** All kinds of sources. */
 std::vector<std::string> sourceKinds()
 {
   auto kinds = folderKinds();
+  kinds.emplace_back(kRawlog);
   kinds.emplace_back(kOpenNi2);
   kinds.emplace_back(kAuto);
   return kinds;
@@ -40,16 +44,19 @@ struct Cli
       "kind",
       "What the recording is: a folder as downloaded from, or in the layout of, TUM RGB-D (tum), "
       "ICL-NUIM (icl), 7-Scenes (7scenes) or ScanNet (scannet), or with organised clouds of PCL "
-      "(pcd); a camera by OpenNI2 (openni2); or auto, which tells the kind of a folder by its "
-      "files.",
+      "(pcd); a rawlog of one or several sensors, as those of Robot@Home (rawlog); a camera by "
+      "OpenNI2 (openni2); or auto, which tells the kind of a folder by its files.",
       true,
       "",
       &knownKinds,
       line.args()};
   TCLAP::UnlabeledValueArg<std::string> source{
-      "SOURCE", "Folder of the recording; openni2: live, the plugged-in camera, or FILE.oni.",
-      true,     "",
-      "SOURCE", line.args()};
+      "SOURCE",
+      "Folder of the recording, or a rawlog; openni2: live, the plugged-in camera, or FILE.oni.",
+      true,
+      "",
+      "SOURCE",
+      line.args()};
   cli::Example checking{
       line, "quadmap-import tum my_kitchen --check",
       "Says what is wrong with a recording, and writes nothing."};
@@ -71,6 +78,14 @@ struct Cli
       "", "external", "Images into OUT_Images/ instead of into the rawlog.", line.args()};
   TCLAP::ValueArg<std::string> posesAs{
       "", "poses-as", "What the poses become.", false, "odometry", &knownPoses, line.args()};
+  TCLAP::ValueArg<std::string> trajectory{
+      "",
+      "trajectory",
+      "rawlog: poses of the robot, as quadmap-slam writes them, instead of the rawlog's odometry.",
+      false,
+      "",
+      "FILE.tum",
+      line.args()};
   TCLAP::ValueArg<std::string> detections{
       "",
       "detections",
@@ -144,28 +159,65 @@ void reportMissingPoses(const FrameFolder& folder, const FolderImportReport& rep
               << report.frames << " frames have no pose in " << oneLine(folder.poses()) << "\n";
 }
 
+RawlogWriter writerOf(Cli& cli)
+{
+  RawlogWriterOptions writing;
+  writing.external = cli.external.getValue();
+  return RawlogWriter(cli.output.getValue(), writing);
+}
+
+void tellDropped(const FolderImportReport& report)
+{
+  for (const auto& what : report.dropped)
+    std::cerr << "quadmap-import: dropped: " << oneLine(what) << "\n";
+}
+
+void tellWritten(const FolderImportReport& report, Cli& cli)
+{
+  std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
+            << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";
+  if (!report.dropped.empty()) std::cout << " (" << report.dropped.size() << " things dropped)";
+  std::cout << "\n";
+}
+
 void import(const FrameFolder& folder, Cli& cli)
 {
   FolderImportOptions options;
   options.posesAs = posesAs(cli.posesAs.getValue());
   options.every = static_cast<std::size_t>(cli.every.getValue());
   options.keepGoing = cli.keepGoing.getValue();
-  RawlogWriterOptions writing;
-  writing.external = cli.external.getValue();
-  RawlogWriter writer(cli.output.getValue(), writing);
+  RawlogWriter writer = writerOf(cli);
   reportBoxesOfOtherImages(folder, options.keepGoing);
   const auto report = importFolder(folder, options, writer, cli::ProgressBar());
-  for (const auto& what : report.dropped)
-    std::cerr << "quadmap-import: dropped: " << oneLine(what) << "\n";
+  tellDropped(report);
   if (report.frames == 0)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
   reportMissingDetections(folder, report, options.keepGoing);
   if (options.posesAs != PosesAs::None) reportMissingPoses(folder, report);
   writer.finish();
-  std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
-            << " poses as " << cli.posesAs.getValue() << ", " << report.boxes << " boxes";
-  if (!report.dropped.empty()) std::cout << " (" << report.dropped.size() << " things dropped)";
-  std::cout << "\n";
+  tellWritten(report, cli);
+}
+
+/** The kind rawlog. */
+int importFromRawlog(Cli& cli)
+{
+  if (cli.detections.isSet() || cli.labels.isSet() || cli.cameraName.isSet())
+    throw cli::UsageError(
+        "--detections, --labels, --camera: not for a rawlog, whose boxes are in "
+        "NAME.objects.rawlog and whose cameras are in its records");
+  const std::string& rawlog = cli.source.getValue();
+  if (cli.check.getValue()) return checkRawlog(rawlog, std::cout, cli::ProgressBar()) ? 0 : 1;
+  RawlogImportOptions options;
+  options.posesAs = posesAs(cli.posesAs.getValue());
+  options.trajectory = cli.trajectory.getValue();
+  options.every = static_cast<std::size_t>(cli.every.getValue());
+  options.keepGoing = cli.keepGoing.getValue();
+  RawlogWriter writer = writerOf(cli);
+  const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
+  tellDropped(report);
+  writer.finish();
+  tellWritten(report, cli);
+  return 0;
 }
 
 /** Prints what a recording has and what is wrong with it.
@@ -191,14 +243,17 @@ int importFromCamera(Cli& cli)
   CameraImportRequest request;
   request.source = cli.source.getValue();
   request.output = cli.output.getValue();
-  request.camera = cli.camera.options();
+  request.camera = cli.camera.options(cli.cameraName);
   request.writing.external = cli.external.getValue();
   request.every = static_cast<std::size_t>(cli.every.getValue());
-  if (cli.cameraName.isSet()) request.calibration = cameraPreset(cli.cameraName.getValue());
-  if (request.calibration && request.calibration->isDistorted())
-    throw std::runtime_error(
-        request.calibration->origin + " distorts, and images of a device are not rectified");
   return importCamera(request);
+}
+
+bool isRawlog(const std::string& source)
+{
+  std::error_code ignored;  // of names that are too long
+  return std::filesystem::is_regular_file(source, ignored) ||
+         std::filesystem::path(source).extension() == ".rawlog";
 }
 
 int run(Cli& cli)
@@ -210,10 +265,14 @@ int run(Cli& cli)
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
   std::string kind = cli.kind.getValue();
+  if (kind == kAuto && isRawlog(cli.source.getValue())) kind = kRawlog;
+  if (kind != kRawlog && cli.trajectory.isSet())
+    throw cli::UsageError("--trajectory: for a rawlog only");
   if (kind == kOpenNi2) return importFromCamera(cli);
   cli.camera.requireNone();
   const std::string& source = cli.source.getValue();
-  if (kind == kAuto) kind = kindOfFolder(source);
+  if (kind == kAuto) kind = isRawlog(source) ? kRawlog : kindOfFolder(source);
+  if (kind == kRawlog) return importFromRawlog(cli);
   FrameFolderOptions reading;
   reading.detections = cli.detections.getValue();
   reading.labels = cli.labels.getValue();

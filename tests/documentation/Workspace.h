@@ -16,6 +16,7 @@
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/sensors/RawlogWriter.h"
 
 #ifdef QUADMAP_TEST_OPENNI2
 #include "../cameras/driver/CameraOfRawlog.h"
@@ -88,6 +89,7 @@ class Workspace
     const Trajectory truth = readTumTrajectory(QUADMAP_SOURCE_DIR "/rawlogs/home.groundtruth.tum");
     std::string rgb, depth, poses, colmap = "# image list\n";
     Downloads downloads(folder);
+    RawlogWriter session(folder.path("alma_s1.rawlog"), {});
     for (int i = 0; i < kFrames; ++i)
     {
       const auto frame = source.next();
@@ -105,8 +107,12 @@ class Workspace
         downloads.add(
             i, frame->scan->intensityImage.asCvMatRef(), millimetresOf(*frame->scan),
             T_world_optical, text(T_world_optical, false));
+      if (i >= Downloads::kFrames) continue;
+      frame->scan->sensorLabel = "RGBD_1";
+      session.write(*frame->scan);
     }
     downloads.finish();
+    session.finish();
     folder.write("my_kitchen/rgb.txt", rgb);
     folder.write("my_kitchen/depth.txt", depth);
     fs::copy(folder.path("my_kitchen"), folder.path("kitchen"), fs::copy_options::recursive);
