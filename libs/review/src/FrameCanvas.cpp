@@ -46,6 +46,9 @@ cv::Point2d FrameCanvas::onPicture(const Eigen::Vector2d& pixel) const
 void FrameCanvas::line(
     const Eigen::Vector2d& a, const Eigen::Vector2d& b, cv::Scalar color, Weight weight)
 {
+  // Thin lines of dark colours would not show on dark things.
+  if (weight == Weight::Thin)
+    cv::line(picture_, onPicture(a), onPicture(b), cv::Scalar(0, 0, 0), 3, cv::LINE_AA);
   cv::line(picture_, onPicture(a), onPicture(b), color, static_cast<int>(weight), cv::LINE_AA);
 }
 
@@ -58,11 +61,26 @@ void FrameCanvas::text(
   cv::Point corner = onPicture(at);
   corner.x = std::clamp(corner.x, 0, std::max(0, picture_.cols - size.width));
   corner.y = std::clamp(corner.y + row * kRowHeight, 0, std::max(0, picture_.rows - kRowHeight));
+  corner.y = freeRow(cv::Rect(corner, size));
+  texts_.emplace_back(corner, size);
   cv::Mat ground = picture_(cv::Rect(corner, size) & cv::Rect(0, 0, picture_.cols, picture_.rows));
   ground *= 0.35;
   cv::putText(
       picture_, text, corner + cv::Point(3, kRowHeight - 5), kCanvasFont, kFontScale, color, 1,
       cv::LINE_AA);
+}
+
+/** The upper end of a text, so that it does not lie on an earlier one: rows below are tried. */
+int FrameCanvas::freeRow(const cv::Rect& text) const
+{
+  constexpr int kMostRows = 8;  // farther away nobody knows what it belongs to
+  cv::Rect place = text;
+  for (int i = 0; i < kMostRows && place.br().y <= picture_.rows; ++i, place.y += kRowHeight)
+    if (std::none_of(
+            texts_.begin(), texts_.end(),
+            [&](const cv::Rect& other) { return (other & place).area() > 0; }))
+      return place.y;
+  return text.y;
 }
 
 void FrameCanvas::tint(const ObjectMask& mask, cv::Scalar color)

@@ -27,8 +27,8 @@ class FrameCanvas
   };
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, cv::Scalar color, Weight weight);
 
-  /** Text on a dark ground, moved into the picture. \param at Its upper left corner [px of the
-   *  image]. \param row Rows of text above it. */
+  /** Text on a dark ground, moved into the picture and below earlier texts. \param at Its upper
+   * left corner [px of the image]. \param row Rows of text above it; it moves up when < 0. */
   void text(const Eigen::Vector2d& at, int row, const std::string& text, cv::Scalar color);
 
   /** Mixes a colour into the pixels of a mask. */
@@ -48,10 +48,12 @@ class FrameCanvas
 
  private:
   cv::Point2d onPicture(const Eigen::Vector2d& pixel) const;
+  int freeRow(const cv::Rect& text) const;
 
   PinholeCamera camera_;
   int scale_ = 1;
   cv::Mat picture_;
+  std::vector<cv::Rect> texts_;  // that were drawn [px of the picture]
 };
 
 }  // namespace quadmap

@@ -139,11 +139,12 @@ class FramePainter
       head += content_.objectOfBox[index].empty() ? ", no object"
                                                   : ", object #" + content_.objectOfBox[index];
     const Eigen::Vector2d corner(object.box.x1, object.box.y1);
-    canvas_.text(corner, 0, head, kWhite);
     const ObjectMeasurement& m = object.measurement;
+    const int rows = m.kind == MeasurementKind::None ? 1 : 2;  // above the box, not on the object
+    canvas_.text(corner, -rows, head, kWhite);
     if (m.kind != MeasurementKind::None)
       canvas_.text(
-          corner, 1, std::string(nameOf(m.kind)) + ": " + oneLine(m.reason),
+          corner, -1, std::string(nameOf(m.kind)) + ": " + oneLine(m.reason),
           m.kind == MeasurementKind::Rejected ? kGrey : kGreen);
   }
 
