@@ -16,7 +16,8 @@ inline mrpt::poses::CPose3D reflected(
 {
   const Eigen::Matrix3d R = T_a_b.getRotationMatrix().asEigen();
   return mrpt::poses::CPose3D::FromRotationAndTranslation(
-      Eigen::Matrix3d(a.asDiagonal() * R * b.asDiagonal()), Eigen::Vector3d(a.cwiseProduct(positionOf(T_a_b))));
+      Eigen::Matrix3d(a.asDiagonal() * R * b.asDiagonal()),
+      Eigen::Vector3d(a.cwiseProduct(positionOf(T_a_b))));
 }
 
 }  // namespace quadmap
