@@ -6,6 +6,8 @@
 #include "../common/CommandLine.h"
 #include "../common/ProgressBar.h"
 #include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/OutputFile.h"
+#include "quadmap/simulator/RandomRoom.h"
 #include "quadmap/simulator/Simulator.h"
 
 namespace
@@ -26,17 +28,37 @@ struct Cli
       "arguments give the same bytes.",
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> scene{
-      "SCENE", "Name of an installed scene (home), or the path of a scene file.",
-      true,    "",
-      "SCENE", line.args()};
+      "SCENE",
+      "Name of an installed scene (home), the path of a scene file, or random: another furnished "
+      "room, camera and detector for each seed.",
+      true,
+      "",
+      "SCENE",
+      line.args()};
   cli::Example walk{
       line, "quadmap-simulate home -o room.rawlog --seed 7", "Walks through a furnished room."};
+  cli::Example other{
+      line, "quadmap-simulate random -o room.rawlog --seed 7 --resolution 320x240",
+      "Walks through the seventh random room."};
   cli::Group outputGroup{line, "Output"};
   TCLAP::ValueArg<std::string> output{"o",          "output",   "The rawlog to write.", true, "",
                                       "OUT.rawlog", line.args()};
   TCLAP::ValueArg<std::string> seed{
-      "",  "seed",     "Another number, another recording of the same walk.", false, "1",
-      "N", line.args()};
+      "",
+      "seed",
+      "Another number, another recording of the same walk (and another random room).",
+      false,
+      "1",
+      "N",
+      line.args()};
+  TCLAP::ValueArg<std::string> sceneFile{
+      "",
+      "write-scene",
+      "Writes a random room as a scene file as well, to look at or change.",
+      false,
+      "",
+      "ROOM.ini",
+      line.args()};
   cli::Group errors{line, "Errors of the sensors"};
   TCLAP::ValueArg<std::string> noise{
       "",         "noise", "Multiplies all errors of the sensors, 0 to 10; 0 = perfect sensors.",
@@ -174,11 +196,27 @@ void report(const std::string& file, const simulator::SimulationSummary& summary
       std::cout << "note: object " << object.id << " (" << object.label << ") is never seen\n";
 }
 
+/** The scene that the user asks for. A random room is another one for each seed. */
+simulator::Scene sceneOf(Cli& cli, std::uint64_t seed)
+{
+  const std::string& name = cli.scene.getValue();
+  if (name != simulator::kRandomRoom)
+  {
+    if (cli.sceneFile.isSet())
+      throw cli::UsageError(
+          "--write-scene: only for the scene " + std::string(simulator::kRandomRoom));
+    return simulator::readScene(simulator::findScene(name));
+  }
+  simulator::Scene room = simulator::randomRoom(seed);
+  if (cli.sceneFile.isSet()) writeTextFile(cli.sceneFile.getValue(), simulator::sceneText(room));
+  return room;
+}
+
 void run(Cli& cli)
 {
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
   const simulator::NoiseFactors noise = noiseFactors(cli);
-  simulator::Scene scene = simulator::readScene(simulator::findScene(cli.scene.getValue()));
+  simulator::Scene scene = sceneOf(cli, seed);
   setFrames(cli, scene.options.trajectory);
   if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options);
   if (cli.detections.isSet())

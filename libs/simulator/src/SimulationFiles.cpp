@@ -27,7 +27,7 @@ std::vector<ObjectRecord> truthOf(const Scene& scene, const std::vector<unsigned
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
   {
     const SceneObject& object = scene.objects[i];
-    if (object.label.empty()) continue;
+    if (object.label.empty() || !object.way.empty()) continue;
     ObjectRecord record;
     record.id = std::to_string(truth.size() + 1);
     record.label = object.label;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "camera/CameraPath.h"
+#include "camera/MotionBlur.h"
 #include "detector/DetectorMask.h"
 #include "noise/DepthNoise.h"
 #include "noise/SimulatedOdometry.h"
@@ -16,12 +17,14 @@ namespace
 constexpr double kDepthUnit =
     1.0 / 5000;  // unit of the stored 16-bit depth, as TUM's: up to 13.1 m [m]
 
-mrpt::img::TCamera calibrationOf(const PinholeCamera& camera)
+/** \param error Relative error of the focal length. */
+mrpt::img::TCamera calibrationOf(const PinholeCamera& camera, double error)
 {
   mrpt::img::TCamera calibration;
   calibration.ncols = camera.width;
   calibration.nrows = camera.height;
-  calibration.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
+  calibration.setIntrinsicParamsFromValues(
+      camera.fx * (1 + error), camera.fy * (1 + error), camera.cx, camera.cy);
   return calibration;
 }
 
@@ -66,13 +69,37 @@ Simulator::Simulator(Scene scene, LabelTable labels, std::uint64_t seed) :
     seed_(seed),
     cameras_(scene_.options.cameras()),
     shots_(shotsOf(cameras_, scene_.options.trajectory)),
-    detector_(scene_, scene_.options.detector, labels_)
+    detector_(scene_, scene_.options.detector, labels_, seed_)
 {
   std::vector<double> instants;
   for (const auto& shot : shots_) instants.push_back(shot.instant);
   T_world_robot_ = robotPath(scene_, scene_.options.trajectory, instants);
+  T_start_end_ = motionDuringExposure(instants);
   RandomStream random(seed_, Purpose::Odometry, 0);
   odometry_ = driftingOdometry(T_world_robot_, scene_.options.odometry, random);
+}
+
+std::vector<mrpt::poses::CPose3D> Simulator::motionDuringExposure(
+    const std::vector<double>& instants) const
+{
+  const auto& trajectory = scene_.options.trajectory;
+  std::vector<mrpt::poses::CPose3D> motion;
+  const bool any = std::any_of(
+      cameras_.begin(), cameras_.end(), [](const CameraOptions& c) { return c.exposure > 0; });
+  if (!any) return motion;
+  std::vector<double> later;  // one millisecond
+  for (const double instant : instants)
+    later.push_back(instant + 1e-3 * trajectory.frames / trajectory.duration);
+  const auto after = robotPath(scene_, trajectory, later);
+  for (std::size_t i = 0; i < instants.size(); ++i)
+  {
+    const mrpt::poses::CPose3D step = after[i] - T_world_robot_[i];
+    const double times = 1e3 * cameras_[shots_[i].camera].exposure;
+    motion.emplace_back(
+        times * step.x(), times * step.y(), times * step.z(), times * step.yaw(),
+        times * step.pitch(), times * step.roll());
+  }
+  return motion;
 }
 
 std::vector<Simulator::Shot> Simulator::shotsOf(
@@ -102,10 +129,12 @@ double Simulator::time(std::size_t frame) const
 SimulatedFrame Simulator::frame(std::size_t index) const
 {
   const CameraOptions& by = camera(index);
-  const RenderedFrame rendered = RayCaster(scene_, by.pinhole())
-                                     .render(
-                                         T_world_robot_[index] + by.T_robot_camera(),
-                                         time(index) - scene_.options.trajectory.startTime);
+  RenderedFrame rendered = RayCaster(scene_, by.pinhole())
+                               .render(
+                                   T_world_robot_[index] + by.T_robot_camera(),
+                                   time(index) - scene_.options.trajectory.startTime);
+  if (by.exposure > 0)
+    blurByMotion(rendered, (T_start_end_[index] + by.T_robot_camera()) - by.T_robot_camera());
   SimulatedFrame result;
   result.scan = scanOf(rendered, index);
   result.visible = visibleObjects(scene_, rendered, scene_.options.detector);
@@ -116,7 +145,7 @@ SimulatedFrame Simulator::frame(std::size_t index) const
   result.objects->timestamp = result.scan->timestamp;
   result.objects->cameraParams = result.scan->cameraParams;
   result.objects->sensorPose = result.scan->sensorPose;
-  Detections found = detector_.detect(result.visible, rendered.camera, random);
+  Detections found = detector_.detect(result.visible, rendered.camera, random, rendered.blur);
   const DetectorOptions& detector = scene_.options.detector;
   if (detector.output != DetectorOutput::Boxes)
   {
@@ -136,7 +165,8 @@ mrpt::obs::CObservation3DRangeScan::Ptr Simulator::scanOf(
   scan->sensorLabel = camera(index).name;
   scan->sensorPose = camera(index).T_robot_camera();
   scan->timestamp = mrpt::Clock::fromDouble(time(index));
-  scan->cameraParams = scan->cameraParamsIntensity = calibrationOf(rendered.camera);
+  scan->cameraParams = scan->cameraParamsIntensity =
+      calibrationOf(rendered.camera, camera(index).focalError);
   scan->maxRange = static_cast<float>(scene_.options.depthNoise.maxRange);
 
   RandomStream random(seed_, Purpose::Depth, index);

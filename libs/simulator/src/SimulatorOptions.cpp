@@ -18,13 +18,6 @@ constexpr std::pair<Motion, const char*> kMotions[] = {
     {Motion::Approach, "approach"},
 };
 
-constexpr std::pair<DetectorOutput, const char*> kOutputs[] = {
-    {    DetectorOutput::Boxes,     "boxes"},
-    {    DetectorOutput::Masks,     "masks"},
-    {  DetectorOutput::Classes,   "classes"},
-    {DetectorOutput::Instances, "instances"},
-};
-
 /** \param shares Stay below 1. */
 void scaleErrors(
     double factor, const std::vector<double*>& sigmas, const std::vector<double*>& shares)
@@ -34,13 +27,6 @@ void scaleErrors(
 }
 
 }  // namespace
-
-std::optional<DetectorOutput> detectorOutputOf(const std::string& name)
-{
-  for (const auto& [output, known] : kOutputs)
-    if (name == known) return output;
-  return std::nullopt;
-}
 
 void CameraOptions::describe(OptionList& list)
 {
@@ -56,6 +42,13 @@ void CameraOptions::describe(OptionList& list)
   list.integer(
       "jpegQuality", jpegQuality, {1, 100}, "",
       "Quality of the stored images of all cameras. They look unharmed with the default.");
+  list.number(
+      "focalError", focalError, {-0.2, 0.2}, "",
+      "Relative error of the focal length in the recording: that of one calibration.");
+  list.number(
+      "exposure", exposure, {0, 0.5}, "s",
+      "The colour image is blurred by the motion of so long, and boxes err by a quarter of the "
+      "blur.");
   list.vector("position", position.data(), {-10, 10}, "m", "Place x y z on the robot.");
   list.number("yaw_deg", yaw_deg, {-360, 360}, "deg", "A positive yaw looks to the left.");
   list.number("pitch_deg", pitch_deg, {-90, 90}, "deg", "A positive pitch looks down.");
@@ -118,62 +111,6 @@ void TrajectoryOptions::describe(OptionList& list)
       [this] { return rounds == 1 || kind == Motion::Walk; }, "rounds: only a walk is closed");
 }
 
-namespace
-{
-void describeDisparity(DepthNoiseOptions& o, OptionList& list)
-{
-  list.number(
-      "axialBase", o.axialBase, {0, 1}, "m", "Standard deviation of z at 0.4 m, as published.");
-  list.number(
-      "axialGrowth", o.axialGrowth, {0, 1}, "1/m",
-      "Growth of that standard deviation with (z - 0.4 m)^2, as published.");
-  list.number(
-      "window", o.window, {0, 64}, "px of an image 640 px wide",
-      "Side of the square of pixels over which disparity is estimated and its noise is correlated. "
-      "0 makes the noise independent. 9 x 7 is published.");
-  list.number(
-      "disparityStep", o.disparityStep, {0, 4}, "px",
-      "Quantum of the disparity, as published. 0 does not round it.");
-  list.number(
-      "baseline", o.baseline, {0.001, 1}, "m",
-      "Distance from the projector to the camera. The default is the Kinect's.");
-  list.number(
-      "sensorFocal", o.sensorFocal, {10, 10000}, "px",
-      "Focal length of the infrared camera. The default is the Kinect's with VGA images.");
-  list.number(
-      "lateral", o.lateral, {0, 10}, "px of an image 640 px wide",
-      "Standard deviation of the sampled position, as published.");
-}
-
-void describeGaps(DepthNoiseOptions& o, OptionList& list)
-{
-  list.number("edgeJump", o.edgeJump, {0.001, 10}, "", "Relative jump of z that makes an edge.");
-  list.number("edgeHoles", o.edgeHoles, {0, 1}, "", "Share of edge pixels without depth.");
-  list.number(
-      "edgeFlying", o.edgeFlying, {0, 1}, "",
-      "Share of edge pixels with a depth between the two surfaces.");
-  list.number("dropouts", o.dropouts, {0, 1}, "", "Share of all pixels without depth.");
-  list.number(
-      "maxIncidence_deg", o.maxIncidence_deg, {1, 90}, "deg",
-      "Nothing returns from a surface seen at a flatter angle.");
-  list.number("minRange", o.minRange, {0, 100}, "m", "Nearer surfaces give no depth.");
-  list.number(
-      "maxRange", o.maxRange, {0.1, 13}, "m",
-      "Farther surfaces give no depth. 16 bits in steps of 0.2 mm end at 13 m.");
-  list.flag(
-      "shadow", o.shadow, "True gives no depth where the light of the projector does not reach.");
-}
-
-}  // namespace
-
-void DepthNoiseOptions::describe(OptionList& list)
-{
-  list.about("Noise of the depth of a structured-light camera.");
-  describeDisparity(*this, list);
-  describeGaps(*this, list);
-  list.requireLess("minRange", "maxRange");
-}
-
 void OdometryOptions::describe(OptionList& list)
 {
   list.about("Odometry: a random walk of the pose and one error of scale for the whole run.");
@@ -192,49 +129,6 @@ void OdometryOptions::describe(OptionList& list)
   list.number("scale", scale, {0, 0.5}, "", "Standard deviation of the relative error of scale.");
 }
 
-namespace
-{
-void describeOutput(DetectorOptions& o, OptionList& list)
-{
-  list.choice(
-      "output", o.output, kOutputs,
-      "boxes gives boxes. masks gives boxes with masks. classes labels the pixels of the scan by "
-      "label. instances labels them by label and number.");
-  list.number(
-      "maskJitter", o.maskJitter, {0, 50}, "px of an image 640 px wide",
-      "Standard deviation of the border of a mask. The default is that of a grid of stride 4.");
-  list.flag(
-      "instanceIds", o.instanceIds,
-      "True gives boxes the number of their object. False alarms have none.");
-}
-
-}  // namespace
-
-void DetectorOptions::describe(OptionList& list)
-{
-  constexpr const char* kPixels = "px of an image 640 px wide";
-  list.about("What a detector finds in the images.");
-  describeOutput(*this, list);
-  list.number("jitter", jitter, {0, 100}, kPixels, "Standard deviation of each edge of a box.");
-  list.number(
-      "relativeJitter", relativeJitter, {0, 1}, "",
-      "The rest of it, as a share of the square root of width times height of the box.");
-  list.number(
-      "minVisible", minVisible, {0, 1}, "",
-      "Nothing is found below this visible share of the outline.");
-  list.number(
-      "minSize", minSize, {1, 1000}, kPixels,
-      "Smallest square root of width times height of a box that is found.");
-  list.number("missRate", missRate, {0, 1}, "", "Share of fully visible objects that are missed.");
-  list.number(
-      "occludedMissRate", occludedMissRate, {0, 1}, "",
-      "Share of objects that are missed when just minVisible of them is left.");
-  list.number("falseAlarms", falseAlarms, {0, 10}, "per frame", "Number of boxes around nothing.");
-  list.number(
-      "flipRate", flipRate, {0, 1}, "",
-      "Share of boxes with a label that the object is mistaken for.");
-}
-
 std::vector<CameraOptions> SimulatorOptions::cameras() const
 {
   return rig.empty() ? std::vector<CameraOptions>{camera} : rig;
@@ -248,13 +142,20 @@ void SimulatorOptions::resize(int width, int height)
 
 void SimulatorOptions::scaleNoise(const NoiseFactors& factors)
 {
-  camera.colorNoise *= factors.color;
-  for (auto& one : rig) one.colorNoise *= factors.color;
+  const auto scaleColor = [&](CameraOptions& one)
+  {
+    one.colorNoise *= factors.color;
+    one.exposure *= factors.color;
+    one.focalError *= factors.color;
+  };
+  scaleColor(camera);
+  for (auto& one : rig) scaleColor(one);
   scaleErrors(
       factors.depth,
       {&depthNoise.axialBase, &depthNoise.axialGrowth, &depthNoise.disparityStep,
-       &depthNoise.lateral},
-      {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts});
+       &depthNoise.lateral, &depthNoise.bleeding, &depthNoise.scaleError, &depthNoise.warp,
+       &depthNoise.wiggle},
+      {&depthNoise.edgeHoles, &depthNoise.edgeFlying, &depthNoise.dropouts, &depthNoise.darkHoles});
   scaleErrors(
       factors.odometry,
       {&odometry.translationPerMetre, &odometry.rotationPerMetre_deg,
@@ -262,8 +163,10 @@ void SimulatorOptions::scaleNoise(const NoiseFactors& factors)
       {});
   scaleErrors(
       factors.detector,
-      {&detector.jitter, &detector.relativeJitter, &detector.maskJitter, &detector.falseAlarms},
-      {&detector.missRate, &detector.occludedMissRate, &detector.flipRate});
+      {&detector.jitter, &detector.relativeJitter, &detector.maskJitter, &detector.falseAlarms,
+       &detector.viewEdges},
+      {&detector.missRate, &detector.occludedMissRate, &detector.flipRate, &detector.viewMisses,
+       &detector.viewFlips, &detector.viewParts, &detector.viewMergers});
 }
 
 }  // namespace quadmap::simulator

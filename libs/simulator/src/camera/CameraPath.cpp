@@ -210,7 +210,9 @@ void checkFree(const Scene& scene, const Eigen::Vector3d& p, double below, const
   for (const auto& object : scene.objects)
   {
     if (!object.standsAt(moment.time)) continue;
-    const Ellipsoid box = object.truth();
+    SceneObject there = object;
+    there.T_world_obj = object.poseAt(moment.time);
+    const Ellipsoid box = there.truth();
     const Eigen::Vector3d q = box.rotation().transpose() * (p - box.center());
     const Eigen::Vector3d reach = box.semiAxes() + Eigen::Vector3d(0, 0, below);
     const bool beside = std::abs(q.x()) > reach.x() || std::abs(q.y()) > reach.y();

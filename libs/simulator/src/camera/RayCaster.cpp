@@ -36,6 +36,8 @@ class FrameRenderer
   {
     const std::size_t pixels = std::size_t{camera.width} * camera.height;
     out_.camera = camera;
+    out_.T_world_camera = pose;
+    out_.time = time;
     out_.depth.resize(pixels);
     out_.object.assign(pixels, RenderedFrame::kRoom);
     out_.cosIncidence.resize(pixels);
@@ -94,9 +96,10 @@ class FrameRenderer
       out_.outline.emplace_back();
       return;
     }
+    const mrpt::poses::CPose3D T_world_obj = o.poseAt(time_);
     for (const auto& part : o.parts)
     {
-      const Transform T_world_prim(o.T_world_obj + part.T_obj_prim);
+      const Transform T_world_prim(T_world_obj + part.T_obj_prim);
       SeenPrimitive seen{
           &part,
           T_world_prim.inverted(T_world_optical_.t),
@@ -108,7 +111,7 @@ class FrameRenderer
     for (std::size_t part = 0; part < o.parts.size(); ++part)
       castPart(object, static_cast<std::uint16_t>(part));
     out_.outlinePixels.push_back(coveredInside_ + coveredOutside(seen_.back()));
-    out_.outline.push_back(outlineBox(o, T_world_camera_, out_.camera));
+    out_.outline.push_back(outlineBox(o, T_world_obj - T_world_camera_, out_.camera));
     coveredInside_ = 0;
   }
 

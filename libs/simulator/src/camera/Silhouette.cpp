@@ -163,11 +163,10 @@ std::optional<ImageBox> outlineBox(
 
 std::optional<ImageBox> outlineBox(
     const SceneObject& object,
-    const mrpt::poses::CPose3D& T_world_camera,
+    const mrpt::poses::CPose3D& T_camera_obj,
     const PinholeCamera& camera)
 {
   OutlineBounds bounds;
-  const mrpt::poses::CPose3D T_camera_obj = object.T_world_obj - T_world_camera;
   for (const auto& part : object.parts)
     addSolid(bounds, part, T_camera_obj + part.T_obj_prim, camera);
   return bounds.box();

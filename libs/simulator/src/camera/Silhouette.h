@@ -18,10 +18,10 @@ namespace quadmap::simulator
 std::optional<ImageBox> outlineBox(
     const Primitive& solid, const mrpt::poses::CPose3D& T_camera_prim, const PinholeCamera& camera);
 
-/** The box of the outline of all parts of an object. */
+/** The box of the outline of all parts of an object. \param T_camera_obj As above. */
 std::optional<ImageBox> outlineBox(
     const SceneObject& object,
-    const mrpt::poses::CPose3D& T_world_camera,
+    const mrpt::poses::CPose3D& T_camera_obj,
     const PinholeCamera& camera);
 
 }  // namespace quadmap::simulator

@@ -6,50 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "noise/CorrelatedNoise.h"
+
 namespace quadmap::simulator
 {
 namespace
 {
-/** Weights of a window of some width [px] about its middle pixel. The pixels at its ends count in
- * part. A weighted sum of independent errors has the variance of one of them. */
-std::vector<double> windowWeights(double width)
-{
-  const int reach = static_cast<int>(std::ceil((width - 1) / 2));
-  std::vector<double> weights;
-  double squares = 0;
-  for (int k = -reach; k <= reach; ++k)
-  {
-    weights.push_back(std::clamp(0.5 * (width + 1) - std::abs(k), 0.0, 1.0));
-    squares += weights.back() * weights.back();
-  }
-  for (double& w : weights) w /= std::sqrt(squares);
-  return weights;
-}
+constexpr double kPatch = 14;        // width of the patches of dark holes [px at 640]
+constexpr double kBright = 90;       // what is brighter than this, of 255, returns enough light
+constexpr double kWavePeriod = 1.5;  // half the wave length of a modulation by 100 MHz [m]
 
-/** Gaussian errors with mean 0 and standard deviation 1 that are correlated over a square window,
- * row major. */
-std::vector<double> windowedNoise(int width, int height, double window, RandomStream& random)
-{
-  const auto weights = windowWeights(window);
-  const auto n = weights.size();
-  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  const std::size_t wide = columns + n - 1;  // width with a margin for the window
-  std::vector<double> lines((rows + n - 1) * columns, 0.0), line(wide);
-  for (std::size_t v = 0; v < rows + n - 1; ++v)
-  {
-    for (double& x : line) x = random.gaussian();
-    for (std::size_t u = 0; u < columns; ++u)
-      for (std::size_t k = 0; k < n; ++k) lines[v * columns + u] += weights[k] * line[u + k];
-  }
-  std::vector<double> result(rows * columns, 0.0);
-  for (std::size_t v = 0; v < rows; ++v)
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t u = 0; u < columns; ++u)
-        result[v * columns + u] += weights[k] * lines[(v + k) * columns + u];
-  return result;
-}
-
-/** A structured-light camera. Its functions are in the order in which they affect the light. */
+/** A depth camera. Its functions are in the order in which they affect the light. */
 class DepthSensor
 {
  public:
@@ -68,6 +35,9 @@ class DepthSensor
   {
     const double window = options_.window * width_ / 640.0;
     if (window > 1) correlated_ = windowedNoise(width_, height_, window, random_);
+    const double patch = kPatch * width_ / 640.0;
+    if (options_.darkHoles > 0 || options_.bleeding > 0)
+      patches_ = windowedNoise(width_, height_, std::max(patch, 1.0), random_);
     std::vector<float> result(frame_.depth.size(), 0.0F);
     std::vector<bool> lit(static_cast<std::size_t>(width_), true);
     for (int v = 0; v < height_; ++v)
@@ -110,12 +80,12 @@ class DepthSensor
     const double dice = random_.uniform(), mix = random_.uniform(), noise = random_.gaussian();
     const double error = correlated_.empty() ? noise : correlated_[index(u, v)];
 
-    const std::size_t source = index(su, sv);
+    const std::size_t source = options_.bleeding > 0 ? nearestBeside(su, sv) : index(su, sv);
     if (frame_.returnsDepth[source] == 0) return 0;
     if (static_cast<double>(frame_.cosIncidence[source]) < minCosIncidence_) return 0;
-    if (dice < options_.dropouts) return 0;
+    if (dice < options_.dropouts || isDarkHole(source)) return 0;
 
-    double z = depthAt(su, sv);
+    double z = static_cast<double>(frame_.depth[source]);
     const auto [low, high] = depthsAround(su, sv);
     if (high - low > options_.edgeJump * low)
     {
@@ -124,8 +94,62 @@ class DepthSensor
       if (fate < options_.edgeHoles + options_.edgeFlying) z = low + mix * (high - low);
     }
     if (z < options_.minRange || z > options_.maxRange) return 0;
-    z = quantizedDepth(options_, z + axialSigma(options_, z) * error);
+    const double sigma = axialSigma(options_, z) * darkFactor(source);
+    z = quantizedDepth(options_, z + systematicError(u, v, z) + sigma * error);
     return z > 0 && z <= options_.maxRange ? static_cast<float>(z) : 0.0F;
+  }
+
+  /** 0 for what is brighter than a third, 1 for black. Dark things are taken as dark in infrared.
+   */
+  double darkness(std::size_t pixel) const
+  {
+    const std::uint8_t* rgb = &frame_.rgb[3 * pixel];
+    return std::max(0.0, 1 - *std::max_element(rgb, rgb + 3) / kBright);
+  }
+
+  double darkFactor(std::size_t pixel) const
+  {
+    return options_.darkNoise > 0 ? 1 + options_.darkNoise * darkness(pixel) : 1.0;
+  }
+
+  /** Whole patches of a dark surface have no depth, and the same share of its pixels. */
+  bool isDarkHole(std::size_t pixel) const
+  {
+    if (options_.darkHoles <= 0) return false;
+    const double share = options_.darkHoles * darkness(pixel);
+    return 0.5 * std::erfc(patches_[pixel] / std::sqrt(2.0)) < share;
+  }
+
+  /** The nearest surface within the reach of a matching window, which is not the same everywhere.
+   */
+  std::size_t nearestBeside(int u, int v) const
+  {
+    const double most = options_.bleeding * width_ / 640.0;
+    const double share = 0.5 * std::erfc(patches_[index(u, v)] / std::sqrt(2.0));
+    const int reach = static_cast<int>(std::lround(most * share));
+    std::size_t best = index(u, v);
+    const double near = depthAt(u, v) / (1 + options_.edgeJump);
+    for (int k = 1; k <= reach; ++k)
+      for (const auto& [du, dv] : {
+               std::pair{-k,  0},
+               { k,  0},
+               { 0, -k},
+               { 0,  k}
+      })
+      {
+        const int x = std::clamp(u + du, 0, width_ - 1), y = std::clamp(v + dv, 0, height_ - 1);
+        const double z = depthAt(x, y);
+        if (z < near && z < static_cast<double>(frame_.depth[best])) best = index(x, y);
+      }
+    return best;
+  }
+
+  /** What is wrong in the same way in every frame [m]. */
+  double systematicError(int u, int v, double z) const
+  {
+    const double x = 2.0 * u / width_ - 1, y = 2.0 * v / height_ - 1;
+    return options_.scaleError * z + options_.warp * z * z * (1 - x * x - y * y) +
+           options_.wiggle * std::sin(2 * M_PI * z / kWavePeriod);
   }
 
   int jittered(int x) { return static_cast<int>(std::lround(x + lateral_ * random_.gaussian())); }
@@ -155,6 +179,7 @@ class DepthSensor
   const int width_, height_;
   const double lateral_;  // [px]
   const double minCosIncidence_;
+  std::vector<double> patches_;     // of holes and of the reach of bleeding; empty without both
   std::vector<double> correlated_;  // errors of the pixels; empty when they are independent
 };
 

@@ -213,28 +213,47 @@ class SceneReader
     if (const auto e = entryOf(file_, section, "model")) object.parts = modelOf(*e);
     const std::set<std::string> known{
         "label", "model", "position", "yaw_deg", "orientation_defined", "from", "to"};
-    for (const auto& key : keysOf(section, {"part", "move"}, known))
+    for (const auto& key : keysOf(section, {"part", "move", "way"}, known))
       if (key.compare(0, 4, "part") == 0) object.parts.push_back(partOf(required(section, key)));
     if (object.parts.empty())
       throw std::invalid_argument("[" + section + "] has neither a model nor a part");
-    for (const auto& move : numberedEntries(file_, section, "move")) stayUntilMoved(object, move);
+    for (const auto& point : numberedEntries(file_, section, "way")) goOn(object, point);
+    for (const auto& move : numberedEntries(file_, section, "move"))
+      object.way.empty() ? stayUntilMoved(object, move)
+                         : move.reject("what goes a way cannot be moved as well");
     scene_.objects.push_back(std::move(object));
+  }
+
+  /** A time [s] and a place: time x y z yaw_deg. */
+  static WayPoint wayPointOf(const Entry& e)
+  {
+    const auto words = wordsOf(e.text);
+    if (words.size() != 5) e.reject("expected: time [s], x y z, yaw in degrees");
+    const Eigen::Vector3d p = e.vector(words, 1, -kFar, kFar);
+    return {
+        e.number(words[0], 0, kLongest),
+        {p.x(), p.y(), p.z(), mrpt::DEG2RAD(e.number(words[4], -360, 360)), 0, 0}
+    };
+  }
+
+  static void goOn(SceneObject& object, const Entry& e)
+  {
+    const WayPoint point = wayPointOf(e);
+    if (!object.way.empty() && !(point.time > object.way.back().time))
+      e.reject("must come later than what is before it");
+    object.way.push_back(point);
   }
 
   /** Reads time x y z yaw_deg, which ends the stay at one place and begins that at the next. */
   void stayUntilMoved(SceneObject& object, const Entry& e)
   {
-    const auto words = wordsOf(e.text);
-    if (words.size() != 5) e.reject("expected: time [s], x y z, yaw in degrees");
-    const double time = e.number(words[0], 0, kLongest);
-    if (!(time > object.from && time < object.to))
+    const WayPoint next = wayPointOf(e);
+    if (!(next.time > object.from && next.time < object.to))
       e.reject("must come later than what is before it, and earlier than `to`");
     SceneObject before = object;
-    before.to = object.from = time;
+    before.to = object.from = next.time;
     scene_.objects.push_back(std::move(before));
-    const Eigen::Vector3d p = e.vector(words, 1, -kFar, kFar);
-    object.T_world_obj = mrpt::poses::CPose3D(
-        p.x(), p.y(), p.z(), mrpt::DEG2RAD(e.number(words[4], -360, 360)), 0, 0);
+    object.T_world_obj = next.T_world_obj;
   }
 
   const Parts& modelOf(const Entry& e) const

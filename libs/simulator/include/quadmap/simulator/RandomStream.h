@@ -12,7 +12,9 @@ enum class Purpose : std::uint64_t
   Color,
   Detector,
   Odometry,
-  Mask
+  Mask,
+  Room,
+  View
 };
 
 /** Random numbers that depend on nothing but (random seed, purpose, frame). Frames may therefore be

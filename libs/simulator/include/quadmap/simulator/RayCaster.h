@@ -17,6 +17,9 @@ struct RenderedFrame
   static constexpr std::int32_t kRoom = -1;
 
   PinholeCamera camera;
+  mrpt::poses::CPose3D T_world_camera;     //!< Camera frame x forward, y left, z up
+  double time = 0;                         //!< Of the objects [s since the start]
+  double blur = 0;                         //!< Mean length of the motion of the pixels [px]
   std::vector<float> depth;                //!< Along the optical axis [m]
   std::vector<std::int32_t> object;        //!< Index into Scene::objects, or kRoom
   std::vector<float> cosIncidence;         //!< Cosine of the angle between ray and normal

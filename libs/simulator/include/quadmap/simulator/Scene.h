@@ -29,6 +29,13 @@ struct Material
   bool depth = true;      //!< False for screens, glass and the like
 };
 
+/** Where something that walks is at one time. */
+struct WayPoint
+{
+  double time;                       //!< [s since the start]
+  mrpt::poses::CPose3D T_world_obj;  //!< Upright
+};
+
 /** One piece of furniture, upright and made of primitives. Its parts are given in its frame `obj`,
  * whose z = 0 is usually where it stands. */
 struct SceneObject
@@ -42,10 +49,16 @@ struct SceneObject
   double to = std::numeric_limits<double>::infinity();
   bool orientationDefined = true;
   std::vector<Primitive> parts;  //!< Never empty
+  /** Of what walks: it goes straight and evenly from one point to the next, in the order of time.
+   * It has no place on a map. Empty for all that stays. */
+  std::vector<WayPoint> way;
 
   bool standsAt(double time) const { return from <= time && time < to; }
 
-  /** The tight cuboid of all parts along the axes of `obj`. */
+  /** T_world_obj at a time. */
+  mrpt::poses::CPose3D poseAt(double time) const;
+
+  /** The tight cuboid of all parts along the axes of `obj`, at its T_world_obj. */
   Ellipsoid truth() const;
 };
 

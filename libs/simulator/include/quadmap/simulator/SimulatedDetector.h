@@ -21,6 +21,7 @@ struct VisibleObject
    * The object really ends where an edge of `box` is within a pixel or two of this one. Elsewhere
    * the border of the image cuts it, or something nearer occludes it. */
   ImageBox outline;
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  //!< Place of the camera in the object's frame [m]
 };
 
 /** The labelled objects of which enough can be seen, in the order of the scene. */
@@ -39,24 +40,51 @@ struct Detections
 class SimulatedDetector
 {
  public:
-  /** \param labels Says which labels are mistaken for which. */
-  SimulatedDetector(const Scene& scene, const DetectorOptions& options, const LabelTable& labels);
+  /** \param labels Says which labels are mistaken for which.
+   *  \param seed Random seed of the errors that stay while the view stays. */
+  SimulatedDetector(
+      const Scene& scene,
+      const DetectorOptions& options,
+      const LabelTable& labels,
+      std::uint64_t seed = 0);
 
-  /** It may run concurrently. */
+  /** It may run concurrently. \param blur Length of the motion of the pixels [px]. */
   Detections detect(
       const std::vector<VisibleObject>& visible,
       const PinholeCamera& camera,
-      RandomStream& random) const;
+      RandomStream& random,
+      double blur = 0) const;
 
  private:
+  /** The box and the label by which a network takes an object. */
+  struct TakenObject
+  {
+    ImageBox box;
+    std::string label;
+    bool isMissed = false;
+  };
+
+  /** The objects as a network takes them, which errs in the same way while the view stays. */
+  std::vector<TakenObject> taken(const std::vector<VisibleObject>& visible) const;
+  void mergeWithNeighbour(
+      std::size_t index,
+      const std::vector<VisibleObject>& visible,
+      std::vector<TakenObject>& taken,
+      bool hidesNeighbour) const;
   DetectedObject detection(
-      const VisibleObject& seen, const PinholeCamera& camera, RandomStream& random) const;
+      const TakenObject& taken,
+      const VisibleObject& seen,
+      const PinholeCamera& camera,
+      RandomStream& random,
+      double blur) const;
   DetectedObject falseAlarm(const PinholeCamera& camera, RandomStream& random) const;
+  std::string wrongLabel(const std::string& label, double which) const;
   std::string possiblyWrongLabel(const std::string& label, RandomStream& random) const;
 
   const Scene& scene_;
   DetectorOptions options_;
   const LabelTable& labels_;
+  std::uint64_t seed_;
   std::vector<std::string> sceneLabels_;  // labels of the scene, each once, for false alarms
 };
 

@@ -62,6 +62,9 @@ class Simulator
   static std::vector<Shot> shotsOf(
       const std::vector<CameraOptions>& cameras, const TrajectoryOptions& trajectory);
 
+  /** Motion of the robot during the exposure of each frame; empty when no camera blurs. */
+  std::vector<mrpt::poses::CPose3D> motionDuringExposure(const std::vector<double>& instants) const;
+
   mrpt::obs::CObservation3DRangeScan::Ptr scanOf(
       const RenderedFrame& rendered, std::size_t index) const;
 
@@ -72,6 +75,7 @@ class Simulator
   std::vector<Shot> shots_;
   SimulatedDetector detector_;
   std::vector<mrpt::poses::CPose3D> T_world_robot_;
+  std::vector<mrpt::poses::CPose3D> T_start_end_;  // of the robot during each exposure, if any
   std::vector<mrpt::poses::CPose3D> odometry_;
 };
 

@@ -20,6 +20,8 @@ struct CameraOptions : public OptionGroup
   double focal = 525;             //!< fx = fy [px], 10..10000: the Kinect's default calibration
   double colorNoise = 1.5;        //!< Sigma of each colour value [0..255], 0..50: a decent exposure
   int jpegQuality = 90;           //!< Of the stored images of all cameras, 1..100: looks unharmed
+  double focalError = 0;          //!< Relative error of fx and fy as the files have them, -0.2..0.2
+  double exposure = 0;            //!< Colour is blurred by the motion of so long [s], 0..0.5
   std::string name = "camera";    //!< NAME, the sensor label
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  //!< On the robot, x y z [m], -10..10
   double yaw_deg = 0;    //!< Positive: looks to the left [deg], -360..360
@@ -61,9 +63,9 @@ struct TrajectoryOptions : public OptionGroup
   void describe(OptionList& list) override;
 };
 
-/** INI section [depth_noise]. A structured-light camera: Nguyen, Izadi, Lovell, "Modeling Kinect
- * Sensor Noise for Improved 3D Reconstruction and Tracking", 3DIMPVT 2012 (axial, lateral);
- * Khoshelham and Elberink, Sensors 12(2), 2012 (disparity). */
+/** INI section [depth_noise]. By default a structured-light camera: Nguyen, Izadi, Lovell,
+ * "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking", 3DIMPVT 2012 (axial,
+ * lateral); Khoshelham and Elberink, Sensors 12(2), 2012 (disparity). */
 struct DepthNoiseOptions : public OptionGroup
 {
   double axialBase = 0.0012;    //!< Sigma of z at 0.4 m [m], 0..1: published
@@ -82,6 +84,14 @@ struct DepthNoiseOptions : public OptionGroup
   double minRange = 0.5;         //!< Nearer surfaces give no depth [m], 0..100
   double maxRange = 8.0;         //!< Farther surfaces give no depth [m], 0.1..13: 16 bit in 0.2 mm
   bool shadow = true;            //!< No depth where the projector's light does not reach
+  double bleeding = 0;    //!< Near surfaces cover what is beside them by up to so much, as matching
+                          //!< windows do [px at 640], 0..20
+  double darkHoles = 0;   //!< Share of black surfaces without depth, in patches, 0..1
+  double darkNoise = 0;   //!< Black surfaces have a sigma larger by this factor, less 1, 0..20
+  double scaleError = 0;  //!< Relative error of all depth, one calibration's, -0.2..0.2
+  double warp = 0;  //!< Error in the middle, and the opposite in corners, over z^2 [1/m], -0.1..0.1
+  double wiggle =
+      0;  //!< Amplitude of the error that repeats every 1.5 m: time of flight [m], 0..0.1
 
  private:
   void describe(OptionList& list) override;
@@ -133,6 +143,14 @@ struct DetectorOptions : public OptionGroup
   double maskJitter = 1.5;  //!< Sigma of the border of a mask [px at 640], 0..50: a stride 4 grid's
   bool instanceIds = false;  //!< Boxes carry the number of their object; false alarms have none
   double flipRate = 0.03;    //!< Share of boxes with a label the object is mistaken for, 0..1
+  double viewAngle_deg =
+      20;                //!< An object looks the same to a network within so much [deg], 1..180
+  double viewEdges = 0;  //!< Scale of a view's errors of edges, with long tails: a share of the
+                         //!< box's sqrt(width * height), 0..1
+  double viewMisses = 0;   //!< Share of views in which an object is not found, 0..1
+  double viewFlips = 0;    //!< Share of views with a label the object is mistaken for, 0..1
+  double viewParts = 0;    //!< Share of views in which only a part is boxed, 0..1
+  double viewMergers = 0;  //!< Share of views in which one box holds the neighbour as well, 0..1
 
  private:
   void describe(OptionList& list) override;
