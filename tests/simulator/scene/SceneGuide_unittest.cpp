@@ -131,6 +131,8 @@ Values cameraDefaults()
       {      "width",       textOf(o.width)},
       {     "height",      textOf(o.height)},
       {      "focal",       textOf(o.focal)},
+      { "focalError",  textOf(o.focalError)},
+      {   "exposure",    textOf(o.exposure)},
       { "colorNoise",  textOf(o.colorNoise)},
       {"jpegQuality", textOf(o.jpegQuality)},
       {   "position",               "0 0 0"},
@@ -174,7 +176,13 @@ Values depthDefaults()
       {"maxIncidence_deg", textOf(o.maxIncidence_deg)},
       {        "minRange",         textOf(o.minRange)},
       {        "maxRange",         textOf(o.maxRange)},
-      {          "shadow",         flagText(o.shadow)}
+      {          "shadow",         flagText(o.shadow)},
+      {        "bleeding",         textOf(o.bleeding)},
+      {       "darkHoles",        textOf(o.darkHoles)},
+      {       "darkNoise",        textOf(o.darkNoise)},
+      {      "scaleError",       textOf(o.scaleError)},
+      {            "warp",             textOf(o.warp)},
+      {          "wiggle",           textOf(o.wiggle)}
   };
 }
 
@@ -204,7 +212,13 @@ Values detectorDefaults()
       {        "flipRate",                               textOf(o.flipRate)},
       {          "output", o.output == DetectorOutput::Boxes ? "boxes" : ""},
       {      "maskJitter",                             textOf(o.maskJitter)},
-      {     "instanceIds",                          flagText(o.instanceIds)}
+      {     "instanceIds",                          flagText(o.instanceIds)},
+      {   "viewAngle_deg",                          textOf(o.viewAngle_deg)},
+      {       "viewEdges",                              textOf(o.viewEdges)},
+      {      "viewMisses",                             textOf(o.viewMisses)},
+      {       "viewFlips",                              textOf(o.viewFlips)},
+      {       "viewParts",                              textOf(o.viewParts)},
+      {     "viewMergers",                            textOf(o.viewMergers)}
   };
 }
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "rooms/RoomSteps.h"
@@ -114,9 +113,6 @@ void furnishRoom(Scene& scene, FurnitureKit& kit)
   if (kit.chance(0.4)) addStorage(room);
   addOnWalls(room);
   addLooseThings(room);
-  std::sort(
-      scene.objects.begin(), scene.objects.end(),
-      [](const SceneObject& a, const SceneObject& b) { return a.name < b.name; });
 }
 
 }  // namespace quadmap::simulator

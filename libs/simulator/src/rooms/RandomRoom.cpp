@@ -2,6 +2,7 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -45,6 +46,9 @@ Scene randomRoom(std::uint64_t seed)
     if (!planTour(scene, kit) || !wayIsFree(scene)) continue;
     if (kit.chance(kWalkers)) addWalker(scene, kit);
     drawSensors(scene.options, kit);
+    std::sort(
+        scene.objects.begin(), scene.objects.end(),
+        [](const SceneObject& a, const SceneObject& b) { return a.name < b.name; });
     return scene;
   }
   throw std::runtime_error(mrpt::format(

@@ -1,5 +1,6 @@
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
 
 #include <cmath>
 #include <sstream>
@@ -60,7 +61,7 @@ void writeObject(
     out << "way" << ++point << " = " << exactText(time) << "  "
         << textOf({pose.x(), pose.y(), pose.z()}) << "  " << degrees(pose.yaw()) << "\n";
   for (const auto& part : object.parts)
-    out << "part" << ++number << " = " << partText(part, materials) << "\n";
+    out << mrpt::format("part%03zu = ", ++number) << partText(part, materials) << "\n";
 }
 
 void writeOptions(std::ostream& out, const Scene& scene)
