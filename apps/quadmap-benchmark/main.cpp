@@ -36,16 +36,27 @@ std::vector<std::string> itemsOf(const std::string& list)
   return items;
 }
 
-std::vector<std::uint64_t> seedsOf(const std::string& list)
+std::vector<std::uint64_t> wholeNumbersOf(const std::string& option, const std::string& list)
 {
   std::vector<std::uint64_t> seeds;
   for (const auto& item : itemsOf(list))
   {
     if (item.size() > 18 || item.find_first_not_of("0123456789") != std::string::npos)
-      throw cli::UsageError("--seeds: \"" + item + "\" is not a whole number");
+      throw cli::UsageError(option + ": \"" + item + "\" is not a whole number");
     seeds.push_back(std::stoull(item));
   }
   return seeds;
+}
+
+constexpr std::uint64_t kMostRooms = 100000;
+
+unsigned roomsOf(const std::string& count)
+{
+  const auto numbers = wholeNumbersOf("--rooms", count);
+  if (numbers.size() != 1 || numbers[0] > kMostRooms)
+    throw cli::UsageError(
+        "--rooms: \"" + count + "\" is not one whole number up to " + std::to_string(kMostRooms));
+  return static_cast<unsigned>(numbers[0]);
 }
 
 /** Those methods that quadmap-slam has. */
@@ -85,10 +96,23 @@ void jobsCommand(int argc, char** argv)
   const auto recordings = list("recordings", "Real recordings, by the names of their folders.", "");
   const auto seeds = list("seeds", "Of the simulations.", "1,2,3,4,5");
   const auto methods = list("methods", "Of quadmap-slam.", "odometry,rgbd,quadric,point");
+  TCLAP::ValueArg<std::string> rooms{
+      "",
+      "rooms",
+      "Random rooms, each another one, mapped with rgbd (default: 20, or none if --scenes is "
+      "given).",
+      false,
+      "20",
+      "N",
+      line.args()};
   if (!line.parse(argc, argv)) return;
   BenchmarkPlan plan{
-      itemsOf(scenes->getValue()), itemsOf(observed->getValue()), itemsOf(recordings->getValue()),
-      seedsOf(seeds->getValue()), knownMethods(methods->getValue())};
+      itemsOf(scenes->getValue()),
+      itemsOf(observed->getValue()),
+      itemsOf(recordings->getValue()),
+      wholeNumbersOf("--seeds", seeds->getValue()),
+      knownMethods(methods->getValue()),
+      scenes->isSet() && !rooms.isSet() ? 0 : roomsOf(rooms.getValue())};
   if (!observed->isSet())  // without it only scenes that are mapped are measured
     plan.observedScenes.erase(
         std::remove_if(

@@ -165,6 +165,19 @@ TEST_F(BenchmarkScripts, GoOnAfterTheyWereKilled)
   EXPECT_FALSE(std::filesystem::exists(folder_.path("results/recordings")));
 }
 
+TEST_F(BenchmarkScripts, MapAsManyRandomRoomsAsWanted)
+{
+  const std::string plan = "--observed '' --seeds 1 --methods rgbd --list";
+  const auto lines = [](const ProgramResult& list)
+  { return std::count(list.out.begin(), list.out.end(), '\n'); };
+  EXPECT_EQ(lines(run("--scenes home " + plan)), 2) << "none unless asked for";
+  const auto list = run("--scenes home --rooms 3 " + plan);
+  EXPECT_EQ(lines(list), 2 + 2 * 3) << list.out << list.err;
+  EXPECT_NE(list.out.find("simulated random 3 rgbd rawlog\n"), kNotFound);
+  EXPECT_NE(run(plan).out.find("simulated random 20 rgbd rawlog\n"), kNotFound) << "all";
+  EXPECT_NE(run("--rooms some " + plan).status, 0);
+}
+
 TEST_F(BenchmarkScripts, ListTheJobsForAnotherScheduler)
 {
   const auto list = run("--scenes home --observed home --seeds 3 --methods rgbd,magic --list");

@@ -112,6 +112,19 @@ TEST(BenchmarkJobs, AreEveryCombinationOnceAndFirstTheFirstSeed)
   EXPECT_TRUE(std::is_partitioned(jobs.begin(), jobs.end(), std::not_fn(seed2)));
 }
 
+TEST(BenchmarkJobs, MapEachRandomRoomOnce)
+{
+  BenchmarkPlan plan = smallPlan();
+  const auto without = jobsOf(plan).size();
+  plan.rooms = 20;
+  const auto jobs = jobsOf(plan);
+  ASSERT_EQ(jobs.size(), without + 2 * 20);
+  EXPECT_EQ(jobs[without].line(), "simulated random 1 rgbd rawlog");
+  EXPECT_EQ(jobs.back().line(), "simulated random 20 rgbd ground-truth");
+  plan.methods = {"odometry"};
+  for (const auto& job : jobsOf(plan)) EXPECT_NE(job.subject, "random");
+}
+
 TEST(BenchmarkJobs, RefuseWhatBreaksLinesAndFolders)
 {
   for (const char* name : {"my scene", "scenes/home", "a.b", ""})
@@ -191,6 +204,20 @@ TEST_F(Results, AreMeansAndSpreadsOverSeeds)
       << t.at("size");
   EXPECT_TRUE(contains(t.at("machine"), "| processor | abacus |"));
   EXPECT_TRUE(contains(t.at("machine"), "| seeds | 1; 2 |"));
+}
+
+TEST_F(Results, OfRandomRoomsHaveTheirSpreadOverRooms)
+{
+  addRun("simulated home 1 rgbd rawlog", 0.010, 0.02);
+  addRun("simulated random 1 rgbd rawlog", 0.010, 0.02);
+  addRun("simulated random 7 rgbd rawlog", 0.014, 0.04);
+  const auto t = tables();
+  EXPECT_TRUE(
+      contains(t.at("mapping"), "| random | drifting odometry | rgbd | 2 | 0.030 +- 0.014 |"))
+      << t.at("mapping");
+  EXPECT_TRUE(contains(t.at("machine"), "| random rooms | 2 |")) << t.at("machine");
+  EXPECT_TRUE(contains(t.at("machine"), "| seeds | 1 |")) << "those of the other scenes";
+  EXPECT_TRUE(contains(t.at("machine"), "| scenes | home |"));
 }
 
 TEST_F(Results, TellTheTimeOfVisualOdometry)

@@ -94,6 +94,12 @@ std::vector<BenchmarkJob> jobsOf(const BenchmarkPlan& plan)
       for (const auto* table : kObservationTables)
         jobs.push_back({BenchmarkKind::Observed, scene, seed, table, "ground-truth"});
   }
+  const bool mapsRooms =
+      std::find(plan.methods.begin(), plan.methods.end(), "rgbd") != plan.methods.end();
+  for (std::uint64_t seed = 1; mapsRooms && seed <= plan.rooms; ++seed)
+    addRuns(
+        {BenchmarkKind::Simulated, kRandomRooms, seed, "", ""}, {"rgbd"},
+        {"rawlog", "ground-truth"}, jobs);
   return jobs;
 }
 

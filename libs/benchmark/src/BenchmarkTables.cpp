@@ -22,9 +22,15 @@ std::string machineTable(const BenchmarkResults& results)
 {
   std::map<std::string, std::set<std::string>> values;
   std::set<std::string> seeds, scenes, recordings;
+  std::set<std::uint64_t> rooms;
   for (const auto& result : results.done)
   {
     for (const auto& [key, value] : result.machine) values[key].insert(value);
+    if (result.job.subject == kRandomRooms)
+    {
+      rooms.insert(result.job.seed);
+      continue;
+    }
     const bool isRecorded = result.job.kind == BenchmarkKind::Recorded;
     (isRecorded ? recordings : scenes).insert(result.job.subject);
     if (!isRecorded) seeds.insert(std::to_string(result.job.seed));
@@ -32,6 +38,7 @@ std::string machineTable(const BenchmarkResults& results)
   MarkdownTable table({"", ""});
   for (const auto& [key, set] : values) table.add({key, joined(set)});
   table.add({"scenes", joined(scenes)});
+  if (!rooms.empty()) table.add({"random rooms", std::to_string(rooms.size())});
   table.add({"recordings", joined(recordings)});
   table.add({"seeds", joined(seeds)});
   table.add(

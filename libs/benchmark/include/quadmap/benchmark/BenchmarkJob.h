@@ -6,6 +6,9 @@
 
 namespace quadmap
 {
+/** The scene that is another room for each random seed. Its spread is over rooms. */
+constexpr const char* kRandomRooms = "random";
+
 /** What a job of the benchmark looks at. */
 enum class BenchmarkKind
 {
@@ -39,14 +42,15 @@ struct BenchmarkPlan
   std::vector<std::string> recordings;      //!< Names of folders; mapped with every method
   std::vector<std::uint64_t> seeds;         //!< Random seeds of the simulations
   std::vector<std::string> methods;         //!< --method of quadmap-slam
+  unsigned rooms = 0;  //!< Random rooms, with the seeds 1 to this; mapped with the method rgbd
 };
 
 /** All jobs in the order in which they run: everything with the first random seed, then with the
  * next. Scenes are run with drifting and with true poses. Recordings are run with their own poses
  * (corrected, and as they are) and with visual odometry. The method "odometry" is not run on given
- * poses, which it would not change.
- * \exception std::invalid_argument For names with blanks, dots or slashes, which would break lines
- * and folders. */
+ * poses, which it would not change. Random rooms come last, with the method rgbd alone, if it is
+ * one of the methods. \exception std::invalid_argument For names with blanks, dots or slashes,
+ * which would break lines and folders. */
 std::vector<BenchmarkJob> jobsOf(const BenchmarkPlan& plan);
 
 }  // namespace quadmap
