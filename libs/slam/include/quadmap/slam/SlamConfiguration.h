@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/base/IniSections.h"
 #include "quadmap/base/OptionGroup.h"
 #include "quadmap/base/OptionList.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
@@ -53,12 +54,7 @@ struct SlamConfiguration
   std::string documentedIni() const;
 
  private:
-  struct Section
-  {
-    std::string name;
-    OptionGroup* options;
-  };
-  std::vector<Section> sections();
+  std::vector<IniSection> sections();
 };
 
 }  // namespace quadmap
