@@ -17,6 +17,7 @@
 #include "quadmap/estimation/Association.h"
 #include "quadmap/estimation/ExistenceLooks.h"
 #include "quadmap/estimation/MapObject.h"
+#include "quadmap/maps/FrameLikelihood.h"
 #include "quadmap/maps/FramePairing.h"
 #include "quadmap/maps/MapOptions.h"
 #include "quadmap/maps/ObjectEstimator.h"
@@ -135,6 +136,14 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::vector<Decision> match(const CObservationObjects& obs, const UncertainPose& robotPose) const;
   std::vector<Decision> match(
       const CObservationObjects& obs, const mrpt::poses::CPose3D& robotPose) const;
+
+  /** computeObservationLikelihood() for many poses, prepared once for a frame whose boxes have
+   * their measurements.
+   * \param boxes With measurements; those of kind None take no part.
+   * \param attitude Its pitch and roll are those of the robot at all poses.
+   * \exception std::runtime_error If there are boxes without a usable calibration. */
+  FrameLikelihood likelihoodOf(
+      const CObservationObjects& boxes, const mrpt::poses::CPose3D& attitude) const;
 
   // Queries ----------------------------------------------------------------------------------
   /** An object of this map, with the measurements behind it, which only the map itself reaches. */
@@ -287,8 +296,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   Frame frameOf(const CObservationObjects& obs, const UncertainPose& robotPose) const;
   CObservationObjects measured(
       const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot) const;
-  double viewLikelihood(
-      const ObjectView& view, bool hasSeed, const mrpt::poses::CPose3D& T_map_sensor) const;
+  std::vector<FrameLikelihood::Target> targets(std::vector<const MapObject*>& objects) const;
   void associate(Frame& frame) const;
   double associationLikelihood(const Frame& frame, std::size_t view, const MapObject& object) const;
   void joinOrStart(const Frame& frame, std::set<ObjectId>& touched);
