@@ -31,6 +31,9 @@ class Geometry
   /** How much longer the way from j to k is by i, (23.11). */
   std::optional<double> between(std::size_t i, std::size_t j, std::size_t k) const;
 
+  /** The direction out of the front of an object, (23.9); zero when nothing tells. */
+  Eigen::Vector2d frontOf(std::size_t i) const { return frontOf(solids_[i]); }
+
   bool hasLevelTop(std::size_t i) const { return solids_[i].hasLevelTop; }
 
  private:

@@ -1,6 +1,8 @@
 #include "quadmap/relations/Relations.h"
 
+#include <iterator>
 #include <optional>
+#include <stdexcept>
 
 #include "Geometry.h"
 
@@ -59,6 +61,18 @@ std::vector<Relation> relationsOf(const Inventory& inventory)
 std::vector<Relation> relationsOf(const CQuadricObjectMap& map)
 {
   return relationsOf(inventoryOf(map));
+}
+
+std::optional<Eigen::Vector2d> frontOf(const CQuadricObjectMap& map, ObjectId id)
+{
+  const auto& objects = map.objects();
+  const auto found = objects.find(id);
+  if (found == objects.end())
+    throw std::out_of_range("the map has no object " + std::to_string(id));
+  const auto index = static_cast<std::size_t>(std::distance(objects.begin(), found));
+  const Eigen::Vector2d front = Geometry(inventoryOf(map)).frontOf(index);
+  if (front.isZero()) return std::nullopt;
+  return front;
 }
 
 }  // namespace quadmap

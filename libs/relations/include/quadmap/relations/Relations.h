@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Dense>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,5 +43,10 @@ struct Relation
  * \return In the order of the subjects, then of the objects. */
 std::vector<Relation> relationsOf(const Inventory& inventory);
 std::vector<Relation> relationsOf(const CQuadricObjectMap& map);
+
+/** Where the front of an object of the map looks: doc/mathematics.md, (23.9).
+ * \return A unit vector along the floor, or nothing when nothing tells, as in the middle of the
+ * map. \exception std::out_of_range If there is no such object. */
+std::optional<Eigen::Vector2d> frontOf(const CQuadricObjectMap& map, ObjectId id);
 
 }  // namespace quadmap

@@ -1,0 +1,216 @@
+#include "quadmap/navigation/LocalizationRun.h"
+
+#include <mrpt/poses/Lie/SO.h>
+
+#include <chrono>
+#include <map>
+#include <stdexcept>
+
+#include "quadmap/base/ErrorText.h"
+#include "quadmap/base/ModuleTimes.h"
+#include "quadmap/odometry/OdometryInput.h"
+#include "quadmap/odometry/OdometrySurvey.h"
+#include "quadmap/perception/RoomPerception.h"
+#include "quadmap/sensors/RawlogSource.h"
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+
+namespace
+{
+RawlogSourceOptions sourceOptions(const LocalizationRequest& request)
+{
+  RawlogSourceOptions options;
+  options.objectsFile = request.objectsFile;
+  options.sensorLabel = request.sensorLabel;
+  options.keepGoing = request.keepGoing;
+  options.pixelLabelClasses = request.map->labels();
+  options.minLabelPixels = request.configuration.perception.minLabelPixels;
+  return options;
+}
+
+RawlogSourceOptions withOdometry(RawlogSourceOptions options, const OdometrySurvey& survey)
+{
+  options.odometryKind = survey.odometryKind;
+  return options;
+}
+
+class LocalizationRun
+{
+ public:
+  explicit LocalizationRun(const LocalizationRequest& request) :
+      request_(request),
+      options_(request.configuration.localization),
+      region_(regionOf(*request.map, options_.startMargin)),
+      survey_(surveyOdometry(
+          request.rawlog,
+          sourceOptions(request),
+          request.odometry,
+          request.configuration.perception,
+          request.configuration.visual)),
+      source_(request.rawlog, withOdometry(sourceOptions(request), survey_)),
+      odometry_(
+          survey_.source,
+          request.configuration.poses,
+          request.configuration.visual,
+          survey_.up_robot),
+      perception_(request.configuration.perception, request.map->labels())
+  {
+    source_.logging_enable_console_output = false;
+    source_.logRegisterCallback(
+        [this](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
+        {
+          if (level == mrpt::system::LVL_WARN) request_.onWarning(std::string(text));
+        });
+  }
+
+  LocalizationResult run()
+  {
+    while (!(result_.interrupted = request_.shouldStop()))
+    {
+      const auto frame = source_.next();
+      request_.onProgress(
+          source_.progress(), filter_ ? filter_->estimate() : LocalizationEstimate());
+      if (!frame) break;
+      add(*frame);
+    }
+    requireContent();
+    for (const auto& problem : source_.problems()) result_.dropped.push_back(problem.text());
+    return std::move(result_);
+  }
+
+ private:
+  void add(const RgbdFrame& frame)
+  try
+  {
+    ++result_.frames;
+    const auto T_odom_robot = odometry_.poseOf(frame);
+    for (const auto& text : odometry_.takeWarnings()) request_.onWarning(text);
+    if (!T_odom_robot)
+    {
+      ++result_.framesWithoutPose;
+      return;
+    }
+    if (!isDue(frame.scan->sensorLabel, *T_odom_robot + frame.scan->sensorPose)) return;
+    moveTo(*T_odom_robot);
+    if (frame.objects && !frame.objects->objects.empty()) look(frame, *T_odom_robot);
+  }
+  catch (const std::exception& e)
+  {
+    const InputProblem problem{
+        request_.rawlog, frame.record, frame.scan->sensorLabel, rootMessage(e)};
+    throw std::runtime_error(problem.text());
+  }
+
+  /** Whether a camera has moved since its last image that was used. */
+  bool isDue(const std::string& sensor, const CPose3D& T_odom_sensor)
+  {
+    const auto last = lastBySensor_.find(sensor);
+    if (last != lastBySensor_.end())
+    {
+      const CPose3D moved = T_odom_sensor - last->second;
+      const double turned = mrpt::poses::Lie::SO<3>::log(moved.getRotationMatrix()).norm();
+      if (moved.norm() < options_.updateDistance && turned < options_.updateAngle) return false;
+    }
+    lastBySensor_[sensor] = T_odom_sensor;
+    return true;
+  }
+
+  void moveTo(const CPose3D& T_odom_robot)
+  {
+    const auto step = odometry_.keyframeStep();
+    if (!filter_)
+      filter_.emplace(options_, region_, T_odom_robot, request_.threads);
+    else if (step)
+      timed([&] { filter_->predict(*step, T_odom_robot); });
+  }
+
+  void look(const RgbdFrame& frame, const CPose3D& T_odom_robot)
+  {
+    CObservationObjects boxes = *frame.objects;
+    const double start = processCpuTime();
+    perception_.measure(*frame.scan, boxes, T_odom_robot + frame.scan->sensorPose);
+    result_.measureSeconds += processCpuTime() - start;
+    timed(
+        [&]
+        {
+          const auto seen = request_.map->likelihoodOf(boxes, T_odom_robot);
+          if (seen.pairings().empty()) return;
+          filter_->update(seen);
+          result_.updates.push_back({frame.time(), seen.boxes().size(), filter_->estimate()});
+        });
+  }
+
+  template <typename F>
+  void timed(const F& work)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    result_.filterSeconds += passed.count();
+  }
+
+  std::string odometryText() const
+  {
+    if (odometry_.source() == PoseSource::Visual)
+      return "visual odometry " + odometry_.visualSensor();
+    return odometry_.source() == PoseSource::GroundTruth ? "ground truth" : source_.odometryKind();
+  }
+
+  void requireContent()
+  {
+    const std::string& file = request_.rawlog;
+    result_.odometry = odometryText();
+    if (result_.frames == 0 && !result_.interrupted)
+      throw std::runtime_error(
+          file + ": no usable RGB-D images; it has " + source_.contentSummary());
+    if (result_.frames > 0 && result_.framesWithoutPose == result_.frames)
+      throw std::runtime_error(file + ": " + odometry_.whyNoPoses());
+    if (result_.updates.empty())
+      throw std::runtime_error(
+          file + (source_.hasBoxes()
+                      ? ": none of its boxes can show an object of " + request_.mapFile
+                      : ": no object boxes, neither in it nor beside it"));
+    if (result_.trajectory().empty())
+      throw std::runtime_error(
+          file + ": the robot was not found in " + request_.mapFile + " (" +
+          std::to_string(result_.updates.size()) + " images were compared with it)");
+  }
+
+  const LocalizationRequest& request_;
+  const LocalizationOptions& options_;
+  StartRegion region_;
+  OdometrySurvey survey_;
+  RawlogSource source_;
+  OdometryInput odometry_;
+  RoomPerception perception_;  // its map is the frame of the odometry
+  std::map<std::string, CPose3D> lastBySensor_;
+  std::optional<ParticleLocalization> filter_;
+  LocalizationResult result_;
+};
+
+}  // namespace
+
+Trajectory LocalizationResult::trajectory() const
+{
+  Trajectory poses;
+  for (const auto& update : updates)
+    if (update.estimate.isLocalised) poses.push_back({update.time, update.estimate.T_map_robot});
+  return poses;
+}
+
+std::optional<std::size_t> LocalizationResult::localisedFrom() const
+{
+  std::size_t first = updates.size();
+  while (first > 0 && updates[first - 1].estimate.isLocalised) --first;
+  if (first == updates.size()) return std::nullopt;
+  return first;
+}
+
+LocalizationResult localiseInMap(const LocalizationRequest& request)
+{
+  return LocalizationRun(request).run();
+}
+
+}  // namespace quadmap
