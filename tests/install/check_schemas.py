@@ -79,6 +79,8 @@ def check_programs():
         require_valid(out + "/objects.json", load(out + "/objects.json"))
         run("quadmap-evaluate", out, "--objects", "x.objects.gt.json", "--trajectory", "x.groundtruth.tum", "--json", "e.json")
         require_valid(out + " evaluated", load("e.json"))
+    run("quadmap-localize", "x.rawlog", "--map", "rawlog", "-o", "localised")
+    require_valid("localization.json", load("localised/localization.json"))
     objects = load("rawlog/objects.json")
     if not all("first_seen" in o and o["first_seen"] <= o["last_seen"] for o in objects["objects"]):
         failures.append("objects.json: no time when an object was seen")
