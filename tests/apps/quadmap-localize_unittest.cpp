@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "MappedRoom.h"
+#include "quadmap/maps/MapFile.h"
+#include "quadmap/navigation/LocalizationRun.h"
 #include "quadmap/obs/Trajectory.h"
 
 using namespace quadmap;
@@ -98,6 +100,22 @@ TEST_F(Localize, WritesTheSameBytesWithAnyNumberOfThreads)
     ASSERT_EQ(localize("threads" + threads, "--particles 500 --threads " + threads).status, 0);
   for (const std::string name : {"/localization.tum", "/localization.json"})
     EXPECT_EQ(readFile(path("threads1" + name)), readFile(path("threads3" + name))) << name;
+}
+
+TEST_F(Localize, StopsWhenAskedToAndKeepsWhatWasDone)
+{
+  LocalizationRequest request;
+  request.rawlog = path("second.rawlog");
+  request.mapFile = path("first");
+  request.map = std::make_shared<CQuadricObjectMap>(readMap(request.mapFile));
+  int asked = 0;
+  request.shouldStop = [&] { return ++asked > 20; };
+  const LocalizationResult result = localiseInMap(request);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.frames, 20u);
+  const json report = json::parse(localizationToJson(request, result, "1.2"));
+  EXPECT_EQ(report["input"]["interrupted"], true);
+  EXPECT_EQ(report["updates"].size(), result.updates.size());
 }
 
 TEST_F(Localize, SaysWhenTheRobotIsNotFound)

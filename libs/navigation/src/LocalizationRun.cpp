@@ -100,7 +100,8 @@ class LocalizationRun
   {
     const InputProblem problem{
         request_.rawlog, frame.record, frame.scan->sensorLabel, rootMessage(e)};
-    throw std::runtime_error(problem.text());
+    if (!request_.keepGoing) throw std::runtime_error(problem.text());
+    result_.dropped.push_back(problem.text());
   }
 
   /** Whether a camera has moved since its last image that was used. */
