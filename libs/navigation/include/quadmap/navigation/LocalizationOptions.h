@@ -26,7 +26,7 @@ struct LocalizationOptions : public OptionGroup
 
   double placeRadius = 0.5;                //!< Poses within this of the best place count [m], > 0
   double placeAngle = fromDegrees(20.0L);  //!< ... and within this turn [rad], > 0; INI in degrees
-  double localisedShare = 0.7;   //!< Localised when this share of the weight is there, in (0, 1]
+  double localisedShare = 0.8;   //!< Localised when this share of the weight is there, in (0, 1]
   double localisedSigma = 0.15;  //!< ... and spreads less than this [m], > 0
   double localisedAngle = fromDegrees(5.0L);  //!< ... and less than this [rad], > 0; INI in degrees
 
