@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "ClaimTogether.h"
-#include "ConstellationMatch.h"
 #include "GoneObjects.h"
 #include "KnownObjects.h"
 #include "backend/BackEnd.h"

@@ -7,7 +7,6 @@
 #include "quadmap/estimation/ExistenceLooks.h"
 #include "quadmap/estimation/ObjectRules.h"
 #include "quadmap/estimation/Visibility.h"
-#include "relocalization/ConstellationMatch.h"
 
 namespace quadmap
 {

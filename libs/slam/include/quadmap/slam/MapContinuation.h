@@ -1,24 +1,12 @@
 #pragma once
 
-#include <mrpt/poses/CPose3D.h>
-
 #include <cstddef>
-#include <utility>
 #include <vector>
 
-#include "quadmap/estimation/MapObject.h"
+#include "quadmap/constellation/ConstellationMatch.h"
 
 namespace quadmap
 {
-/** Where a run is in a known map, from the objects that both have. */
-struct ConstellationMatch
-{
-  mrpt::poses::CPose3D T_map_local;                  //!< A shift and a yaw, as both frames are z-up
-  std::vector<std::pair<ObjectId, ObjectId>> pairs;  //!< (local, map), each once
-  double logOdds = 0;                                //!< For this place, against chance
-  double secondLogOdds = 0;  //!< The same of the best other place; 0 if chance is better
-};
-
 /** How the room differs from the known map that a run started in. Ids are those of the continued
  * map. */
 struct MapContinuation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ConstellationMatch.h"
+#include "quadmap/constellation/ConstellationMatch.h"
 #include "quadmap/estimation/Assignment.h"
 #include "quadmap/estimation/ObjectRules.h"
 
@@ -36,7 +36,7 @@ PlaceEvidence::PlaceEvidence(
     const Constellations::Objects& local,
     const Constellations::Objects& map,
     const LabelTable& labels,
-    const RelocalizationOptions& options) :
+    const ConstellationOptions& options) :
     options_(options), both_{local, map, std::vector<std::vector<std::size_t>>(local.size())}
 {
   std::vector<std::size_t> rivals(map.size());

@@ -1,4 +1,4 @@
-#include "relocalization/ConstellationMatch.h"
+#include "quadmap/constellation/ConstellationMatch.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "relocalization/PlaceGuesses.h"
+#include "PlaceGuesses.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;

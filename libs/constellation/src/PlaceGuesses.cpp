@@ -13,7 +13,7 @@ namespace
 class PlaceGuesses
 {
  public:
-  PlaceGuesses(const Constellations& both, const RelocalizationOptions& options) :
+  PlaceGuesses(const Constellations& both, const ConstellationOptions& options) :
       both_(both), options_(options)
   {
     const std::size_t n = both.local.size();
@@ -86,7 +86,7 @@ class PlaceGuesses
   }
 
   const Constellations& both_;
-  const RelocalizationOptions& options_;
+  const ConstellationOptions& options_;
   std::size_t share_;  //!< Of each two local objects, in pairs of the map
   std::vector<Place> places_;
 };
@@ -95,7 +95,7 @@ class PlaceGuesses
 
 double yawOf(const MapObject& object) { return uprightStateOf(object.object)[3]; }
 
-std::vector<Place> guessPlaces(const Constellations& both, const RelocalizationOptions& options)
+std::vector<Place> guessPlaces(const Constellations& both, const ConstellationOptions& options)
 {
   return PlaceGuesses(both, options).all();
 }

@@ -1,4 +1,4 @@
-#include "relocalization/ConstellationMatch.h"
+#include "quadmap/constellation/ConstellationMatch.h"
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
@@ -41,7 +41,7 @@ class Matcher
       const Objects& local,
       const Objects& map,
       const LabelTable& labels,
-      const RelocalizationOptions& options) :
+      const ConstellationOptions& options) :
       options_(options), evidence_(local, map, labels, options), local_(local)
   {
     for (const MapObject* object : local) middle_ += object->object.center() / local.size();
@@ -168,7 +168,7 @@ class Matcher
            pairs.size() + (heading ? 1 : 0) >= static_cast<std::size_t>(options_.minPairs);
   }
 
-  const RelocalizationOptions& options_;
+  const ConstellationOptions& options_;
   PlaceEvidence evidence_;
   const Objects& local_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  //!< Of the local objects
@@ -180,7 +180,7 @@ bool areAlike(
     const MapObject& a,
     const MapObject& b,
     const LabelTable& labels,
-    const RelocalizationOptions& options)
+    const ConstellationOptions& options)
 {
   if (labelAgreement(a, b, labels) < options.minLabelAgreement) return false;
   const Eigen::Array3d ratio = orderedSizes(a).array() / orderedSizes(b).array();
@@ -191,7 +191,7 @@ std::optional<ConstellationMatch> matchConstellation(
     const std::vector<const MapObject*>& local,
     const std::vector<const MapObject*>& map,
     const LabelTable& labels,
-    const RelocalizationOptions& options)
+    const ConstellationOptions& options)
 {
   if (local.empty() || map.empty()) return std::nullopt;
   return Matcher(local, map, labels, options).match();

@@ -32,7 +32,7 @@ class PlaceEvidence
       const Constellations::Objects& local,
       const Constellations::Objects& map,
       const LabelTable& labels,
-      const RelocalizationOptions& options);
+      const ConstellationOptions& options);
 
   /** Factor on sigmas while a place is only guessed from a pair. */
   static constexpr double kCoarseFactor = 2;
@@ -66,7 +66,7 @@ class PlaceEvidence
   double yawVariance(std::size_t i, std::size_t j) const;
   double yawOffset(const Place& place, std::size_t i, std::size_t j) const;
 
-  const RelocalizationOptions& options_;
+  const ConstellationOptions& options_;
   Constellations both_;
   Eigen::AlignedBox2d bounds_;
   std::vector<double> logDensity_;  //!< Of objects with its label, for each of the map [ln 1/m^2]

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "quadmap/constellation/ConstellationOptions.h"
 #include "quadmap/estimation/MapObject.h"
-#include "quadmap/slam/RelocalizationOptions.h"
 
 namespace quadmap
 {
@@ -44,6 +44,6 @@ constexpr std::size_t kMaxPairsOfPairs = 100000;
 /** Where the local frame may be: wherever two objects are as far from each other as two of the map,
  * or one has a heading. Each two local objects have the same share of kMaxPairsOfPairs. Those that
  * could be more pairs of the map than their share are compared with every n-th pair only. */
-std::vector<Place> guessPlaces(const Constellations& both, const RelocalizationOptions& options);
+std::vector<Place> guessPlaces(const Constellations& both, const ConstellationOptions& options);
 
 }  // namespace quadmap
