@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "ClaimTogether.h"
-#include "GoneObjects.h"
 #include "KnownObjects.h"
 #include "backend/BackEnd.h"
-#include "quadmap/estimation/Assignment.h"
+#include "quadmap/constellation/GoneObjects.h"
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
@@ -87,38 +86,55 @@ std::vector<ObjectId> without(const std::set<ObjectId>& ids, const std::set<Obje
   return rest;
 }
 
-/** Takes out of `added` and `removed` what went from one place to the other. The pairs are alike,
- * and the sum of their ways is the shortest. */
+std::vector<const MapObject*> objectsOf(
+    const CQuadricObjectMap& map, const std::vector<ObjectId>& ids)
+{
+  std::vector<const MapObject*> objects;
+  for (const ObjectId id : ids) objects.push_back(map.find(id));
+  return objects;
+}
+
+/** Takes out of `added` and `removed` what went from one place to the other. */
 void pairMoves(
     const CQuadricObjectMap& given,
     const CQuadricObjectMap& now,
     const RelocalizationOptions& options,
     MapContinuation& changes)
 {
-  const auto rows = static_cast<Eigen::Index>(changes.removed.size());
-  const auto columns = static_cast<Eigen::Index>(changes.added.size());
-  constexpr double kNoMove = 1e6;  // more than any way [m]
-  Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(rows, columns + rows, kNoMove);
-  for (Eigen::Index r = 0; r < rows; ++r)
-    for (Eigen::Index c = 0; c < columns; ++c)
-    {
-      const MapObject& from = *given.find(changes.removed[static_cast<std::size_t>(r)]);
-      const MapObject& to = *now.find(changes.added[static_cast<std::size_t>(c)]);
-      if (areAlike(from, to, now.labels(), options))
-        cost(r, c) = (from.object.center() - to.object.center()).norm();
-    }
-  const auto columnOf = optimalAssignment(cost);
+  changes.moved = movesBetween(
+      objectsOf(given, changes.removed), objectsOf(now, changes.added), now.labels(), options);
   std::set<ObjectId> gone, came;
-  for (std::size_t r = 0; r < columnOf.size(); ++r)
+  for (const Move& move : changes.moved)
   {
-    const double way = cost(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(columnOf[r]));
-    if (way >= kNoMove) continue;
-    changes.moved.push_back({changes.removed[r], changes.added[columnOf[r]], way});
-    gone.insert(changes.removed[r]);
-    came.insert(changes.added[columnOf[r]]);
+    gone.insert(move.from);
+    came.insert(move.to);
   }
   changes.removed = without({changes.removed.begin(), changes.removed.end()}, gone);
   changes.added = without({changes.added.begin(), changes.added.end()}, came);
+}
+
+/** Confirmed objects of the map that the run, whose poses are in its frame, shows to be gone. */
+std::set<ObjectId> goneObjects(
+    const CQuadricObjectMap& given,
+    const SlamResult& run,
+    const ConstellationMatch& match,
+    const BackEnd::BoxesOf& boxesOf,
+    const RelocalizationOptions& options)
+{
+  const auto& insertion = run.map.insertionOptions;
+  GoneObjects objects(
+      given.confirmedObjects(), run.map.confirmedObjects(), match,
+      {run.map.labels(), insertion.existence, insertion.merging, options});
+  std::size_t next = 0;  // decision
+  for (std::size_t k = 0; k < run.keyframes.size(); ++k)
+  {
+    std::map<std::size_t, ObjectId> objectOfBox;
+    for (; next < run.decisions.size() && run.decisions[next].keyframe == k; ++next)
+      if (const auto& d = run.decisions[next].decision; d.object) objectOfBox[d.box] = *d.object;
+    if (const auto boxes = boxesOf(k))
+      objects.look(*boxes, run.keyframes[k].T_map_robot, objectOfBox);
+  }
+  return objects.gone();
 }
 
 /** \exception NotLocalised */

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "quadmap/constellation/ConstellationMatch.h"
+#include "quadmap/constellation/Moves.h"
 
 namespace quadmap
 {
@@ -11,11 +12,6 @@ namespace quadmap
  * map. */
 struct MapContinuation
 {
-  struct Move
-  {
-    ObjectId from = 0, to = 0;  //!< The object that is gone, and the one that came
-    double distance = 0;        //!< Distance between their centres [m]
-  };
   std::size_t knownObjects = 0;  //!< Number of confirmed objects of the given map
   ConstellationMatch match;      //!< Here `local` means the run's own objects and frame
   /** True when the place of the run could no longer be told after the correction by the map's
