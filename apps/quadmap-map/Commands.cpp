@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "EditCli.h"
 #include "ObjectTable.h"
-#include "common/CommandLine.h"
 #include "quadmap/maps/MapEdits.h"
 #include "quadmap/maps/MapFile.h"
 
@@ -16,37 +16,6 @@ namespace quadmap
 {
 namespace
 {
-using Text = TCLAP::ValueArg<std::string>;
-using Id = TCLAP::ValueArg<unsigned>;
-
-/** What the sub-commands that change a map have in common. */
-struct EditCli
-{
-  EditCli(const std::string& command, const std::string& description) :
-      line("quadmap-map " + command, description, QUADMAP_VERSION)
-  {
-  }
-
-  /** Writes the changed map and says so. */
-  void write(const CQuadricObjectMap& map)
-  {
-    map.saveToFile(output.getValue());
-    std::cout << "wrote " << output.getValue() << " with " << map.confirmedObjects().size()
-              << " objects\n";
-  }
-
-  cli::CommandLine line;
-  TCLAP::UnlabeledValueArg<std::string> file{"MAP", kMapHelp, true, "", "MAP", line.args()};
-  Text output{"o",           "output",   "The changed map; may be the same file.", true, "",
-              "out.quadmap", line.args()};
-};
-
-void requireObject(const CQuadricObjectMap& map, ObjectId id, const std::string& path)
-{
-  if (!map.find(id))
-    throw std::runtime_error(path + ": has no object with id " + std::to_string(id));
-}
-
 /** When the confirmed objects were seen, as a line; empty when there is none. */
 std::string timesSeen(const CQuadricObjectMap& map)
 {
@@ -116,24 +85,6 @@ void removeCommand(int argc, char** argv)
     requireObject(map, id, cli.file.getValue());
     map.remove(id);
   }
-  cli.write(map);
-}
-
-void mergeCommand(int argc, char** argv)
-{
-  EditCli cli("merge", "Makes one object of two that are the same.");
-  cli.line.addExample(
-      "quadmap-map merge home/objects.quadmap --keep 1 --absorb 2 -o corrected.quadmap",
-      "Makes object 2 a part of object 1.");
-  Id kept("", "keep", "The object that stays.", true, 0, "N", cli.line.args());
-  Id absorbed("", "absorb", "The object that goes into it.", true, 0, "N", cli.line.args());
-  if (!cli.line.parse(argc, argv)) return;
-  if (kept.getValue() == absorbed.getValue())
-    throw cli::UsageError("--keep and --absorb: must be two objects");
-  CQuadricObjectMap map = readMap(cli.file.getValue());
-  requireObject(map, kept.getValue(), cli.file.getValue());
-  requireObject(map, absorbed.getValue(), cli.file.getValue());
-  map.merge(kept.getValue(), absorbed.getValue());
   cli.write(map);
 }
 

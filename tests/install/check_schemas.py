@@ -93,6 +93,8 @@ def check_programs():
     for question in (("nearest", "chair", "to", "the", "bed"), ("chairs",)):
         answer = run("quadmap-map", "query", "rawlog", *question, "--json")
         require_valid(f"answer to {question}", json.loads(answer))
+    run("quadmap-map", "merge", "rawlog", "given", "-o", "merged.quadmap")
+    require_valid("quadmap-map merge", load("merged.merge.json"))
     require_valid("quadmap-benchmark machine", json.loads(run("quadmap-benchmark", "machine", "--commit", "abc")))
     tables = BIN / "observation_tables"
     if tables.exists():

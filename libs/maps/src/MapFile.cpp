@@ -11,9 +11,12 @@ namespace
 {
 namespace fs = std::filesystem;
 
-CQuadricObjectMap mapAnew(const std::string& simpleMapPath)
+constexpr const char *kMapFile = "objects.quadmap", *kBoxFile = "objects.simplemap";
+
+/** Calls `use` with all boxes of a simple map at the poses that stand with them. */
+template <typename F>
+void forEachFrame(const std::string& simpleMapPath, F&& use)
 {
-  CQuadricObjectMap map;
   bool hasBoxes = false;
   SimpleMapReader reader(simpleMapPath);
   while (const auto keyframe = reader.next())
@@ -21,15 +24,23 @@ CQuadricObjectMap mapAnew(const std::string& simpleMapPath)
     mrpt::poses::CPose3D T_map_robot;
     keyframe->pose->getMean(T_map_robot);
     for (const auto& observation : *keyframe->observations)
-      if (dynamic_cast<const CObservationObjects*>(observation.get()))
+      if (const auto* boxes = dynamic_cast<const CObservationObjects*>(observation.get()))
       {
         hasBoxes = true;
-        map.insertObservation(*observation, T_map_robot);
+        use(*boxes, T_map_robot);
       }
   }
   if (!hasBoxes)
     throw std::runtime_error(
         simpleMapPath + ": has no boxes to make objects of, as objects.simplemap has");
+}
+
+CQuadricObjectMap mapAnew(const std::string& simpleMapPath)
+{
+  CQuadricObjectMap map;
+  forEachFrame(
+      simpleMapPath, [&](const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot)
+      { map.insertObservation(boxes, T_map_robot); });
   map.consolidate();
   return map;
 }
@@ -40,7 +51,7 @@ std::string mapFileOf(const std::string& path)
 {
   if (!fs::exists(path)) throw std::runtime_error(path + ": there is no such file or folder");
   if (!fs::is_directory(path)) return path;
-  const fs::path inFolder = fs::path(path) / "objects.quadmap";
+  const fs::path inFolder = fs::path(path) / kMapFile;
   if (!fs::exists(inFolder))
     throw std::runtime_error(inFolder.string() + ": is missing; is this a folder of quadmap-slam?");
   return inFolder.string();
@@ -53,6 +64,14 @@ CQuadricObjectMap readMap(const std::string& path)
   CQuadricObjectMap map;
   map.loadFromFile(file);
   return map;
+}
+
+SessionFrames framesOf(const std::string& path)
+{
+  fs::path file = mapFileOf(path);
+  if (file.filename() == kMapFile) file.replace_filename(kBoxFile);
+  if (file.extension() != ".simplemap" || !fs::exists(file)) return {};
+  return [name = file.string()](const auto& use) { forEachFrame(name, use); };
 }
 
 }  // namespace quadmap

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "FreeInformation.h"
 #include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/estimation/LabelPrior.h"
 #include "quadmap/estimation/ViewResiduals.h"
@@ -82,15 +83,6 @@ class Evidence
   std::vector<BoxMeasurement> measurements_;
   std::vector<ViewAtPose> placed_;
 };
-
-/** What is known of position and yaw without any measurement, doc/mathematics.md, (11.20). */
-UprightCovariance freeInformation()
-{
-  UprightCovariance information = UprightCovariance::Zero();
-  information.diagonal().head<3>().setConstant(1.0 / (kFreePositionSigma * kFreePositionSigma));
-  information(3, 3) = 1.0 / (kFreeAngleSigma * kFreeAngleSigma);
-  return information;
-}
 
 /** Shortens a step so that it stays where the linearisation means something. */
 UprightState limited(UprightState step)

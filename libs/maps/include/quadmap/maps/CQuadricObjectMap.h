@@ -19,6 +19,7 @@
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/maps/FrameLikelihood.h"
 #include "quadmap/maps/FramePairing.h"
+#include "quadmap/maps/MapMerge.h"
 #include "quadmap/maps/MapOptions.h"
 #include "quadmap/maps/ObjectEstimator.h"
 #include "quadmap/maps/UncertainPose.h"
@@ -34,6 +35,8 @@ namespace quadmap
 using mrpt::maps::CMetricMap;  // the serialization macros need it here
 
 class LabelSource;
+struct MergedMap;
+struct PlannedObject;
 
 /** Objects (ellipsoids with labels) as an MRPT metric map: insert observations, query, draw,
  * localise in it. The map frame is z-up; lengths are in metres and angles in radians.
@@ -206,6 +209,18 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
    *  map. \exception std::out_of_range If one of them is not there, or both are the same. */
   void merge(ObjectId kept, ObjectId absorbed);
 
+  /** Makes another map of the same place a part of this one (doc/mathematics.md, section 25). Where
+   * it is, is told by the objects that both have; these are estimated together with that. The frame
+   * and the options are those of this map, and its objects keep their ids.
+   * \param ownFrames,otherFrames What the maps were made of, if that is still there: it shows what
+   * is gone. What the newer map shows to be gone or elsewhere leaves the map.
+   * \return Nothing when it cannot be told where the other map is; this one is then as it was. */
+  std::optional<MapMerge> mergeMap(
+      const CQuadricObjectMap& other,
+      const MapMergeOptions& options = {},
+      const SessionFrames& ownFrames = {},
+      const SessionFrames& otherFrames = {});
+
   /** Tells how uncertain an object is because the poses it was seen from err alike
    * (doc/mathematics.md, (16.18)). It is a part of the object's covariance from now on, however
    * many measurements come, and says anew whether the object is confirmed. A stored map keeps it as
@@ -312,6 +327,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   bool isDue(const Entry& object) const;  // for another estimate
   bool isConfirmed(const MapObject& object) const;
   Entry& require(ObjectId id);
+  MergedMap contents() const;
+  void take(ObjectId id, const PlannedObject& planned);
 
   MAP_DEFINITION_START(CQuadricObjectMap)
   quadmap::CQuadricObjectMap::TInsertionOptions insertionOpts;

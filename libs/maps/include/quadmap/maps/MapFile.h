@@ -17,4 +17,9 @@ CQuadricObjectMap readMap(const std::string& path);
  * \exception std::runtime_error If there is no such path, or no map in the folder. */
 std::string mapFileOf(const std::string& path);
 
+/** The frames that the map at a path was made of: an objects.simplemap, or that beside the
+ * objects.quadmap of a folder. Empty when there is none. The frames are read when they are asked
+ * for, and a damaged file is then a std::runtime_error that names it. */
+SessionFrames framesOf(const std::string& path);
+
 }  // namespace quadmap

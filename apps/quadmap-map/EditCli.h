@@ -1,0 +1,50 @@
+#pragma once
+
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "Commands.h"
+#include "common/CommandLine.h"
+#include "quadmap/maps/CQuadricObjectMap.h"
+
+namespace quadmap
+{
+using Text = TCLAP::ValueArg<std::string>;
+using Id = TCLAP::ValueArg<unsigned>;
+
+/** What the sub-commands that change a map have in common. */
+struct EditCli
+{
+  EditCli(const std::string& command, const std::string& description) :
+      line("quadmap-map " + command, description, QUADMAP_VERSION)
+  {
+  }
+
+  /** Writes the changed map and says so. */
+  void write(const CQuadricObjectMap& map)
+  {
+    map.saveToFile(output.getValue());
+    tellWritten(map);
+  }
+
+  void tellWritten(const CQuadricObjectMap& map)
+  {
+    std::cout << "wrote " << output.getValue() << " with " << map.confirmedObjects().size()
+              << " objects\n";
+  }
+
+  cli::CommandLine line;
+  TCLAP::UnlabeledValueArg<std::string> file{"MAP", kMapHelp, true, "", "MAP", line.args()};
+  Text output{"o",           "output",   "The changed map; may be the same file.", true, "",
+              "out.quadmap", line.args()};
+};
+
+/** \exception std::runtime_error If the map has no such object; names the file. */
+inline void requireObject(const CQuadricObjectMap& map, ObjectId id, const std::string& path)
+{
+  if (!map.find(id))
+    throw std::runtime_error(path + ": has no object with id " + std::to_string(id));
+}
+
+}  // namespace quadmap

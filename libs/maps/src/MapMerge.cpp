@@ -1,0 +1,33 @@
+#include "quadmap/maps/MapMerge.h"
+
+#include "quadmap/base/OptionList.h"
+
+namespace quadmap
+{
+void MapMergeOptions::describe(OptionList& list)
+{
+  ConstellationOptions::describe(list);
+  list.about("How two maps of one place become one.");
+  list.number(
+      "staySigma", staySigma, {1e-3, 10}, "m",
+      "How far an object that stayed may seem to have moved between the maps, beyond the "
+      "uncertainty of both. It covers the sides that only one of them saw.");
+}
+
+std::string nameOf(MapConflict kind)
+{
+  switch (kind)
+  {
+    case MapConflict::Moved:
+      return "moved";
+    case MapConflict::Gone:
+      return "gone";
+    case MapConflict::New:
+      return "new";
+    case MapConflict::OnlyOne:
+      break;
+  }
+  return "only one";
+}
+
+}  // namespace quadmap

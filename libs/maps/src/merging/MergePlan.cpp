@@ -1,0 +1,296 @@
+#include "merging/MergePlan.h"
+
+#include <algorithm>
+#include <set>
+
+#include "merging/PairedMaps.h"
+#include "quadmap/constellation/Moves.h"
+#include "quadmap/geometry/ConvexHull.h"
+
+namespace quadmap
+{
+namespace
+{
+using Objects = std::vector<const MapObject*>;
+
+/** The outline, from above, of where a map has objects. */
+class Region
+{
+ public:
+  explicit Region(const Objects& objects)
+  {
+    std::vector<Eigen::Vector2d> corners;
+    for (const MapObject* object : objects)
+    {
+      const Eigen::Matrix<double, 3, 8> all = object->object.cuboidCorners();
+      for (Eigen::Index i = 0; i < all.cols(); ++i) corners.emplace_back(all.col(i).head<2>());
+    }
+    if (!corners.empty()) hull_ = convexHull(std::move(corners));
+  }
+
+  bool contains(const Eigen::Vector2d& p) const
+  {
+    for (std::size_t i = 0; i < hull_.size(); ++i)
+      if (cross(hull_[(i + 1) % hull_.size()] - hull_[i], p - hull_[i]) < 0) return false;
+    return hull_.size() > 2;
+  }
+
+ private:
+  std::vector<Eigen::Vector2d> hull_;
+};
+
+/** A map and the frames it was made of; all in the frame of the own map. */
+struct Side
+{
+  bool isOwn = false;
+  std::vector<MapObject> copies;  //!< Confirmed objects
+  Objects confirmed, unpaired;    //!< Of these
+  mrpt::poses::CPose3D T_own_map;
+  const MatchedFrames* frames = nullptr;
+};
+
+Side sideOf(
+    const MergedMap& map,
+    const std::set<ObjectId>& paired,
+    const mrpt::poses::CPose3D& T_own_map,
+    const MatchedFrames& frames)
+{
+  Side side;
+  side.T_own_map = T_own_map;
+  side.frames = &frames;
+  for (const MapObject* object : map.confirmed())
+  {
+    side.copies.push_back(*object);
+    side.copies.back().object = object->object.transformed(T_own_map);
+  }
+  for (const MapObject& object : side.copies)
+  {
+    side.confirmed.push_back(&object);
+    if (paired.count(object.id) == 0) side.unpaired.push_back(&object);
+  }
+  return side;
+}
+
+class Planner
+{
+ public:
+  Planner(
+      const MergedMap& own,
+      const MergedMap& other,
+      const PairedMaps& both,
+      const GoneRules& rules,
+      const MapMergeOptions& options) :
+      own_(own),
+      other_(other),
+      both_(both),
+      rules_(rules),
+      options_(options),
+      shift_(both.joint.T_own_other)
+  {
+    plan_.report.match = both.match;
+    plan_.report.placeCovariance = both.joint.covariance;
+    plan_.report.otherIsNewer = other.age().first >= own.age().first;
+  }
+
+  MergePlan run(const MatchedFrames& ownFrames, const MatchedFrames& otherFrames)
+  {
+    joinTogether();
+    moveDisplaced();
+    findConflicts(ownFrames, otherFrames);
+    addOther();
+    return std::move(plan_);
+  }
+
+ private:
+  bool otherIsNewer() const { return plan_.report.otherIsNewer; }
+
+  void joinTogether()
+  {
+    for (std::size_t i = 0; i < both_.together.size(); ++i)
+    {
+      const auto& [here, there] = both_.together[i];
+      const JointEstimate::Object& joint = both_.joint.objects[i];
+      PlannedObject planned;
+      planned.origin = {here, here, there};
+      planned.object = pooled(own_.at(here).object, other_.at(there).object, rules_.existence);
+      planned.object.object = ellipsoidOf(joint.state);
+      planned.known = joint.known;
+      planned.sharedError = joint.sharedError;
+      add(planned);
+    }
+  }
+
+  /** What was moved a little is where the newer map has it. */
+  void moveDisplaced()
+  {
+    for (const auto& [here, there] : both_.displaced)
+    {
+      const MergedMap::Object &a = own_.at(here), &b = other_.at(there);
+      PlannedObject planned = inOwnFrame(b);
+      const double way = (planned.object.object.center() - a.object.object.center()).norm();
+      const Ellipsoid newer = (otherIsNewer() ? planned.object : a.object).object;
+      planned.origin = {here, here, there};
+      planned.object = pooled(a.object, b.object, rules_.existence);
+      planned.object.object = newer;
+      if (!otherIsNewer())
+      {
+        planned.known = a.known;
+        planned.sharedError.setZero();
+      }
+      add(planned);
+      note({MapConflict::Moved, planned.origin, planned.object.label(), way});
+    }
+  }
+
+  PlannedObject inOwnFrame(const MergedMap::Object& b) const
+  {
+    PlannedObject planned;
+    const UprightState y = uprightStateOf(b.object.object);
+    planned.object = b.object;
+    planned.object.object = ellipsoidOf(shift_.state(y));
+    planned.known = shift_.information(b.known);
+    const auto J = byShiftAndYaw(shift_, y);
+    planned.sharedError = J * both_.joint.covariance * J.transpose();
+    return planned;
+  }
+
+  void add(const PlannedObject& planned)
+  {
+    plan_.changed.push_back(planned);
+    if (planned.origin.other) settled_.insert(*planned.origin.other);
+  }
+
+  void note(const MapMerge::Conflict& conflict) { plan_.report.conflicts.push_back(conflict); }
+
+  MapMerge::Origin originOf(const Side& side, ObjectId id) const
+  {
+    MapMerge::Origin origin;
+    (side.isOwn ? origin.own : origin.other) = id;
+    if (side.isOwn) origin.id = id;
+    return origin;
+  }
+
+  /** Objects that only `known` has and the frames of `session` show not to be there. */
+  std::set<ObjectId> absent(const Side& known, const Side& session) const
+  {
+    ConstellationMatch match;  // both are in the own frame
+    for (const auto* pairs : {&both_.together, &both_.displaced})
+      for (const auto& [here, there] : *pairs)
+        match.pairs.emplace_back(session.isOwn ? here : there, session.isOwn ? there : here);
+    GoneObjects objects(known.confirmed, session.confirmed, match, rules_);
+    if (*session.frames)
+      (*session.frames)(
+          [&](const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot,
+              const std::map<std::size_t, ObjectId>& objectOfBox)
+          { objects.look(boxes, session.T_own_map + T_map_robot, objectOfBox); });
+    return objects.gone();
+  }
+
+  void findConflicts(const MatchedFrames& ownFrames, const MatchedFrames& otherFrames)
+  {
+    std::set<ObjectId> ownPaired, otherPaired;
+    for (const auto* pairs : {&both_.together, &both_.displaced})
+      for (const auto& [here, there] : *pairs)
+      {
+        ownPaired.insert(here);
+        otherPaired.insert(there);
+      }
+    Side own = sideOf(own_, ownPaired, {}, ownFrames);
+    own.isOwn = true;
+    const Side other = sideOf(other_, otherPaired, both_.match.T_map_local, otherFrames);
+    judge(otherIsNewer() ? own : other, otherIsNewer() ? other : own);
+  }
+
+  void judge(const Side& older, const Side& newer)
+  {
+    const std::set<ObjectId> gone = absent(older, newer), fresh = absent(newer, older);
+    Objects left;
+    for (const MapObject* object : older.unpaired)
+      if (gone.count(object->id) != 0) left.push_back(object);
+    std::set<ObjectId> from, to;
+    for (const Move& move : movesBetween(left, newer.unpaired, rules_.labels, options_))
+    {
+      from.insert(move.from);
+      to.insert(move.to);
+      MapMerge::Origin origin = originOf(newer, move.to);
+      (older.isOwn ? origin.own : origin.other) = move.from;
+      note({MapConflict::Moved, origin, labelOf(newer, move.to), move.distance});
+      drop(older, move.from);
+    }
+    const Region oldRegion(older.confirmed), newRegion(newer.confirmed);
+    for (const MapObject* object : older.unpaired)
+    {
+      if (from.count(object->id) != 0) continue;
+      if (gone.count(object->id) != 0)
+      {
+        MapMerge::Origin origin = originOf(older, object->id);
+        origin.id = 0;
+        note({MapConflict::Gone, origin, object->label(), 0});
+        drop(older, object->id);
+      }
+      else if (newRegion.contains(object->object.center().head<2>()))
+        note({MapConflict::OnlyOne, originOf(older, object->id), object->label(), 0});
+    }
+    for (const MapObject* object : newer.unpaired)
+    {
+      if (to.count(object->id) != 0) continue;
+      if (fresh.count(object->id) != 0)
+        note({MapConflict::New, originOf(newer, object->id), object->label(), 0});
+      else if (oldRegion.contains(object->object.center().head<2>()))
+        note({MapConflict::OnlyOne, originOf(newer, object->id), object->label(), 0});
+    }
+  }
+
+  static std::string labelOf(const Side& side, ObjectId id)
+  {
+    for (const MapObject* object : side.confirmed)
+      if (object->id == id) return object->label();
+    return {};
+  }
+
+  void drop(const Side& side, ObjectId id)
+  {
+    if (side.isOwn)
+      plan_.removed.push_back(id);
+    else
+      settled_.insert(id);
+  }
+
+  /** Takes over what only the other map has. */
+  void addOther()
+  {
+    for (const MergedMap::Object& o : other_.objects)
+    {
+      if (settled_.count(o.object.id) != 0) continue;
+      PlannedObject planned = inOwnFrame(o);
+      planned.origin.other = o.object.id;
+      add(planned);
+    }
+  }
+
+  const MergedMap &own_, &other_;
+  const PairedMaps& both_;
+  const GoneRules& rules_;
+  const MapMergeOptions& options_;
+  StateShift shift_;
+  std::set<ObjectId> settled_;  //!< Objects of the other map that need nothing more
+  MergePlan plan_;
+};
+
+}  // namespace
+
+std::optional<MergePlan> planMerge(
+    const MergedMap& own,
+    const MergedMap& other,
+    const MatchedFrames& ownFrames,
+    const MatchedFrames& otherFrames,
+    const GoneRules& rules,
+    const EstimatorOptions& estimator,
+    const MapMergeOptions& options)
+{
+  const auto both = pairMaps(own, other, rules, estimator, options);
+  if (!both) return std::nullopt;
+  return Planner(own, other, *both, rules, options).run(ownFrames, otherFrames);
+}
+
+}  // namespace quadmap
