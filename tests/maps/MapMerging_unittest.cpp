@@ -135,13 +135,15 @@ TEST(MapMerging, KnowsMoreThanEitherMapAndAsMuchAsItClaims)
   std::mt19937 rng(1);
   Errors sum;
   double place = 0;
+  MapMergeOptions independent;
+  independent.errorCorrelation = 0;
   constexpr int kRooms = 40;
   for (int k = 0; k < kRooms; ++k)
   {
     const Room room = randomRoom(rng);
     CQuadricObjectMap own = mapOf(room, CPose3D(), rng);
     const CQuadricObjectMap before = own, other = mapOf(room, kOther, rng, kNewer);
-    const auto merge = own.mergeMap(other);
+    const auto merge = own.mergeMap(other, independent);
     ASSERT_TRUE(merge) << k;
     ASSERT_EQ(own.objects().size(), room.size()) << k << "\n" << own.asString();
     EXPECT_TRUE(merge->conflicts.empty()) << k;
@@ -165,6 +167,23 @@ TEST(MapMerging, KnowsMoreThanEitherMapAndAsMuchAsItClaims)
   EXPECT_LT(sum.merged, 0.8 * std::min(sum.own, sum.other)) << "1 / sqrt(2) at best";
   EXPECT_NEAR(sum.nees / sum.count, 3, 0.5) << "squared error over claimed, of the centres";
   EXPECT_NEAR(place, 4, 1.5) << "of the other map's place";
+}
+
+TEST(MapMerging, EqualMapsThatErrAlikeKnowLittleMoreThanOne)
+{
+  std::mt19937 rng(10);
+  const Room room = randomRoom(rng);
+  CQuadricObjectMap alike = mapOf(room, CPose3D(), rng);
+  const CQuadricObjectMap one = alike;
+  MapMergeOptions options;
+  options.errorCorrelation = 1;
+  ASSERT_TRUE(alike.mergeMap(one, options));
+  for (const auto& [id, object] : one.objects())
+  {
+    const auto spread = [](const MapObject& o)
+    { return o.covariance.topLeftCorner<3, 3>().trace(); };
+    EXPECT_GE(spread(*alike.find(id)), 0.99 * spread(object)) << object.label();
+  }
 }
 
 TEST(MapMerging, OrderPlaysNoPart)
@@ -299,19 +318,22 @@ TEST(MapMerging, AMapWithItselfHasTheSameObjects)
     EXPECT_LT((map.find(id)->object.center() - object.object.center()).norm(), 2e-3);
 }
 
-TEST(MapMerging, TwoDoubtfulObjectsTogetherMayBeReported)
+TEST(MapMerging, WhatNeitherMapIsSureOfIsNotReported)
 {
   std::mt19937 rng(8);
-  Room room = randomRoom(rng);
-  room.push_back(thing(20, "suitcase", CPose3D(4.6, 0, 0.3, 0.2, 0, 0)));
-  room.back().existenceLogOdds = 2;
-  CQuadricObjectMap own = mapOf(room, CPose3D(), rng);
-  const CQuadricObjectMap other = mapOf(room, kOther, rng, kNewer);
+  Room sure = randomRoom(rng);
+  sure.push_back(thing(20, "suitcase", CPose3D(4.6, 0, 0.3, 0.2, 0, 0)));
+  Room doubtful = sure;
+  doubtful.back().existenceLogOdds = 2;  // both maps of one place make the same mistakes
+  CQuadricObjectMap own = mapOf(doubtful, CPose3D(), rng);
   ASSERT_TRUE(own.withLabel("suitcase").empty());
-  ASSERT_TRUE(own.mergeMap(other));
+  CQuadricObjectMap both = own;
+  ASSERT_TRUE(both.mergeMap(mapOf(doubtful, kOther, rng, kNewer)));
+  EXPECT_TRUE(both.withLabel("suitcase").empty());
+  ASSERT_TRUE(own.mergeMap(mapOf(sure, kOther, rng, kNewer)));
   ASSERT_EQ(own.withLabel("suitcase").size(), 1u);
-  EXPECT_EQ(own.objects().size(), room.size());
-  EXPECT_EQ(own.withLabel("suitcase").front()->existenceLogOdds, 4);
+  EXPECT_EQ(own.objects().size(), sure.size());
+  EXPECT_EQ(own.withLabel("suitcase").front()->existenceLogOdds, 8);
 }
 
 TEST(MapMerging, AStoredResultIsTheSameAndCanBeExtended)

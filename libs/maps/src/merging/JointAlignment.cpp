@@ -111,7 +111,7 @@ class JointObject
     return change.cwiseAbs().maxCoeff();
   }
 
-  /** doc/mathematics.md, (25.5). */
+  /** doc/mathematics.md, (25.6). */
   double weight() const { return 1 / (1 + distance_ * distance_ / (kKernel * kKernel)); }
   const Eigen::Matrix4d& ofPlace() const { return ofPlace_; }
   const Eigen::Vector4d& gOfPlace() const { return gOfPlace_; }

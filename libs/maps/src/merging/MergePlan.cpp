@@ -256,12 +256,12 @@ class Planner
       settled_.insert(id);
   }
 
-  /** Takes over what only the other map has. */
+  /** Takes over what only the other map has, and is sure of. */
   void addOther()
   {
     for (const MergedMap::Object& o : other_.objects)
     {
-      if (settled_.count(o.object.id) != 0) continue;
+      if (!o.object.confirmed || settled_.count(o.object.id) != 0) continue;
       PlannedObject planned = inOwnFrame(o);
       planned.origin.other = o.object.id;
       add(planned);

@@ -70,9 +70,13 @@ class Pairing
     return estimateJointly(pairs, both.joint.T_own_other, estimator_);
   }
 
-  static KnownState knownOf(const MergedMap::Object& o)
+  /** What a map knows, as far as the other one does not err alike: doc/mathematics.md, (25.5). */
+  KnownState knownOf(const MergedMap::Object& o) const
   {
-    return {uprightStateOf(o.object.object), o.known, o.object.orientationDefined};
+    KnownState known{uprightStateOf(o.object.object), o.known, o.object.orientationDefined};
+    known.known.L /= 1 + options_.errorCorrelation;
+    known.known.xi /= 1 + options_.errorCorrelation;
+    return known;
   }
 
   /** Estimates the place from the objects that stayed, and which stayed from the place, in turn. */
@@ -95,7 +99,7 @@ class Pairing
     }
   }
 
-  /** doc/mathematics.md, (25.6). */
+  /** doc/mathematics.md, (25.7). */
   bool hasStayed(const std::pair<ObjectId, ObjectId>& pair, const JointEstimate& joint) const
   {
     const StateShift shift(joint.T_own_other);
@@ -110,7 +114,8 @@ class Pairing
     return d.dot(all.ldlt().solve(d)) <= kGate;
   }
 
-  /** Pairs what the maps do not report yet, or only one of them does: together they may. */
+  /** Pairs what one map reports with what the other one is not sure of. Things that neither is sure
+   * of stay unpaired: maps of one place make the same mistakes. */
   void addDoubtful(PairedMaps& both) const
   {
     std::set<ObjectId> ownTaken, otherTaken;
@@ -136,7 +141,7 @@ class Pairing
     Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(rows, columns + rows, kNone);
     for (std::size_t i = 0; i < own.size(); ++i)
       for (std::size_t j = 0; j < other.size(); ++j)
-        if (!(own[i]->confirmed && other[j].confirmed) &&
+        if (own[i]->confirmed != other[j].confirmed &&
             areOneObject(*own[i], other[j], rules_.labels, rules_.merging))
           cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
               (own[i]->object.center() - other[j].object.center()).norm();

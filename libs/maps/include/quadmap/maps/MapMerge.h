@@ -19,6 +19,9 @@ struct MapMergeOptions : public ConstellationOptions
   /** How far an object that stayed may seem to have moved between the maps, beyond the uncertainty
    * of both [m], > 0: sides that only one of them saw. */
   double staySigma = 0.02;
+  /** Correlation of what the two maps err by about an object, in [0, 1]: both see the same sides of
+   * it with the same perception. 0 takes the maps as independent. */
+  double errorCorrelation = 0.5;
 
  private:
   void describe(OptionList& list) override;
