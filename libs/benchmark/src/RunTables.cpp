@@ -183,11 +183,13 @@ std::string mappingTable(const BenchmarkResults& results)
 {
   return figuresTable(
       mappingGroups(results), {
-                                  {"Trans [m]",     "objects.trans_m", 3},
-                                  {"Rot [deg]",     "objects.rot_deg", 2},
-                                  {"Shape IoU",   "objects.shape_iou", 3},
-                                  {  "3-D IoU",      "objects.iou_3d", 3},
-                                  {     "NEES", "objects.nees_center", 1}
+                                  {     "Trans [m]",     "objects.trans_m", 3},
+                                  {     "Rot [deg]",     "objects.rot_deg", 2},
+                                  {     "Shape IoU",   "objects.shape_iou", 3},
+                                  {       "3-D IoU",      "objects.iou_3d", 3},
+                                  {          "NEES", "objects.nees_center", 1},
+                                  {"NEES of height", "objects.nees_height", 1},
+                                  {   "NEES of yaw",    "objects.nees_yaw", 1}
   });
 }
 
