@@ -32,26 +32,35 @@ class Residuals
  public:
   Residuals(bool perLabel, std::ostream* raw) : perLabel_(perLabel), raw_(raw)
   {
-    if (raw_) *raw_ << "seed frame object label factor residual_m sigma_m range_m visible\n";
+    if (raw_)
+      *raw_ << "seed frame object label factor face residual_m sigma_m range_m azimuth_deg "
+               "elevation_deg visible\n";
   }
 
   void setBox(const ObservedFrame& frame, const TrueObject& truth)
   {
     frame_ = &frame;
     truth_ = &truth;
+    fromObject_ = truth.object_sensor.rotation().transpose() * -truth.object_sensor.center();
   }
 
-  /** \param residual, sigma In the same unit. */
-  void add(const std::string& factor, double residual, double sigma, bool isInequality = false)
+  /** \param residual, sigma In the same unit. \param face Of the true object; -1: of none. */
+  void add(
+      const std::string& factor,
+      double residual,
+      double sigma,
+      bool isInequality = false,
+      int face = -1)
   {
     insert(factor, residual / sigma, isInequality);
     if (perLabel_) insert(factor + " / " + truth_->label, residual / sigma, isInequality);
     if (raw_)
       *raw_ << mrpt::format(
-          "%u %u %s %s %s %.5f %.5f %.3f %.2f\n", static_cast<unsigned>(frame_->seed),
-          static_cast<unsigned>(frame_->index), truth_->name.c_str(),
-          withoutBlanks(truth_->label).c_str(), withoutBlanks(factor).c_str(), residual, sigma,
-          truth_->object_sensor.center().norm(), truth_->visible.visibleShare);
+          "%u %u %s %s %s %d %.5f %.5f %.3f %.1f %.1f %.2f\n", static_cast<unsigned>(frame_->seed),
+          static_cast<unsigned>(frame_->index), withoutBlanks(truth_->name).c_str(),
+          withoutBlanks(truth_->label).c_str(), withoutBlanks(factor).c_str(), face, residual,
+          sigma, fromObject_.norm(), degrees(std::atan2(fromObject_.y(), fromObject_.x())),
+          degrees(std::asin(fromObject_.z() / fromObject_.norm())), truth_->visible.visibleShare);
   }
 
   void print(std::ostream& out) const
@@ -82,6 +91,8 @@ class Residuals
   }
 
  private:
+  static double degrees(double radians) { return radians * 180 / M_PI; }
+
   static std::string withoutBlanks(std::string text)
   {
     std::replace(text.begin(), text.end(), ' ', '_');
@@ -146,6 +157,7 @@ class Residuals
   std::map<std::string, Factor> factors_;
   const ObservedFrame* frame_ = nullptr;
   const TrueObject* truth_ = nullptr;
+  Eigen::Vector3d fromObject_ = Eigen::Vector3d::Zero();  // to the camera, in the object's axes [m]
 };
 
 /** How a face stands to the camera decides how it is measured. */
@@ -164,6 +176,15 @@ std::string faceFactor(const ObjectView& view, std::size_t face)
   return (view.faces[face].kind == FaceKind::AtLeast ? "at least: " : "face: ") + part + how;
 }
 
+/** Face 0..5 (+x, -x, ...) of an object that looks out along a direction. */
+int faceAlong(const Ellipsoid& object, const Eigen::Vector3d& normal)
+{
+  const Eigen::Vector3d along = object.rotation().transpose() * normal;
+  Eigen::Index axis = 0;
+  along.cwiseAbs().maxCoeff(&axis);
+  return 2 * static_cast<int>(axis) + (along[axis] < 0 ? 1 : 0);
+}
+
 void addComplete(
     const ObjectView& view, const TrueObject& truth, const Ellipsoid& object, Residuals& out)
 {
@@ -174,7 +195,7 @@ void addComplete(
     const Plane inwards{-view.faceNormal(f), view.faceOffset(f)};
     out.add(
         faceFactor(view, f), tangencyResidual(inwards, object, view.faceExponent), face.sigma,
-        face.kind == FaceKind::AtLeast);
+        face.kind == FaceKind::AtLeast, faceAlong(object, view.faceNormal(f)));
   }
   if (view.yawDefined && truth.orientationDefined)
   {
