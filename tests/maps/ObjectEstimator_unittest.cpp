@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "SyntheticScene.h"
@@ -122,6 +123,82 @@ TEST(ObjectEstimator, RecoversACabinetFromJitteringPoses)
   EXPECT_GT(shapeIoU(result.state, kCabinet.object), 0.93);
   EXPECT_TRUE(result.orientationDefined);
   EXPECT_LT(std::sqrt(result.covariance(0, 0)), 0.01);
+}
+
+TEST(ObjectEstimator, ClaimsWhatViewsErrByTogether)
+{
+  // Views from all around whose sides err by one standard normal number for all views of a side,
+  // which has a quarter of the variance, and by one each for itself.
+  constexpr double kSigma = 0.02, kTogether = 0.25;  // [m], [-]
+  constexpr int kTrials = 100;
+  SyntheticCamera camera(11);
+  const auto around = viewsAround(camera, kCabinet, 60);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const UprightState truth = uprightStateOf(kCabinet.object);
+  EstimatorOptions independent;
+  independent.repeatedThere = independent.repeatedAnywhere = 0;
+  double nees = 0, neesOfIndependent = 0;
+  for (int trial = 0; trial < kTrials; ++trial)
+  {
+    std::array<double, kFaces> together;
+    for (double& e : together) e = std::sqrt(kTogether) * kSigma * normal(random);
+    auto views = around;
+    for (auto& view : views)
+    {
+      std::array<double, kFaces> error;
+      for (std::size_t f = 0; f < kFaces; ++f)
+      {
+        error[f] = together[f] + std::sqrt(1 - kTogether) * kSigma * normal(random);
+        view.faces[f] = {FaceKind::Measured, kSigma};
+      }
+      view.pose = {0, 0};
+      view.yaw = truth[3];
+      view.center = kCabinet.object.center();
+      view.halfSizes = kCabinet.object.semiAxes();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double plus = error[2 * axis], minus = error[2 * axis + 1];
+        view.center += 0.5 * (plus - minus) * view.faceNormal(2 * axis);
+        view.halfSizes[static_cast<Eigen::Index>(axis)] += 0.5 * (plus + minus);
+      }
+    }
+    const auto neesWith = [&](const EstimatorOptions& options)
+    {
+      const auto e = estimatorOf(views, options).estimate(truth, boxy("suitcase"), options);
+      const Eigen::Vector3d off = (e.state - truth).head<3>();
+      const Eigen::Matrix3d P = e.covariance.topLeftCorner<3, 3>();
+      return off.dot(P.llt().solve(off));
+    };
+    nees += neesWith({}) / kTrials;
+    neesOfIndependent += neesWith(independent) / kTrials;
+  }
+  // 3 is expected, less because neighbours repeat no more here than any two views.
+  EXPECT_GT(nees, 1.5);
+  EXPECT_LT(nees, 3.7);
+  EXPECT_GT(neesOfIndependent, 20);
+}
+
+TEST(ObjectEstimator, ManyViewsFromOnePlaceKnowLittleMoreThanOne)
+{
+  SyntheticCamera camera(12);
+  camera.disturbances = Disturbances{};
+  ObjectView view = viewsAround(camera, kCabinet, 1).at(0);
+  ASSERT_TRUE(view.complete);
+  view.pose = {0, 0};
+  for (auto& face : view.faces)
+    if (face.kind != FaceKind::Support) face = {FaceKind::Measured, 0.02};
+  const auto sigmaOf = [&](std::size_t count)
+  {
+    const auto e = estimatorOf(std::vector<ObjectView>(count, view), {});
+    return std::sqrt(e.estimate({}, boxy("suitcase"), {}).covariance(0, 0));
+  };
+  EXPECT_LT(sigmaOf(100), sigmaOf(3));
+  EXPECT_GT(sigmaOf(100), 0.8 * sigmaOf(3)) << "0.17 if they were independent";
+
+  // What the pose errs by is another matter: each image has a pose of its own.
+  view.pose = {0.02, 0};
+  EXPECT_LT(sigmaOf(100), 0.3 * sigmaOf(3));
 }
 
 TEST(ObjectEstimator, BadCuboidsDoNotWreckTheObject)
@@ -294,6 +371,8 @@ TEST(ObjectEstimator, SummaryContinuesWhereTheMeasurementsStopped)
   const auto after = loaded.estimate(before.state, boxy("suitcase"), {});
   EXPECT_LT((after.state - before.state).norm(), 1e-3);
   EXPECT_TRUE(after.orientationDefined);
+  for (Eigen::Index i = 0; i < 4; ++i)  // what the views repeat is in it, too
+    EXPECT_NEAR(std::sqrt(after.covariance(i, i) / before.covariance(i, i)), 1, 0.05) << i;
 }
 
 TEST(ObjectEstimator, AbsorbsAPriorWhoseAxesAreNamedDifferently)

@@ -66,7 +66,7 @@ BoxMeasurement measurementInMap(const ObjectView& view, const EstimatorOptions& 
 double edgeSigma(
     const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options)
 {
-  return (view.center - view.camera).norm() * edge.angle + view.positionSigma + options.edgeFloor +
+  return (view.center - view.camera).norm() * edge.angle + view.pose.position + options.edgeFloor +
          options.edgeShapeShare * view.halfSizes.mean();
 }
 

@@ -231,7 +231,7 @@ std::optional<ObjectView> viewOf(
   ObjectView view;
   view.label = properties.name;
   view.camera = composed(T_map_sensor, Eigen::Vector3d::Zero());
-  view.positionSigma = noise.position;
+  view.pose = noise;
   if (m.edges)
   {
     const auto bounding = boundingEdges(*m.edges, T_map_sensor);

@@ -27,7 +27,7 @@ std::optional<ObjectView> edgeView(
   ObjectView view;
   view.label = label;
   view.camera = positionOf(T_map_sensor);
-  view.positionSigma = noise.position;
+  view.pose = noise;
   view.edges = usableEdges(detected.measurement, T_map_sensor, noise);
   if (view.edges.empty()) return {};
   return view;

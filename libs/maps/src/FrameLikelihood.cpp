@@ -106,7 +106,7 @@ double FrameLikelihood::edgesTerm(const Placed& box, const Target& target) const
   const double range = (center - box.camera).norm();
   for (const auto& edge : view.edges)
   {
-    const double sigma = range * std::hypot(edge.angle, options_.angleSigma) + view.positionSigma;
+    const double sigma = range * std::hypot(edge.angle, options_.angleSigma) + view.pose.position;
     const double gap =
         tangencyResidual(box.placed(edge.plane), target.object, target.shapeExponent);
     chi2 += gap * gap / (sigma * sigma);

@@ -76,6 +76,16 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "seedWeight", o.estimator.seedWeight, {kSmall, 1}, "",
       "Weight of the position that a partial measurement starts with. Many of them err alike.");
   list.number(
+      "repeatedThere", o.estimator.repeatedThere, {0, 1}, "",
+      "Share of what a view errs by, without its pose, that views from the same place err by "
+      "alike. Measured in simulated rooms.");
+  list.number(
+      "repeatedAnywhere", o.estimator.repeatedAnywhere, {0, 1}, "",
+      "The same of views from anywhere: what of an object is seen in all images alike.");
+  list.angle(
+      "repeatedAngle_deg", o.estimator.repeatedAngle, {0.001, 180},
+      "The one becomes the other when the camera moves this far around the object: by 1 - 1/e.");
+  list.number(
       "posePositionSigma", o.poseNoise.position, {0, 10}, "m",
       "Uncertainty of each coordinate of a pose, or what remains of it where poses are "
       "estimated.");
@@ -83,6 +93,7 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "poseAngleSigma_deg", o.poseNoise.angle, {0, 90},
       "Uncertainty of the orientation of a pose, or what remains of it where poses are "
       "estimated.");
+  list.requireLess("repeatedAnywhere", "repeatedThere");
 }
 
 void describeExistence(InsertionOptions& o, OptionList& list)

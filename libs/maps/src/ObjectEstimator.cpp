@@ -9,6 +9,7 @@
 #include "FreeInformation.h"
 #include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/estimation/LabelPrior.h"
+#include "quadmap/estimation/RepeatedErrors.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RotationDistance.h"
 
@@ -53,7 +54,7 @@ class Evidence
       const InformationPrior& prior,
       const UprightState& reference,
       const EstimatorOptions& options) :
-      prior_(prior), huber_(options.huber)
+      views_(views), prior_(prior), options_(options)
   {
     measurements_.reserve(views.size());  // the placed ones refer to them
     placed_.reserve(views.size());
@@ -72,14 +73,25 @@ class Evidence
     NormalEquations eq;
     const ObjectShape object(x);
     for (std::size_t i = 0; i < placed_.size(); ++i)
-      addViewResiduals(placed_[i], object, shapeExponent, huber_, measurements_[i].weight, eq);
+      addViewResiduals(
+          placed_[i], object, shapeExponent, options_.huber, measurements_[i].weight, eq);
     if (!prior_.empty()) addPrior(prior_, x, eq);
     return eq;
   }
 
+  /** X of doc/mathematics.md, (11.22): what the views repeat. */
+  UprightCovariance repeated(const UprightState& x, double shapeExponent) const
+  {
+    RepeatedErrors errors(x, shapeExponent, options_);
+    for (std::size_t i = 0; i < placed_.size(); ++i)
+      errors.add(views_[i], measurements_[i], placed_[i]);
+    return errors.crossTerms();
+  }
+
  private:
+  const std::deque<ObjectView>& views_;
   const InformationPrior& prior_;
-  double huber_;
+  const EstimatorOptions& options_;
   std::vector<BoxMeasurement> measurements_;
   std::vector<ViewAtPose> placed_;
 };
@@ -190,7 +202,9 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   e.state = x;
   e.cost = best.cost;
   const UprightCovariance information = best.H + freeInformation();
-  e.covariance = information.ldlt().solve(UprightCovariance::Identity()) + sharedError_;
+  const UprightCovariance independent = information.ldlt().solve(UprightCovariance::Identity());
+  const UprightCovariance repeated = evidence.repeated(x, label.shapeExponent);  // (11.22)
+  e.covariance = independent + independent * repeated * independent + sharedError_;
   double complete = prior_.complete, defined = prior_.yawDefined;
   for (const auto& v : views_)
   {
@@ -223,14 +237,21 @@ void ObjectEstimator::absorb(
 InformationPrior ObjectEstimator::summary(
     const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
 {
-  const NormalEquations eq = Evidence(views_, prior_, at, options).at(at, label.shapeExponent);
+  constexpr double kLeast = 1e-9;  // of what nothing is known about
+  const Evidence evidence(views_, prior_, at, options);
+  const NormalEquations eq = evidence.at(at, label.shapeExponent);
   InformationPrior all = prior_;
-  // (H^-1 + S)^-1 = (1 + H S)^-1 H, also where H knows nothing in some direction.
+  // (H^-1 + H^-1 X H^-1 + S)^-1 = (1 + G S)^-1 G, G = H (H + X)^-1 H, also where H knows nothing in
+  // some direction.
+  const UprightCovariance withRepeated =
+      eq.H + evidence.repeated(at, label.shapeExponent) + kLeast * UprightCovariance::Identity();
+  const UprightCovariance share =
+      withRepeated.ldlt().solve(UprightCovariance::Identity()) * eq.H;  // (H + X)^-1 H
   const Eigen::PartialPivLU<UprightCovariance> weaken(
-      UprightCovariance::Identity() + eq.H * sharedError_);
-  const UprightCovariance L = weaken.solve(eq.H);
+      UprightCovariance::Identity() + eq.H * share * sharedError_);
+  const UprightCovariance L = weaken.solve(UprightCovariance(eq.H * share));
   all.L = 0.5 * (L + L.transpose());
-  all.xi = weaken.solve(UprightState(eq.H * at - eq.g));
+  all.xi = weaken.solve(UprightState(share.transpose() * (eq.H * at - eq.g)));
   for (const auto& v : views_)
   {
     all.complete += v.complete ? 1 : 0;

@@ -18,6 +18,12 @@ struct EstimatorOptions
   /** Of the seed of a partial measurement, (0, 1]. What is behind a thin or sparse object is taken
    * for it in most frames alike: ten seeds are worth one. */
   double seedWeight = 0.1;
+  /** Share of the variance of what a view errs by itself, without its pose, that views from the
+   * same place have in common, [0, 1]. */
+  double repeatedThere = 0.65;
+  /** The same of views from anywhere, [0, repeatedThere]. */
+  double repeatedAnywhere = 0.25;
+  double repeatedAngle = 0.4;  //!< How fast the one becomes the other [rad], > 0
 };
 
 }  // namespace quadmap

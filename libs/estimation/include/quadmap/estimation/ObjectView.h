@@ -32,8 +32,8 @@ struct ObjectView : MeasuredGeometry
     double angle = 0;  //!< Standard deviation as an angle at the camera [rad]
   };
 
-  std::string label;                                               //!< Canonical
-  double positionSigma = 0;                                        //!< Of the camera centre [m]
+  std::string label;     //!< Canonical
+  PoseNoise pose{0, 0};  //!< Of the pose it was taken from; the sigmas include it
   Eigen::Matrix3d centerCovariance = Eigen::Matrix3d::Identity();  //!< Of `center` [m^2]
   double yaw = 0;           //!< Of the cuboid's x axis [rad]; the cuboid is turned upright
   std::vector<Edge> edges;  //!< The usable box edges

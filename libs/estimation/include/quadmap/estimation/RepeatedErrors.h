@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <vector>
+
+#include "quadmap/estimation/EstimatorOptions.h"
+#include "quadmap/estimation/MapObject.h"
+#include "quadmap/estimation/ObjectView.h"
+#include "quadmap/estimation/ViewAtPose.h"
+
+namespace quadmap
+{
+/** Correlation of the own errors of two views of one side of an object, (11.21) of
+ * doc/mathematics.md, in [0, 1]. \param a, b The cameras. \param center Of the object [m]. */
+double repeatedShare(
+    const Eigen::Vector3d& a,
+    const Eigen::Vector3d& b,
+    const Eigen::Vector3d& center,
+    const EstimatorOptions& options);
+
+/** The errors that views of one object repeat: the same side is cut, hidden, bent by the lens and
+ * drawn by the detector alike in all images from about one place, and a little so from everywhere.
+ * However many such views there are, what they repeat does not average out. */
+class RepeatedErrors
+{
+ public:
+  /** \param state Of the object, about which everything is linearised. */
+  RepeatedErrors(const UprightState& state, double shapeExponent, const EstimatorOptions& options);
+
+  /** Takes one view. \param measurement Made of it, in the map. \param placed Made of that. */
+  void add(const ObjectView& view, const BoxMeasurement& measurement, const ViewAtPose& placed);
+
+  /** What the views' normal matrix H lacks for the errors that repeat: the estimate errs by
+   * H^-1 + H^-1 X H^-1, (11.22). \return X, symmetric. */
+  UprightCovariance crossTerms() const;
+
+ private:
+  struct Sigmas
+  {
+    double all, ofPose;  // of a residual; what the pose adds to it
+
+    double own2() const;
+  };
+  struct Row
+  {
+    Eigen::Vector4d place;   // of the camera
+    UprightState influence;  // on the gradient, of an own error of one sigma
+  };
+  struct Side
+  {
+    std::vector<Row> rows;
+    double found = 0, claimed = 0;  // of headings: sums of squared own errors
+
+    double excess() const;  // by which headings scatter more than they claim, >= 1
+  };
+
+  static void addRow(
+      const ResidualRow& row,
+      const Sigmas& sigmas,
+      const RobustKernel& kernel,
+      double weight,
+      const Eigen::Vector4d& place,
+      Side& side);
+
+  ObjectShape object_;
+  double shapeExponent_;
+  const EstimatorOptions& options_;
+  std::map<int, Side> sides_;
+};
+
+}  // namespace quadmap

@@ -1,0 +1,137 @@
+#include "quadmap/estimation/RepeatedErrors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quadmap/estimation/RobustKernel.h"
+
+namespace quadmap
+{
+using Eigen::Vector3d;
+
+namespace
+{
+/** Sides of a box in the image follow those of the object. */
+constexpr int kYaw = kFaces, kFirstEdge = kYaw + 1;
+
+/** Face 0..5 of an upright object that looks out along a direction. */
+int sideAlong(const ObjectShape& object, const Vector3d& outward)
+{
+  const Vector3d along = object.R.transpose() * outward;
+  Eigen::Index axis = 0;
+  along.cwiseAbs().maxCoeff(&axis);
+  return 2 * static_cast<int>(axis) + (along[axis] < 0 ? 1 : 0);
+}
+
+/** Which side of its box an edge is: upper, lower, left or right, as seen with up upwards. */
+int edgeSide(const Vector3d& inward, const Vector3d& lineOfSight)
+{
+  if (std::abs(inward.z()) > inward.head<2>().norm()) return kFirstEdge + (inward.z() < 0 ? 0 : 1);
+  return kFirstEdge + (lineOfSight.cross(inward).z() < 0 ? 2 : 3);
+}
+
+/** Where a camera is as seen from the object: the direction, and the logarithm of the distance. A
+ * small move is as long as its angle. */
+Eigen::Vector4d placeOf(const Vector3d& camera, const Vector3d& center)
+{
+  constexpr double kNearest = 0.1;  // [m]
+  const Vector3d from = camera - center;
+  const double range = std::max(kNearest, from.norm());
+  Eigen::Vector4d place;
+  place << from / range, std::log(range);
+  return place;
+}
+
+double shareOf(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const EstimatorOptions& options)
+{
+  return options.repeatedAnywhere + (options.repeatedThere - options.repeatedAnywhere) *
+                                        std::exp(-(a - b).norm() / options.repeatedAngle);
+}
+
+}  // namespace
+
+double repeatedShare(
+    const Vector3d& a, const Vector3d& b, const Vector3d& center, const EstimatorOptions& options)
+{
+  return shareOf(placeOf(a, center), placeOf(b, center), options);
+}
+
+RepeatedErrors::RepeatedErrors(
+    const UprightState& state, double shapeExponent, const EstimatorOptions& options) :
+    object_(state), shapeExponent_(shapeExponent), options_(options)
+{
+}
+
+void RepeatedErrors::add(
+    const ObjectView& view, const BoxMeasurement& measurement, const ViewAtPose& placed)
+{
+  const double range = (view.center - view.camera).norm();
+  const double ofPose = std::hypot(view.pose.position, range * view.pose.angle);
+  const auto place = placeOf(view.camera, object_.t);
+  const double weight = measurement.weight;
+  const auto huber = RobustKernel::huber(options_.huber);
+  for (std::size_t f = 0; view.complete && f < kFaces; ++f)
+  {
+    // Supports are surfaces of the room, which many frames have measured already.
+    const auto& face = view.faces[f];
+    if (face.kind != FaceKind::Measured && face.kind != FaceKind::AtLeast) continue;
+    Side& side = sides_[sideAlong(object_, view.faceNormal(f))];
+    const ResidualRow row = placed.face(f, object_);
+    addRow(
+        row, {face.sigma, ofPose}, ViewAtPose::kernelOf(face.kind, options_.huber), weight, place,
+        side);
+  }
+  if (view.complete && view.yawDefined)
+  {
+    const ResidualRow row = placed.yaw(object_);
+    const Sigmas sigmas{view.yawSigma, view.pose.angle};
+    addRow(row, sigmas, huber, weight, place, sides_[kYaw]);
+    sides_[kYaw].found += weight * (row.r * row.r - sigmas.ofPose * sigmas.ofPose);
+    sides_[kYaw].claimed += weight * sigmas.own2();
+  }
+  for (const auto& edge : measurement.edges)
+  {
+    Side& side = sides_[edgeSide(edge.normal, view.center - view.camera)];
+    const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
+    addRow(row, {edge.sigma, ofPose}, huber, weight, place, side);
+  }
+}
+
+void RepeatedErrors::addRow(
+    const ResidualRow& row,
+    const Sigmas& sigmas,
+    const RobustKernel& kernel,
+    double weight,
+    const Eigen::Vector4d& place,
+    Side& side)
+{
+  const double w = weight * kernel.weight(row.r / sigmas.all), own = std::sqrt(sigmas.own2());
+  if (w <= 0 || own <= 0) return;
+  side.rows.push_back(
+      {place, row.byUprightState() * (std::sqrt(w) * own / (sigmas.all * sigmas.all))});
+}
+
+double RepeatedErrors::Sigmas::own2() const { return std::max(0.0, all * all - ofPose * ofPose); }
+
+double RepeatedErrors::Side::excess() const
+{
+  return claimed > 0 ? std::max(1.0, found / claimed) : 1.0;  // (11.23)
+}
+
+UprightCovariance RepeatedErrors::crossTerms() const
+{
+  UprightCovariance X = UprightCovariance::Zero();
+  for (const auto& [name, side] : sides_)
+    for (std::size_t i = 0; i < side.rows.size(); ++i)
+    {
+      UprightState others = UprightState::Zero();
+      for (std::size_t j = 0; j < i; ++j)
+        others +=
+            shareOf(side.rows[i].place, side.rows[j].place, options_) * side.rows[j].influence;
+      const UprightCovariance cross = side.excess() * side.rows[i].influence * others.transpose();
+      X += cross + cross.transpose();
+    }
+  return X;
+}
+
+}  // namespace quadmap
