@@ -20,8 +20,6 @@ namespace
 /** Number of views of a track that are kept. More of them tell nothing new while the track is seen
  * from one direction. */
 constexpr std::size_t kMaxTrackViews = 40;
-/** An object is estimated anew when its views have grown by this share. */
-constexpr double kGrowth = 1.25;
 /** Two objects that are seen side by side in more than this share of their keyframes are two. */
 constexpr double kMaxSideBySide = 0.1;
 
@@ -152,7 +150,8 @@ std::vector<QuadricObjects::Decision> QuadricObjects::add(
     QuadricObject& object = objects_.at(id);
     if (d.target) addView(object, view, time);
     if (!object.settled &&
-        static_cast<double>(object.views.size()) >= kGrowth * static_cast<double>(object.estimated))
+        static_cast<double>(object.views.size()) >=
+            (1 + options_.estimateGrowth) * static_cast<double>(object.estimated))
       estimate(object, poseOf);
     decision.startedObject = object.waits && promote(object, poseOf);
     if (!object.waits) decision.object = id;
