@@ -11,12 +11,12 @@ namespace quadmap
 namespace
 {
 /** A chi^2 above this adds nothing to the share of the outliers: exp(-40) of it is left. */
-constexpr double kHopeless = 80;
+constexpr double kNegligible = 80;
 
 /** A bound of -1/2 chi^2 that needs no inverse: no eigenvalue of S is above its trace. */
 bool isHopeless(const Eigen::Vector3d& off, const Eigen::Matrix3d& S)
 {
-  return off.squaredNorm() > kHopeless * S.trace();
+  return off.squaredNorm() > kNegligible * S.trace();
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ double FrameLikelihood::completeTerm(const Placed& box, const Target& target) co
   const Eigen::Matrix3d S =
       box.centerCovariance + target.covariance + sigma2 * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d off = box.center - target.object.center();
-  if (isHopeless(off, S)) return -kHopeless;
+  if (isHopeless(off, S)) return -kNegligible;
   double chi2 = off.dot(S.llt().solve(off));
   const ObjectView& view = box.box.view;
   if (view.yawDefined && target.orientationDefined)
@@ -98,11 +98,11 @@ double FrameLikelihood::edgesTerm(const Placed& box, const Target& target) const
     const Eigen::Vector3d off = box.center - center;
     const double sigma2 = options_.positionSigma * options_.positionSigma;
     const Eigen::Matrix3d S = box.centerCovariance + sigma2 * Eigen::Matrix3d::Identity();
-    if (isHopeless(off, S)) return -kHopeless;
+    if (isHopeless(off, S)) return -kNegligible;
     chi2 += off.dot(S.llt().solve(off));
   }
   else if (!box.isInFront(center))
-    return -kHopeless;
+    return -kNegligible;
   const double range = (center - box.camera).norm();
   for (const auto& edge : view.edges)
   {

@@ -6,7 +6,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kSmall = 1e-6;
+constexpr double kLeastValue = 1e-6;
 }
 
 void LocalizationOptions::describe(OptionList& list)
@@ -32,17 +32,17 @@ void LocalizationOptions::describe(OptionList& list)
       "doubtShare", doubtShare, {0, 0.9}, "",
       "The same when all other poses agree, so that a robot that was carried away is found again.");
   list.number(
-      "placeRadius", placeRadius, {kSmall, 100}, "m",
+      "placeRadius", placeRadius, {kLeastValue, 100}, "m",
       "The estimate is the mean of the poses within this distance of the best place.");
-  list.angle("placeAngle_deg", placeAngle, {kSmall, 180}, "... and within this turn.");
+  list.angle("placeAngle_deg", placeAngle, {kLeastValue, 180}, "... and within this turn.");
   list.number(
-      "localisedShare", localisedShare, {kSmall, 1}, "",
+      "localisedShare", localisedShare, {kLeastValue, 1}, "",
       "The robot counts as localised when these poses have this share of the weight.");
   list.number(
-      "localisedSigma", localisedSigma, {kSmall, 100}, "m",
+      "localisedSigma", localisedSigma, {kLeastValue, 100}, "m",
       "... and the standard deviation of each horizontal coordinate is below this.");
   list.angle(
-      "localisedAngle_deg", localisedAngle, {kSmall, 180},
+      "localisedAngle_deg", localisedAngle, {kLeastValue, 180},
       "... and the standard deviation of the yaw is below this.");
 }
 
