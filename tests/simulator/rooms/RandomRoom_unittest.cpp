@@ -99,10 +99,13 @@ bool standsOnSomething(const Scene& room, const SceneObject& object)
   return false;
 }
 
-/** Whether an object is at a wall or at the ceiling, to a decimetre. */
+/** Whether an object is at a wall or at the ceiling, to a decimetre, or hangs on a cord. */
 bool hangs(const Scene& room, const SceneObject& object)
 {
   const Ellipsoid box = object.truth();
+  const Eigen::Vector3d above = box.center() + Eigen::Vector3d(0, 0, box.semiAxes().z() + 5e-3);
+  for (const auto& other : room.objects)
+    if (object.label == "lamp" && other.label.empty() && contains(other, above)) return true;
   const Eigen::Vector3d half = box.rotation().cwiseAbs() * box.semiAxes();
   const Eigen::Vector3d far = box.center().cwiseAbs() + half;
   return far.x() > room.room.size.x() / 2 - 0.1 || far.y() > room.room.size.y() / 2 - 0.1 ||
@@ -186,22 +189,21 @@ TEST(RandomRoom, RoomsDiffer)
 
 TEST(RandomRoom, ItsFileReadsBackAsTheSameScene)
 {
-  const Scene& room = rooms()[2];
-  const std::string text = sceneText(room);
-  const Scene again = sceneFromText(text);
-  EXPECT_TRUE(text == sceneText(again));
-  ASSERT_EQ(room.objects.size(), again.objects.size());
-  for (std::size_t i = 0; i < room.objects.size(); ++i)
+  for (const auto& room : rooms())
   {
-    EXPECT_EQ(room.objects[i].name, again.objects[i].name);
-    const auto a = room.objects[i].truth(), b = again.objects[i].truth();
-    EXPECT_EQ(a.center(), b.center()) << "to the last bit";
-    EXPECT_EQ(a.semiAxes(), b.semiAxes());
-    EXPECT_EQ(a.rotation(), b.rotation());
+    const std::string text = sceneText(room);
+    const Scene again = sceneFromText(text);
+    EXPECT_TRUE(text == sceneText(again));
+    ASSERT_EQ(room.objects.size(), again.objects.size());
+    for (std::size_t i = 0; i < room.objects.size(); ++i)
+    {
+      EXPECT_EQ(room.objects[i].name, again.objects[i].name);
+      const auto a = room.objects[i].truth(), b = again.objects[i].truth();
+      EXPECT_EQ(a.center(), b.center()) << room.objects[i].name << ", to the last bit";
+      EXPECT_EQ(a.semiAxes(), b.semiAxes()) << room.objects[i].name;
+      EXPECT_EQ(a.rotation(), b.rotation()) << room.objects[i].name;
+    }
   }
-  const auto path = [](const Scene& scene)
-  { return Simulator(scene, LabelTable::installed(), 1).truePoses().back().asString(); };
-  EXPECT_EQ(path(room), path(again));
 }
 
 }  // namespace

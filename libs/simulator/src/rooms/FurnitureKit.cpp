@@ -2,6 +2,7 @@
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +147,8 @@ double inMillimetres(double metres) { return std::round(1000 * metres) / 1000; }
 
 double inTenthsOfDegrees(double radians)
 {
-  return mrpt::DEG2RAD(std::round(10 * mrpt::RAD2DEG(radians)) / 10);
+  const double degrees = mrpt::RAD2DEG(mrpt::math::wrapToPi(radians));  // as a pose has them
+  return mrpt::DEG2RAD(std::round(10 * degrees) / 10);
 }
 
 namespace

@@ -84,7 +84,9 @@ void addLampAbove(RoomBuilder& room, std::size_t piece, double surface)
   const double height = room.scene().room.size.z();
   const double lower = std::max(1.5, surface + room.kit().between(0.75, 1.0));
   if (height - lower < 0.35) return;
-  room.putBeside(hangingLamp(room.kit(), height - lower), piece, {0, 0, height, 0, 0, 0});
+  const HangingLamp lamp = hangingLamp(room.kit(), height - lower);
+  const mrpt::poses::CPose3D ceiling(0, 0, height, 0, 0, 0);
+  if (room.putBeside(lamp.shade, piece, ceiling)) room.putBeside(lamp.cord, piece, ceiling);
 }
 
 void addScreens(RoomBuilder& room, std::size_t piece, const Shelf& top)

@@ -82,17 +82,17 @@ SceneObject radiator(FurnitureKit& kit)
   return radiator;
 }
 
-SceneObject hangingLamp(FurnitureKit& kit, double length)
+HangingLamp hangingLamp(FurnitureKit& kit, double length)
 {
-  SceneObject lamp = objectOf("lamp", false);
+  HangingLamp lamp{objectOf("lamp", false), objectOf("")};
   const double size = kit.between(0.28, 0.5), shade = kit.between(0.16, 0.28);
-  addCylinder(
-      lamp, {0, 0, -(length - shade) / 2}, {0.012, 0.012, length - shade}, kit.darkPlastic());
+  const double cord = length - shade;
+  addCylinder(lamp.cord, {0, 0, -cord / 2}, {0.012, 0.012, cord}, kit.darkPlastic());
   const Eigen::Vector3d at(0, 0, shade / 2 - length), full(size, size, shade);
   if (kit.chance(0.5))
-    addEllipsoid(lamp, at, full, kit.paper());
+    addEllipsoid(lamp.shade, at, full, kit.paper());
   else
-    addCylinder(lamp, at, full, kit.cover());
+    addCylinder(lamp.shade, at, full, kit.cover());
   return lamp;
 }
 

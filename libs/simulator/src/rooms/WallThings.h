@@ -13,8 +13,13 @@ SceneObject window(FurnitureKit& kit);
 SceneObject picture(FurnitureKit& kit);
 SceneObject wallClock(FurnitureKit& kit);
 SceneObject radiator(FurnitureKit& kit);  //!< No detector knows it; stands on the floor
-/** A lamp below the ceiling; its z = 0 is the ceiling. \param length From there down [m]. */
-SceneObject hangingLamp(FurnitureKit& kit, double length);
+/** A lamp below the ceiling; z = 0 is the ceiling. Its box is that of the shade: the cord up to the
+ * ceiling is a thing of its own, which no detector knows. */
+struct HangingLamp
+{
+  SceneObject shade, cord;
+};
+HangingLamp hangingLamp(FurnitureKit& kit, double length);  //!< \param length Down to its end [m]
 /** @} */
 
 SceneObject person(FurnitureKit& kit);  //!< Stands; faces +x
