@@ -14,7 +14,7 @@ constexpr double kMostEdge = 0.5;    // no edge errs by more, in sizes of the bo
 
 /** Which cell of directions and distances a view is in; cells of different objects have different
  * borders. */
-std::uint64_t viewOf(
+std::uint64_t cellOfView(
     const DetectorOptions& options,
     std::uint64_t seed,
     std::size_t object,
@@ -65,7 +65,7 @@ ViewErrors viewErrors(
     std::size_t object,
     const Eigen::Vector3d& eye)
 {
-  RandomStream random(seed, Purpose::View, viewOf(options, seed, object, eye));
+  RandomStream random(seed, Purpose::View, cellOfView(options, seed, object, eye));
   ViewErrors errors;
   for (int i = 0; i < 4; ++i)
     errors.edges[i] = std::clamp(options.viewEdges * longTailed(random), -kMostEdge, kMostEdge);

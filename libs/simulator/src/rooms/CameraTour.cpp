@@ -14,13 +14,13 @@ namespace quadmap::simulator
 {
 namespace
 {
-constexpr double kMargin = 0.3;      // half the width of who walks [m]
-constexpr double kHeadroom = 1.9;    // who walks is so tall [m]
-constexpr double kLeastFloor = 5;    // smallest free floor worth a walk [m^2]
-constexpr double kLeastSeen = 0.9;   // share of the things that are looked at from two places
-constexpr double kLeastEffort = 20;  // of the way, turns included [m]
-constexpr double kStep = 0.45;       // between waypoints [m]
-constexpr double kTurnLength = 0.9;  // turning by 1 rad takes as long as walking this far [m]
+constexpr double kMargin = 0.3;          // half the width of who walks [m]
+constexpr double kHeadroom = 1.9;        // who walks is so tall [m]
+constexpr double kLeastFloor = 5;        // smallest free floor worth a walk [m^2]
+constexpr double kLeastSeen = 0.9;       // share of the things that are looked at from two places
+constexpr double kLeastEffort = 20;      // of the way, turns included [m]
+constexpr double kStep = 0.45;           // between waypoints [m]
+constexpr double kTourTurnLength = 0.9;  // turning by 1 rad takes as long as walking this far [m]
 
 using Places = std::vector<std::size_t>;
 
@@ -202,7 +202,7 @@ double walkRound(
       const Eigen::Vector3d before = (last.target - last.eye).normalized();
       const double cosine = before.dot((target - eye).normalized());
       const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
-      effort += std::hypot((eye - last.eye).norm(), kTurnLength * turn);
+      effort += std::hypot((eye - last.eye).norm(), kTourTurnLength * turn);
     }
     waypoints.push_back({eye.unaryExpr(&inMillimetres), target.unaryExpr(&inMillimetres)});
   }

@@ -4,14 +4,14 @@ namespace quadmap::simulator
 {
 namespace
 {
-constexpr double kAbove = 0.9;  // free height above a table [m]
+constexpr double kAboveTables = 0.9;  // free height above a table [m]
 
 /** The square that fits into a round top of some diameter, or the rectangle of the others. */
 Shelf topOf(const Eigen::Vector2d& size, double height, bool round)
 {
   return {
       {0, 0},
-      size * (round ? 0.35 : 0.48), height, kAbove
+      size * (round ? 0.35 : 0.48), height, kAboveTables
   };
 }
 

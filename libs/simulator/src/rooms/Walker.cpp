@@ -11,10 +11,10 @@ namespace quadmap::simulator
 {
 namespace
 {
-constexpr double kMargin = 0.32;    // half the width of a person [m]
-constexpr double kHeadroom = 1.95;  // [m]
-constexpr double kApart = 0.9;      // between the person and the camera, at least [m]
-constexpr double kStep = 0.5;       // between the points of the way [m]
+constexpr double kWalkerMargin = 0.32;    // half the width of a person [m]
+constexpr double kWalkerHeadroom = 1.95;  // [m]
+constexpr double kApart = 0.9;            // between the person and the camera, at least [m]
+constexpr double kWalkerStep = 0.5;       // between the points of the way [m]
 
 /** Places of the camera, ten a second. */
 std::vector<Eigen::Vector2d> cameraPlaces(const Scene& scene)
@@ -35,7 +35,7 @@ std::vector<WayPoint> wayThrough(
 {
   std::vector<WayPoint> way;
   Eigen::Vector2d last = floor.places()[places.front()];
-  double time = start, since = kStep;
+  double time = start, since = kWalkerStep;
   for (std::size_t i = 0; i + 1 < places.size(); ++i)
     for (const auto cell : floor.way(places[i], places[i + 1]))
     {
@@ -43,7 +43,7 @@ std::vector<WayPoint> wayThrough(
       const double step = (p - last).norm();
       time += step / speed;
       since += step;
-      if (since < kStep)
+      if (since < kWalkerStep)
       {
         last = p;
         continue;
@@ -75,7 +75,7 @@ bool staysApart(const SceneObject& person, const std::vector<Eigen::Vector2d>& c
 
 void addWalker(Scene& scene, FurnitureKit& kit)
 {
-  const FreeFloor floor(scene, kMargin, kHeadroom);
+  const FreeFloor floor(scene, kWalkerMargin, kWalkerHeadroom);
   if (floor.places().size() < 50) return;
   const auto camera = cameraPlaces(scene);
   const double duration = scene.options.trajectory.duration;
