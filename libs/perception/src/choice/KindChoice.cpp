@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "choice/ModelChoice.h"
+#include "choice/ScreenOutline.h"
+#include "choice/SeedPoint.h"
 #include "cuboid/FacesInBox.h"
 #include "quadmap/geometry/Projection.h"
 
@@ -40,10 +42,18 @@ CuboidVerdict judgeCuboid(
   const double tolerance = options.edgeToleranceIn(cloud.camera().width);
   const BoxFit fit = bestFit(cloud, cuboid->object_sensor, object, box, tolerance);  // (10.1)
   out.projectedIoU = fit.iou;
-  if (fit.tolerantIoU < options.minCompleteIoU)
-    out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);
-  else if (object.leak > kMaxLeak)
+  const bool fits = fit.tolerantIoU >= options.minCompleteIoU;
+  if (object.leak > kMaxLeak)
     out.reason = "its surface goes on outside the box";
+  else if (looksLikeScreen(object) && !fits && (fit.isSpanned || task.wall))
+  {
+    out.complete = screenInBox(cloud.camera(), box, task.label, *cuboid);
+    out.reason = out.complete ? "screen on its front" : "no front of a screen in the box";
+    if (out.complete)
+      out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
+  }
+  else if (!fits)
+    out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);
   else if (object.coverage < options.minDepthCoverage)
     out.reason = mrpt::format("depth in only %.0f %% of the box", 100 * object.coverage);
   else

@@ -63,7 +63,7 @@ BoxFit bestFit(
     const ImageBox& box,
     double edgeTolerance)
 {
-  constexpr double kMinCuboidIoU = 0.5, kMalus = 0.1;
+  constexpr double kMinIoU = 0.5, kMalus = 0.1;
   const auto& camera = cloud.camera();
   BoxFit best;
   for (const Ellipsoid& shape : {cuboid, visiblePart(cuboid, object)})
@@ -73,8 +73,9 @@ BoxFit bestFit(
       if (fit.tolerantIoU > best.tolerantIoU) best = fit;
     }
   const BoxFit outline = fitToBox(camera, boundsOf(cloud, object), box, edgeTolerance);
-  if (best.tolerantIoU > kMinCuboidIoU)
+  if (best.tolerantIoU > kMinIoU)
     best.tolerantIoU = std::max(best.tolerantIoU, outline.tolerantIoU - kMalus);
+  best.isSpanned = outline.tolerantIoU > kMinIoU;
   return best;
 }
 

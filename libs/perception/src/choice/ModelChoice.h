@@ -10,6 +10,7 @@ struct BoxFit
 {
   double iou = 0;          // p of doc/mathematics.md
   double tolerantIoU = 0;  // the same with box edges free to move by their standard deviation
+  bool isSpanned = false;  // the cloud reaches about as far as the box
 };
 
 /** Compares three shapes with the box and returns the best fit, equation (10.1): the cuboid, its

@@ -6,6 +6,7 @@
 
 #include "cloud/HorizontalTop.h"
 #include "cloud/WallsBehind.h"
+#include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportEvidence.h"
 
@@ -30,6 +31,17 @@ ImageBox enlarged(const ImageBox& box, double share)
 {
   const double dx = share * box.width() + 2.0, dy = share * box.height() + 2.0;
   return {box.x1 - dx, box.y1 - dy, box.x2 + dx, box.y2 + dy};
+}
+
+/** What hangs on a wall and the wall are all that is in the box. Where the rim of the one bleeds
+ * into the other, or where the wall is bent, a point belongs to the nearer one. */
+void dropNearerToWall(const Plane& wall, BoxCandidates& candidates)
+{
+  if (candidates.points.empty()) return;
+  std::vector<double> before;
+  for (const auto& p : candidates.points) before.push_back(wall.signedDistance(p));
+  const double half = 0.5 * median(before);
+  keepOnly(candidates, [&](std::size_t i) { return before[i] > half; });
 }
 
 }  // namespace
@@ -102,6 +114,7 @@ BoxCandidates candidatesIn(
         out.points.push_back(*p);
       }
   dropWallsBehind(cloud, planes, box, options, out);
+  if (task.wall) dropNearerToWall(planes.plane(*task.wall).plane, out);
   if (task.label.levelTop && task.support)
     if (const auto top = horizontalTop(
             cloud, out.points, out.step, planes.plane(*task.support).plane, task.label, options))

@@ -104,7 +104,8 @@ struct ObjectTask
 {
   const DetectedObject* detection = nullptr;  //!< Never null
   LabelProperties label;
-  std::optional<int> support;  //!< Plane it stands on, index in ScenePlanes
+  std::optional<int> support = {};  //!< Plane it stands on, index in ScenePlanes
+  std::optional<int> wall = {};     //!< Plane it hangs on, index in ScenePlanes
 };
 
 /** Cuts the objects of a frame out of their boxes. Of each box the support, the walls around and

@@ -12,6 +12,7 @@ namespace quadmap
 namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
+constexpr double kFaceCosine = 0.85;  // of the normals of a face's own points
 
 }  // namespace
 
@@ -136,24 +137,32 @@ bool FaceEstimator::endsOutsideBox(std::size_t face) const
 /** A face that shows by its own points: it is at their median. */
 std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
 {
-  constexpr double kMinCosine = 0.85;
+  constexpr double kStill = 1e-4;  // [m]
   // What lies deeper is another part (the apron below a table's edge).
   const double shellDepth = std::max(0.03, 4.0 * options_.depthSigma(range_));  // [m]
   const auto& across = acrossOf(face);
-  std::vector<double> shell;
-  double shift = 0;
-  for (std::size_t i = 0; i < size(); ++i)
-    if (cosine(face, i) > kMinCosine && along(face, i) > extreme(face) - shellDepth)
-    {
-      shell.push_back(along(face, i));
-      shift += across[i];
-    }
-  const double count = static_cast<double>(shell.size());
-  if (count < std::max(20.0, 0.03 * static_cast<double>(size()))) return {};
   FaceEstimate out;
   out.source = FaceSource::Surface;
-  out.shift = shift / count;
-  out.position = median(shell);
+  out.position = extreme(face) - 0.5 * shellDepth;
+  std::vector<double> shell;
+  // The outermost points are those that err most: the shell moves inwards to where most are.
+  for (double before = extreme(face); before - out.position > kStill;)
+  {
+    before = out.position;
+    shell.clear();
+    double shift = 0;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - before) < 0.5 * shellDepth)
+      {
+        shell.push_back(along(face, i));
+        shift += across[i];
+      }
+    if (shell.empty()) return {};
+    out.shift = shift / static_cast<double>(shell.size());
+    out.position = median(shell);
+  }
+  if (static_cast<double>(shell.size()) < std::max(20.0, 0.03 * static_cast<double>(size())))
+    return {};
   out.worth = {
       FaceKind::Measured,
       face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
@@ -192,10 +201,10 @@ void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
 /** Each point tells where the outermost one is, equation (8.7). */
 std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, double radius) const
 {
-  constexpr double kMinCosine = 0.85, kMinPoints = 20;
+  constexpr double kMinPoints = 20;
   std::vector<double> outermost;
   for (std::size_t i = 0; i < size(); ++i)
-    if (cosine(face, i) > kMinCosine)
+    if (cosine(face, i) > kFaceCosine)
       outermost.push_back(along(face, i) + radius * (1.0 - cosine(face, i)));
   if (static_cast<double>(outermost.size()) < kMinPoints) return {};
   FaceEstimate out;

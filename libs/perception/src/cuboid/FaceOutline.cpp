@@ -12,6 +12,8 @@ namespace quadmap
 {
 namespace
 {
+constexpr double kRim = 0.03;  // what the end of a face may lie within [m]
+
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
 {
@@ -85,9 +87,9 @@ double FaceEstimator::noiseAt(std::size_t face, double position, std::size_t n) 
 /** A face that shows by its outline only: it is where the lines end, with (8.8) and (8.9). */
 FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) const
 {
-  constexpr double kRim = 0.03, kMaxCut = 0.3;  // [m], share
-  constexpr double kStrayLines = 0.04;          // share; flying pixels
-  constexpr double kMaxMetresPerCell = 0.05;    // coarser outlines say nothing [m]
+  constexpr double kMaxCut = 0.3;             // share
+  constexpr double kStrayLines = 0.04;        // share; flying pixels
+  constexpr double kMaxMetresPerCell = 0.05;  // coarser outlines say nothing [m]
   FaceEstimate out;
   if (outline.lines.empty())  // right behind the camera's plane
   {
@@ -134,8 +136,8 @@ double FaceEstimator::outlineSigmaOf(std::size_t face, double perCell) const
  * rim, as the top of a cabinet for its back; the back of a chair hides what is behind it. */
 bool FaceEstimator::leadsUp(std::size_t face, double position) const
 {
-  constexpr double kRim = 0.03, kMinProfile = 0.3, kMinDepth = 0.05;  // [m], share, [m]
-  constexpr double kMinBreadth = 0.35;                                // of the width across
+  constexpr double kMinProfile = 0.3, kMinDepth = 0.05;  // share, [m]
+  constexpr double kMinBreadth = 0.35;                   // of the width across
   int profile = 0, rim = 0;
   std::vector<double> depth;
   depth.reserve(size());

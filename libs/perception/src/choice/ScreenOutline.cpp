@@ -1,0 +1,88 @@
+#include "choice/ScreenOutline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadmap
+{
+namespace
+{
+/** The side of a cuboid that faces the camera most, when it was seen; sides are +x, -x, +y, -y. */
+std::optional<std::size_t> seenFront(const CompleteMeasurement& cuboid)
+{
+  const Eigen::Matrix3d R = cuboid.object_sensor.rotation();
+  const Eigen::Vector3d ray = cuboid.object_sensor.center().normalized();
+  const auto towards = [&](std::size_t side)
+  { return (side % 2 == 0 ? -1.0 : 1.0) * ray.dot(R.col(static_cast<Eigen::Index>(side / 2))); };
+  std::size_t front = 0;
+  for (std::size_t side = 1; side < 4; ++side)
+    if (towards(side) > towards(front)) front = side;
+  if (!cuboid.yawDefined || cuboid.faces[front].kind != FaceKind::Measured) return {};
+  return front;
+}
+
+/** An upright rectangle: its middle and its half sizes. */
+struct FrontRectangle
+{
+  Eigen::Vector3d middle;
+  double halfWidth = 0, halfHeight = 0;
+};
+
+/** The rectangle on a plane that touches the four planes through the edges of a box, equation
+ * (10.2). Each is as far from the middle as the rectangle reaches towards it, which is linear in
+ * where the middle is and in the half sizes. */
+std::optional<FrontRectangle> inscribed(
+    const std::array<Plane, 4>& edges,
+    const Eigen::Vector3d& onPlane,
+    const Eigen::Vector3d& along,
+    const Eigen::Vector3d& up)
+{
+  Eigen::Matrix4d A;
+  Eigen::Vector4d b;
+  for (Eigen::Index i = 0; i < 4; ++i)
+  {
+    const Eigen::Vector3d& n = edges[static_cast<std::size_t>(i)].n;
+    A.row(i) << n.dot(along), n.dot(up), -std::abs(n.dot(along)), -std::abs(n.dot(up));
+    b[i] = -n.dot(onPlane);
+  }
+  const Eigen::Vector4d x = A.fullPivLu().solve(b);
+  if (!x.allFinite() || x[2] <= 0 || x[3] <= 0) return {};
+  return FrontRectangle{onPlane + x[0] * along + x[1] * up, x[2], x[3]};
+}
+
+}  // namespace
+
+std::optional<CompleteMeasurement> screenInBox(
+    const PinholeCamera& camera,
+    const ImageBox& box,
+    const LabelProperties& label,
+    const CompleteMeasurement& cuboid)
+{
+  const auto front = seenFront(cuboid);
+  if (!front) return {};
+  const Ellipsoid& seen = cuboid.object_sensor;
+  const auto depthAxis = static_cast<Eigen::Index>(*front / 2), widthAxis = 1 - depthAxis;
+  const Eigen::Matrix3d R = seen.rotation();
+  const Eigen::Vector3d n = (*front % 2 == 0 ? 1.0 : -1.0) * R.col(depthAxis);
+  const auto rectangle = inscribed(
+      boxEdgePlanes(camera, box), seen.center() + seen.semiAxes()[depthAxis] * n, R.col(widthAxis),
+      R.col(2));
+  if (!rectangle) return {};
+
+  CompleteMeasurement out = cuboid;
+  for (std::size_t f = 0; f < kFaces; ++f)
+    if (f != *front) out.faces[f].kind = FaceKind::Unknown;
+  Eigen::Vector3d semiAxes;
+  semiAxes[depthAxis] = 0.5 * label.typicalSize.head<2>().minCoeff();
+  semiAxes[widthAxis] = rectangle->halfWidth;
+  semiAxes[2] = rectangle->halfHeight;
+  const Eigen::Vector3d center = rectangle->middle - semiAxes[depthAxis] * n;
+  mrpt::poses::CPose3D pose = seen.pose();
+  pose.x(center.x());
+  pose.y(center.y());
+  pose.z(center.z());
+  out.object_sensor = Ellipsoid(pose, semiAxes);
+  return out;
+}
+
+}  // namespace quadmap
