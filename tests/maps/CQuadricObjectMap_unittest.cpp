@@ -302,6 +302,31 @@ TEST(CQuadricObjectMap, HiddenObjectsAreNotMissed)
   }
 }
 
+/** A detector finds chairs behind tables, too: that it found none there counts as well, unless
+ * hardly anything of one would show. */
+TEST(CQuadricObjectMap, WhatIsHiddenInPartIsMissed)
+{
+  const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto T = SyntheticCamera::lookAt({2.5, 0, 1.4}, {0, 0, 0.5});
+  const auto missesBehind = [&](unsigned firstHiddenRow)
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(9);
+    walkAround(map, camera, world, 6);
+    for (int i = 0; i < 10; ++i)
+    {
+      auto obs = camera.observe(T, {});
+      CoarseDepth& coarse = obs.coarseDepth;
+      for (unsigned cell = 0; cell < coarse.rows * coarse.columns; ++cell)
+        coarse.depth[cell] = cell / coarse.columns < firstHiddenRow ? 8.0f : 1.0f;
+      map.insertObservation(obs, T);
+    }
+    return map.objects().begin()->second.missCount;
+  };
+  EXPECT_EQ(missesBehind(13), 10u) << "about its lower 40 % are hidden";
+  EXPECT_EQ(missesBehind(10), 0u) << "about its lower 70 % are hidden";
+}
+
 TEST(CQuadricObjectMap, PartialMeasurementsStartAnObjectOnlyWithParallax)
 {
   const std::vector<TrueObject> world = {cuboid("suitcase", {0, 0, 0.3}, {0.6, 0.45, 0.6}, 0.4)};

@@ -28,7 +28,7 @@ struct ExistenceOptions
   double repeatedViewWeight = 0.25;   //!< Share of a repeated look that is independent, in (0, 1]
   double maxLogOdds = 10;             //!< Bound, so that evidence can turn, > 0
   double confirmLogOdds = 3;          //!< Reported above this
-  int minComplete = 3;                //!< Reported with this many complete measurements, >= 1
+  int minComplete = 1;                //!< Reported with this many complete measurements, >= 1
   int minPartial = 8;                 //!< ... or with this many measurements of any kind, >= 1
   double maxCenterSigma = 0.2;        //!< Reported below this uncertainty per axis [m], > 0
 
@@ -40,7 +40,7 @@ struct ExistenceOptions
   double minBoxSize = 30;                 //!< Both sides of the projected box [px]
   double visibleShare = 0.4;              //!< Share of the projected box inside the image, (0, 1]
   double occluderMargin = 0.1;            //!< Depth this much nearer than the object hides it [m]
-  double maxHiddenShare = 0.3;            //!< Of the box's cells hidden or without depth, [0, 1]
+  double maxHiddenShare = 0.5;            //!< Of the box's cells hidden or without depth, [0, 1]
 };
 
 /** One frame's camera in the map. */
