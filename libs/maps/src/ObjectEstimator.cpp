@@ -243,10 +243,10 @@ InformationPrior ObjectEstimator::summary(
   InformationPrior all = prior_;
   // (H^-1 + H^-1 X H^-1 + S)^-1 = (1 + G S)^-1 G, G = H (H + X)^-1 H, also where H knows nothing in
   // some direction.
-  const UprightCovariance withRepeated =
-      eq.H + evidence.repeated(at, label.shapeExponent) + kLeast * UprightCovariance::Identity();
-  const UprightCovariance share =
-      withRepeated.ldlt().solve(UprightCovariance::Identity()) * eq.H;  // (H + X)^-1 H
+  const UprightCovariance repeated = evidence.repeated(at, label.shapeExponent);
+  UprightCovariance share = UprightCovariance::Identity();  // (H + X)^-1 H
+  if (!repeated.isZero(0.0))  // what a file knew stays as it is, to the last bit
+    share = (eq.H + repeated + kLeast * UprightCovariance::Identity()).ldlt().solve(eq.H);
   const Eigen::PartialPivLU<UprightCovariance> weaken(
       UprightCovariance::Identity() + eq.H * share * sharedError_);
   const UprightCovariance L = weaken.solve(UprightCovariance(eq.H * share));
