@@ -7,7 +7,7 @@
 #include "../common/ProgressBar.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OutputFile.h"
-#include "quadmap/simulator/RandomRoom.h"
+#include "quadmap/rooms/RandomRoom.h"
 #include "quadmap/simulator/Simulator.h"
 
 namespace

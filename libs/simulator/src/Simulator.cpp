@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "camera/CameraPath.h"
 #include "camera/MotionBlur.h"
 #include "detector/DetectorMask.h"
 #include "noise/DepthNoise.h"
 #include "noise/SimulatedOdometry.h"
+#include "quadmap/simulator/CameraPath.h"
 
 namespace quadmap::simulator
 {

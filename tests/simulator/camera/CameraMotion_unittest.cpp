@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "../SceneFixture.h"
-#include "camera/CameraPath.h"
 #include "noise/SimulatedOdometry.h"
+#include "quadmap/simulator/CameraPath.h"
 
 namespace quadmap::simulator
 {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "../SceneFixture.h"
-#include "camera/CameraPath.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/simulator/CameraPath.h"
 #include "quadmap/simulator/Simulator.h"
 
 namespace quadmap::simulator

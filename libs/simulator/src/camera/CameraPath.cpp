@@ -1,4 +1,4 @@
-#include "camera/CameraPath.h"
+#include "quadmap/simulator/CameraPath.h"
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>

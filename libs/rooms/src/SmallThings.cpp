@@ -1,4 +1,4 @@
-#include "rooms/SmallThings.h"
+#include "SmallThings.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rooms/FurnitureKit.h"
-#include "rooms/RoomSteps.h"
+#include "FurnitureKit.h"
+#include "RoomSteps.h"
 
 namespace quadmap::simulator
 {

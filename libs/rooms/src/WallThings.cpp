@@ -1,4 +1,4 @@
-#include "rooms/WallThings.h"
+#include "WallThings.h"
 
 #include <cmath>
 

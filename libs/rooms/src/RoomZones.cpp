@@ -1,16 +1,16 @@
-#include "rooms/RoomZones.h"
+#include "RoomZones.h"
 
 #include <mrpt/poses/CPose2D.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "rooms/Screens.h"
-#include "rooms/Seats.h"
-#include "rooms/SmallThings.h"
-#include "rooms/Storage.h"
-#include "rooms/Tables.h"
-#include "rooms/WallThings.h"
+#include "Screens.h"
+#include "Seats.h"
+#include "SmallThings.h"
+#include "Storage.h"
+#include "Tables.h"
+#include "WallThings.h"
 
 namespace quadmap::simulator
 {

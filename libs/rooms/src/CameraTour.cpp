@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "rooms/FreeFloor.h"
-#include "rooms/FurnitureKit.h"
-#include "rooms/RoomSteps.h"
+#include "FreeFloor.h"
+#include "FurnitureKit.h"
+#include "RoomSteps.h"
 
 namespace quadmap::simulator
 {

@@ -1,4 +1,4 @@
-#include "rooms/Screens.h"
+#include "Screens.h"
 
 #include <cmath>
 

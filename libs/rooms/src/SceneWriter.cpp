@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "quadmap/base/OptionList.h"
-#include "quadmap/simulator/RandomRoom.h"
+#include "quadmap/rooms/RandomRoom.h"
 
 namespace quadmap::simulator
 {

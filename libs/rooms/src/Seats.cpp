@@ -1,4 +1,4 @@
-#include "rooms/Seats.h"
+#include "Seats.h"
 
 #include <cmath>
 

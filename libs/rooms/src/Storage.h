@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rooms/FurnitureKit.h"
+#include "FurnitureKit.h"
 
 namespace quadmap::simulator
 {

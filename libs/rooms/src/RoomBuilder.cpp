@@ -1,4 +1,4 @@
-#include "rooms/RoomBuilder.h"
+#include "RoomBuilder.h"
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>

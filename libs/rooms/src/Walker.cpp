@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "camera/CameraPath.h"
-#include "rooms/FreeFloor.h"
-#include "rooms/FurnitureKit.h"
-#include "rooms/RoomSteps.h"
-#include "rooms/WallThings.h"
+#include "FreeFloor.h"
+#include "FurnitureKit.h"
+#include "RoomSteps.h"
+#include "WallThings.h"
+#include "quadmap/simulator/CameraPath.h"
 
 namespace quadmap::simulator
 {

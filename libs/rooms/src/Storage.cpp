@@ -1,4 +1,4 @@
-#include "rooms/Storage.h"
+#include "Storage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "rooms/FurnitureKit.h"
+#include "FurnitureKit.h"
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>

@@ -1,4 +1,4 @@
-#include "rooms/Floor.h"
+#include "Floor.h"
 
 #include <algorithm>
 #include <cmath>

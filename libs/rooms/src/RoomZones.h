@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rooms/RoomBuilder.h"
+#include "RoomBuilder.h"
 
 namespace quadmap::simulator
 {

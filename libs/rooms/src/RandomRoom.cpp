@@ -1,4 +1,4 @@
-#include "quadmap/simulator/RandomRoom.h"
+#include "quadmap/rooms/RandomRoom.h"
 
 #include <mrpt/core/format.h>
 
@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "camera/CameraPath.h"
-#include "rooms/FurnitureKit.h"
-#include "rooms/RoomSteps.h"
+#include "FurnitureKit.h"
+#include "RoomSteps.h"
+#include "quadmap/simulator/CameraPath.h"
 
 namespace quadmap::simulator
 {

@@ -1,4 +1,4 @@
-#include "quadmap/simulator/RandomRoom.h"
+#include "quadmap/rooms/RandomRoom.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "../SceneFixture.h"
+#include "../simulator/SceneFixture.h"
 #include "quadmap/simulator/Simulator.h"
 
 namespace quadmap::simulator

@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "rooms/RoomSteps.h"
-#include "rooms/RoomZones.h"
-#include "rooms/Seats.h"
-#include "rooms/SmallThings.h"
-#include "rooms/WallThings.h"
+#include "RoomSteps.h"
+#include "RoomZones.h"
+#include "Seats.h"
+#include "SmallThings.h"
+#include "WallThings.h"
 
 namespace quadmap::simulator
 {

@@ -1,11 +1,11 @@
-#include "rooms/FreeFloor.h"
+#include "FreeFloor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
 
-#include "rooms/Floor.h"
+#include "Floor.h"
 
 namespace quadmap::simulator
 {

@@ -3,8 +3,8 @@
 #include <map>
 #include <optional>
 
-#include "rooms/Floor.h"
-#include "rooms/FurnitureKit.h"
+#include "Floor.h"
+#include "FurnitureKit.h"
 
 namespace quadmap::simulator
 {

@@ -1,4 +1,4 @@
-#include "rooms/Tables.h"
+#include "Tables.h"
 
 namespace quadmap::simulator
 {
