@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cuboid/HeadingHistogram.h"
+#include "quadmap/geometry/HeadingHistogram.h"
 #include "quadmap/geometry/LineFit.h"
 #include "quadmap/geometry/RobustStatistics.h"
 

@@ -1,4 +1,4 @@
-#include "cuboid/HeadingHistogram.h"
+#include "quadmap/geometry/HeadingHistogram.h"
 
 #include <gtest/gtest.h>
 
