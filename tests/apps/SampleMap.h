@@ -18,15 +18,16 @@ inline CQuadricObjectMap mapFrom(const std::string& file)
   return map;
 }
 
-/** Calls `use` with the pose of a camera and what it sees of a chair, a couch and a refrigerator,
- * from all around with millimetres of noise. */
+/** Calls `use` with the pose of a camera and what it sees of a chair, a couch, a refrigerator and
+ * of `more`, from all around with millimetres of noise. */
 template <typename F>
-void forEachViewOfSample(F&& use)
+void forEachViewOfSample(F&& use, const std::vector<testing::TrueObject>& more = {})
 {
-  const std::vector<testing::TrueObject> world = {
+  std::vector<testing::TrueObject> world = {
       testing::cuboid("chair", {1.0, 0.5, 0.45}, {0.5, 0.5, 0.9}, 0.3),
       testing::cuboid("couch", {-1.5, 1.0, 0.4}, {0.8, 1.8, 0.8}, 0.1),
       testing::cuboid("refrigerator", {0.5, -1.8, 0.9}, {0.6, 0.7, 1.8}, -0.5)};
+  world.insert(world.end(), more.begin(), more.end());
   testing::SyntheticCamera camera(1);
   camera.disturbances = {0.002, 0.01, 0, 0, 0};
   for (const auto& truth : world)
@@ -40,11 +41,13 @@ void forEachViewOfSample(F&& use)
     }
 }
 
-inline CQuadricObjectMap sampleMap()
+inline CQuadricObjectMap sampleMap(const std::vector<testing::TrueObject>& more = {})
 {
   CQuadricObjectMap map;
-  forEachViewOfSample([&](const auto& T_map_sensor, const CObservationObjects& seen)
-                      { map.insertObservation(seen, T_map_sensor); });
+  forEachViewOfSample(
+      [&](const auto& T_map_sensor, const CObservationObjects& seen)
+      { map.insertObservation(seen, T_map_sensor); },
+      more);
   map.consolidate();
   return map;
 }

@@ -15,9 +15,10 @@ namespace
 constexpr auto kNotFound = std::string::npos;
 const CPose3D kOther(1.5, -0.7, 0.1, 2.1, 0, 0);  // T_own_other
 
-/** The sample as another robot maps it: in its own frame, 1,000 s later. Views of labels in
- * `without` are left out. */
-mrpt::maps::CSimpleMap otherSession(const std::string& without = "")
+/** The sample and `more` as another robot maps them: in its own frame, 1,000 s later. Views of
+ * labels in `without` are left out. */
+mrpt::maps::CSimpleMap otherSession(
+    const std::string& without = "", const std::vector<quadmap::testing::TrueObject>& more = {})
 {
   mrpt::maps::CSimpleMap keyframes;
   forEachViewOfSample(
@@ -33,7 +34,8 @@ mrpt::maps::CSimpleMap otherSession(const std::string& without = "")
         mrpt::obs::CSensoryFrame frame;
         frame.insert(boxes);
         keyframes.insert(mrpt::poses::CPose3DPDFGaussian(-kOther + CPose3D(T_map_sensor)), frame);
-      });
+      },
+      more);
   return keyframes;
 }
 
@@ -95,7 +97,11 @@ TEST_F(QuadmapMapMerge, MakesOneMapOfTwoAndSaysWhereItCameFrom)
 
 TEST_F(QuadmapMapMerge, TellsWhatIsGoneByTheFramesOfTheNewerMap)
 {
-  otherSession("couch").saveToFile(folder_.path("later.simplemap"));
+  // Three objects that stayed tell the place.
+  const std::vector<quadmap::testing::TrueObject> bed = {
+      quadmap::testing::cuboid("bed", {3.5, -1.0, 0.3}, {1.6, 2.0, 0.6}, 0.8)};
+  sampleMap(bed).saveToFile(folder_.path("own.quadmap"));
+  otherSession("couch", bed).saveToFile(folder_.path("later.simplemap"));
   const auto result = run("@own.quadmap @later.simplemap -o @both.quadmap");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("gone: couch ("), kNotFound) << result.out;
