@@ -183,13 +183,58 @@ TEST_F(LivingRoom, FootprintsCoverTheAreaOfTheObjects)
   const std::size_t cells = footprintInto(map, empty);
   const double area = static_cast<double>(cells) * 0.02 * 0.02;
   // Tv and cabinet overlap, and the cells of both are written; the clock hangs above the robot.
-  EXPECT_NEAR(area, 0.1 + 0.56 + 1.26 + 2.8 + 0.25 + 0.01, 0.15) << "[m^2]";
+  // What is touched is more than the objects by up to a cell along their outlines.
+  const double objects = 0.1 + 0.56 + 1.26 + 2.8 + 0.25 + 0.01, around = 19.6;
+  EXPECT_GT(area, objects) << "[m^2]";
+  EXPECT_LT(area, objects + 0.02 * around) << "[m^2]";
   EXPECT_LT(empty.getPos(0.3F, -0.2F), 0.1F);
   EXPECT_GT(empty.getPos(1.5F, -1.8F), 0.9F) << "below the clock";
   DrivingOptions tall;
   tall.robotHeight = 2.5;
   footprintInto(map, empty, tall);
   EXPECT_LT(empty.getPos(1.5F, -1.8F), 0.1F);
+}
+
+TEST_F(LivingRoom, APlaceBesideTheRobotMustBeFreeToo)
+{
+  block(1.30F, 1.36F, 0.9F, 1.1F);  // too near to where one stands before the chair
+  EXPECT_TRUE(approach(chair, {1.55, 0.95, 0}));
+}
+
+TEST_F(LivingRoom, ARobotBesideTheGridHasNoWay) { EXPECT_FALSE(approach(tv, {-3.02, 1.5, 0})); }
+
+TEST_F(LivingRoom, TheEdgeOfTheGridIsAnObstacle)
+{
+  // One stands 0.45 m from the middle of a cup, 5 cm from the edge if the robot were there.
+  const ObjectId ball = add(cuboid("cup", {0, 0, 0.05}, {0.1, 0.1, 0.1}, 0), false);
+  grid.setSize(-3, 0.5F, -3, 3, 0.05F, 0.98F);
+  const auto found = approach(ball, {0.45, 0, 0});
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->pose.x, 0.5 - options.robotRadius + 0.05);
+}
+
+TEST(Footprints, HoldWhatIsThinnerThanACell)
+{
+  for (const double yaw : {0.0, 0.5, 1.2})
+  {
+    CQuadricObjectMap map;
+    MapObject tv;
+    tv.object = cuboid("tv", {0.03, 0.04, 0.5}, {1.6, 0.02, 0.6}, yaw).object;
+    tv.labelCounts["tv"] = tv.completeCount = 20;
+    tv.covariance = 1e-4 * UprightCovariance::Identity();
+    tv.existenceLogOdds = 8;
+    map.addObject(tv);
+    COccupancyGridMap2D grid;
+    grid.setSize(-1, 1, -1, 1, 0.1F, 0.98F);
+    EXPECT_LT(footprintInto(map, grid), 16u * 3);
+    for (double along = -0.79; along < 0.8; along += 0.01)
+      EXPECT_LT(
+          grid.getPos(
+              static_cast<float>(0.03 + along * std::cos(yaw)),
+              static_cast<float>(0.04 + along * std::sin(yaw))),
+          0.1F)
+          << yaw << " rad, " << along << " m";
+  }
 }
 
 TEST(Footprints, LeaveASmallerGridItsSize)

@@ -78,6 +78,33 @@ std::vector<Side> sidesOf(
   return sides;
 }
 
+/** Do a convex outline and a square with sides along x and y share more than a border? No line
+ * along one of their sides parts them then.
+ * \param half Half the side of the square [m] */
+bool touches(const mrpt::math::TPolygon2D& outline, const Eigen::Vector2d& center, double half)
+{
+  const auto overlapAlong = [&](const Eigen::Vector2d& normal)
+  {
+    const double at = normal.dot(center), reach = half * normal.lpNorm<1>();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& corner : outline)
+    {
+      const double along = normal.dot(Eigen::Vector2d(corner.x, corner.y));
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+    return low + kSmall < at + reach && at - reach + kSmall < high;
+  };
+  if (!overlapAlong(Eigen::Vector2d::UnitX()) || !overlapAlong(Eigen::Vector2d::UnitY()))
+    return false;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+  {
+    const auto side = outline[(i + 1) % outline.size()] - outline[i];
+    if (!overlapAlong(Eigen::Vector2d(-side.y, side.x).normalized())) return false;
+  }
+  return true;
+}
+
 class Approach
 {
  public:
@@ -178,6 +205,7 @@ std::size_t footprintInto(
   const auto bottom = [](const MapObject& o)
   { return o.object.center().z() - o.object.semiAxes().z(); };
   for (const auto* object : objects) floor = std::min(floor, bottom(*object));
+  const double half = 0.5 * static_cast<double>(grid.getResolution());
   std::size_t written = 0;
   for (const auto* object : objects)
   {
@@ -189,7 +217,7 @@ std::size_t footprintInto(
          y <= std::min(static_cast<int>(grid.getSizeY()) - 1, grid.y2idx(upper.y)); ++y)
       for (int x = std::max(0, grid.x2idx(lower.x));
            x <= std::min(static_cast<int>(grid.getSizeX()) - 1, grid.x2idx(upper.x)); ++x)
-        if (outline.contains({grid.idx2x(x), grid.idx2y(y)}))
+        if (touches(outline, {grid.idx2x(x), grid.idx2y(y)}, half))
         {
           grid.setCell(x, y, kOccupied);
           ++written;

@@ -1,5 +1,6 @@
 #include "FreeSpace.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -36,6 +37,8 @@ FreeSpace::FreeSpace(
 {
   const double cells = radius / static_cast<double>(grid.getResolution());
   blockAround(cells + 0.5, minFree);  // to the border of a cell
+  blockBorder(cells);
+  isClosed_ = isBlocked_;
   leave(cellAt(start), cells);
   measureWays(cellAt(start));
 }
@@ -54,6 +57,15 @@ void FreeSpace::blockAround(double radius, double minFree)
             });
 }
 
+/** Nothing is known of what is outside the grid. \param radius [cells] */
+void FreeSpace::blockBorder(double radius)
+{
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (std::min({x, y, width_ - 1 - x, height_ - 1 - y}) + 0.5 < radius)
+        isBlocked_[indexOf({x, y})] = 1;
+}
+
 /** The robot is where it is, so that it can leave from there. */
 void FreeSpace::leave(const Cell& start, double radius)
 {
@@ -62,7 +74,7 @@ void FreeSpace::leave(const Cell& start, double radius)
       [&](const Cell& offset)
       {
         const Cell near = start + offset;
-        if (isInside(near)) isBlocked_[indexOf(near)] = 0;
+        if (isInside(near)) isClosed_[indexOf(near)] = 0;
       });
 }
 
@@ -87,7 +99,7 @@ void FreeSpace::measureWays(const Cell& start)
         [&, way = way](const Cell& offset)
         {
           const Cell near = cell + offset;
-          if (!isInside(near) || isBlocked_[indexOf(near)]) return;
+          if (!isInside(near) || isClosed_[indexOf(near)]) return;
           const double longer = way + offset.cast<double>().norm();
           if (longer >= ways_[indexOf(near)]) return;
           ways_[indexOf(near)] = longer;
@@ -101,7 +113,8 @@ void FreeSpace::measureWays(const Cell& start)
 std::optional<double> FreeSpace::wayTo(const Eigen::Vector2d& place) const
 {
   const Cell cell = cellAt(place);
-  if (!isInside(cell) || ways_[indexOf(cell)] == kNoWay) return std::nullopt;
+  if (!isInside(cell) || isBlocked_[indexOf(cell)] || ways_[indexOf(cell)] == kNoWay)
+    return std::nullopt;
   return ways_[indexOf(cell)] * static_cast<double>(grid_.getResolution());
 }
 

@@ -20,7 +20,8 @@ class FreeSpace
       double radius,
       double minFree);
 
-  /** Length of the shortest way to a place, or nothing when there is none [m]. */
+  /** Length of the shortest way to a place, or nothing when there is none, or the place is not free
+   * [m]. */
   std::optional<double> wayTo(const Eigen::Vector2d& place) const;
 
  private:
@@ -28,7 +29,11 @@ class FreeSpace
 
   Cell cellAt(const Eigen::Vector2d& place) const
   {
-    return {grid_.x2idx(place.x()), grid_.y2idx(place.y())};
+    // MRPT's x2idx() rounds toward zero, so that what is left of the grid would be in its first
+    // cell.
+    const auto resolution = static_cast<double>(grid_.getResolution());
+    const Eigen::Vector2d corner(grid_.getXMin(), grid_.getYMin());
+    return ((place - corner) / resolution).array().floor().cast<int>();
   }
   bool isInside(const Cell& cell) const
   {
@@ -40,12 +45,14 @@ class FreeSpace
            static_cast<std::size_t>(cell.x());
   }
   void blockAround(double radius, double minFree);
+  void blockBorder(double radius);
   void leave(const Cell& start, double radius);
   void measureWays(const Cell& start);
 
   const mrpt::maps::COccupancyGridMap2D& grid_;
   int width_, height_;
-  std::vector<char> isBlocked_;  // the robot's centre must not be there
+  std::vector<char> isBlocked_;  // the robot's centre must not stay there
+  std::vector<char> isClosed_;   // nor may its way lead through it
   std::vector<double> ways_;     // [cells], infinite where there is none
 };
 

@@ -54,9 +54,9 @@ std::optional<ApproachPose> approachPose(
     const mrpt::maps::COccupancyGridMap2D& grid,
     const DrivingOptions& options = {});
 
-/** Marks the cells below the confirmed objects as occupied, those of objects aside that hang above
- * the robot. The floor is the lowest end of all of them. The grid keeps its size.
- * \return Number of cells that were written. */
+/** Marks the cells that the outlines of the confirmed objects touch as occupied, those of objects
+ * aside that hang above the robot. The floor is the lowest end of all of them. The grid keeps its
+ * size. \return Number of cells that were written. */
 std::size_t footprintInto(
     const CQuadricObjectMap& map,
     mrpt::maps::COccupancyGridMap2D& grid,
