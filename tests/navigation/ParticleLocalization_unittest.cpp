@@ -39,6 +39,28 @@ class MappedWorld : public ::testing::Test
     return made;
   }
 
+  /** The map after the turn and shift that take one pose to another. */
+  static CQuadricObjectMap mapMoved(const LevelPose& from, const LevelPose& to)
+  {
+    const double yaw = to.yaw - from.yaw;
+    UprightCovariance J = UprightCovariance::Identity();
+    J.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw).toRotationMatrix();
+    CQuadricObjectMap moved;
+    moved.likelihoodOptions = map().likelihoodOptions;
+    for (const auto& [id, object] : map().objects())
+    {
+      MapObject copy = object;
+      UprightState x = uprightStateOf(object.object);
+      const Eigen::Vector3d off = x.head<3>() - from.position;
+      x.head<3>() = to.position + J.topLeftCorner<3, 3>() * off;
+      x[3] += yaw;
+      copy.object = ellipsoidOf(x);
+      copy.covariance = J * object.covariance * J.transpose();
+      moved.addObject(copy);
+    }
+    return moved;
+  }
+
   /** The way of a robot that drives around, looking at the middle. */
   static CPose3D robotAt(int i) { return poseAround(i + 7, 80, {0, 0.3, 0.5}, 2.9, 1.4); }
 
@@ -142,24 +164,66 @@ TEST_F(MappedWorld, GivesTheSameNumbersWithAnyNumberOfThreads)
   EXPECT_EQ(runs[0], runs[1]);
 }
 
-TEST_F(MappedWorld, FramesMayBeComparedFromAnyPoseAsTheMapDoes)
+TEST_F(MappedWorld, AFrameIsComparedFromAnyPoseAsWithAMapThatIsMovedInstead)
 {
   SyntheticCamera camera(9);
   camera.disturbances.partialProbability = 0.4;
   const CPose3D T = robotAt(3);
+  const LevelPose there{positionOf(T), T.yaw()};
   const auto boxes = camera.observe(T, world());
   const auto seen = map().likelihoodOf(boxes, T);
   for (const double yaw : {0.0, 0.1, 2.0})
     for (const double x : {0.0, 0.2, -1.0})
     {
-      const CPose3D at(T.x() + x, T.y(), T.z(), T.yaw() + yaw, T.pitch(), T.roll());
-      EXPECT_NEAR(
-          seen.at({
-              {at.x(), at.y(), at.z()},
-              at.yaw()
-      }),
-          map().computeObservationLikelihood(boxes, at), 1e-9);
+      const LevelPose at{there.position + Eigen::Vector3d(x, 0.5 * x, -0.1 * x), there.yaw + yaw};
+      EXPECT_NEAR(seen.at(at), mapMoved(at, there).likelihoodOf(boxes, T).at(there), 1e-6)
+          << yaw << " rad, " << x << " m";
     }
+}
+
+TEST_F(MappedWorld, ACompleteBoxAgreesAsTheMathematicsSays)
+{
+  SyntheticCamera camera(9);
+  const CPose3D T = robotAt(3);
+  auto boxes = camera.observe(T, world());
+  const DetectedObject box = boxes.objects.front();
+  ASSERT_TRUE(box.measurement.complete);
+  boxes.objects = {box};
+  const auto seen = map().likelihoodOf(boxes, T);
+  ASSERT_EQ(seen.boxes().size(), 1u);
+  const ObjectView& view = seen.boxes().front().view;
+  const LikelihoodOptions& options = map().likelihoodOptions;
+  for (const double yaw : {0.0, 0.05, 0.3})
+  {
+    const CPose3D at(T.x() + 0.1, T.y(), T.z(), T.yaw() + yaw, T.pitch(), T.roll());
+    const auto cuboid = box.measurement.complete->object_sensor.transformed(at + boxes.sensorPose);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(at.yaw(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    double explained = 0;
+    for (const auto& pairing : seen.pairings())
+    {
+      const auto& target = seen.targets()[pairing.target];
+      const Eigen::Vector3d d = cuboid.center() - target.object.center();
+      const Eigen::Matrix3d S = R * view.centerCovariance * R.transpose() + target.covariance +
+                                std::pow(options.positionSigma, 2) * Eigen::Matrix3d::Identity();
+      double chi2 = d.dot(S.inverse() * d);
+      if (view.yawDefined && target.orientationDefined)
+      {
+        // Distance of angles that mean the same every 90 degrees.
+        const double off = std::asin(std::sin(2 * (view.yaw + at.yaw() - target.yaw))) / 2;
+        chi2 += off * off /
+                (view.yawSigma * view.yawSigma + target.yawVariance +
+                 options.yawSigma * options.yawSigma);
+      }
+      explained += pairing.agreement * std::exp(-0.5 * chi2);  // (14.2)
+    }
+    const double e = options.outlierShare;
+    EXPECT_NEAR(
+        seen.at({positionOf(at), at.yaw()}),
+        std::log(e + (1 - e) * std::min(1.0, explained)),  // (14.1)
+        1e-6)
+        << yaw << " rad";
+  }
 }
 
 TEST_F(MappedWorld, AFalseBoxCostsNoMoreThanTheShareOfOutliersSays)
