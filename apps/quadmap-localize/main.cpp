@@ -166,7 +166,10 @@ void printSummary(const LocalizationResult& result)
         "localised from update %zu of %zu on, %.1f s after the first\n", *from + 1,
         result.updates.size(), result.updates[*from].time - result.updates.front().time);
   else
-    std::printf("localised for a while, but lost in the end\n");
+    std::printf(
+        result.trajectory().empty() ? "not localised yet\n"
+                                    : "localised for a while, but lost in the end\n");
+  if (result.updates.empty()) return;
   const LocalizationEstimate& last = result.updates.back().estimate;
   std::printf(
       "at the end: x %.3f m, y %.3f m, yaw %.1f deg, within %.3f m and %.1f deg\n",

@@ -118,6 +118,35 @@ TEST_F(Localize, StopsWhenAskedToAndKeepsWhatWasDone)
   EXPECT_EQ(report["updates"].size(), result.updates.size());
 }
 
+TEST_F(Localize, AnInterruptedRunNeedNotHaveFoundTheRobot)
+{
+  for (const int frames : {0, 1})
+  {
+    LocalizationRequest request;
+    request.rawlog = path("second.rawlog");
+    request.mapFile = path("first");
+    request.map = std::make_shared<CQuadricObjectMap>(readMap(request.mapFile));
+    int asked = 0;
+    request.shouldStop = [&] { return ++asked > frames; };
+    LocalizationResult result;
+    ASSERT_NO_THROW(result = localiseInMap(request)) << frames;
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_TRUE(result.trajectory().empty());
+    EXPECT_TRUE(json::parse(localizationToJson(request, result, "1.2"))["localised"].is_null());
+  }
+}
+
+TEST_F(Localize, AMapWithoutObjectsIsNamed)
+{
+  CQuadricObjectMap().saveToFile(path("nothing.quadmap"));
+  const auto result = runProgram(
+      "quadmap-localize",
+      path("second.rawlog") + " --map " + path("nothing.quadmap") + " -o " + path("x"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("nothing.quadmap: the map has no objects"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(Localize, SaysWhenTheRobotIsNotFound)
 {
   const auto result = localize(

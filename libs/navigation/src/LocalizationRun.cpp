@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
@@ -36,13 +37,31 @@ RawlogSourceOptions withOdometry(RawlogSourceOptions options, const OdometrySurv
   return options;
 }
 
+StartRegion startRegionOf(const LocalizationRequest& request)
+try
+{
+  return regionOf(*request.map, request.configuration.localization.startMargin);
+}
+catch (const std::invalid_argument& e)
+{
+  throw std::invalid_argument(request.mapFile + ": " + e.what());
+}
+
+/** How many boxes may show something of the map. */
+std::size_t comparedBoxes(const FrameLikelihood& seen)
+{
+  std::set<std::size_t> boxes;
+  for (const auto& pairing : seen.pairings()) boxes.insert(pairing.box);
+  return boxes.size();
+}
+
 class LocalizationRun
 {
  public:
   explicit LocalizationRun(const LocalizationRequest& request) :
       request_(request),
       options_(request.configuration.localization),
-      region_(regionOf(*request.map, options_.startMargin)),
+      region_(startRegionOf(request)),
       survey_(surveyOdometry(
           request.rawlog,
           sourceOptions(request),
@@ -63,6 +82,8 @@ class LocalizationRun
         {
           if (level == mrpt::system::LVL_WARN) request_.onWarning(std::string(text));
         });
+    const std::string warning = survey_.warning(request.rawlog);
+    if (!warning.empty()) request_.onWarning(warning);
   }
 
   LocalizationResult run()
@@ -75,8 +96,9 @@ class LocalizationRun
       if (!frame) break;
       add(*frame);
     }
-    requireContent();
     for (const auto& problem : source_.problems()) result_.dropped.push_back(problem.text());
+    result_.odometry = odometryText();
+    if (!result_.interrupted) requireContent();
     return std::move(result_);
   }
 
@@ -92,9 +114,11 @@ class LocalizationRun
       ++result_.framesWithoutPose;
       return;
     }
+    // An image without boxes takes the place of none that has some; the next step holds its motion.
+    if (!frame.objects || frame.objects->objects.empty()) return;
     if (!isDue(frame.scan->sensorLabel, *T_odom_robot + frame.scan->sensorPose)) return;
     moveTo(*T_odom_robot);
-    if (frame.objects && !frame.objects->objects.empty()) look(frame, *T_odom_robot);
+    look(frame, *T_odom_robot);
   }
   catch (const std::exception& e)
   {
@@ -139,7 +163,7 @@ class LocalizationRun
           const auto seen = request_.map->likelihoodOf(boxes, T_odom_robot);
           if (seen.pairings().empty()) return;
           filter_->update(seen);
-          result_.updates.push_back({frame.time(), seen.boxes().size(), filter_->estimate()});
+          result_.updates.push_back({frame.time(), comparedBoxes(seen), filter_->estimate()});
         });
   }
 
@@ -159,24 +183,28 @@ class LocalizationRun
     return odometry_.source() == PoseSource::GroundTruth ? "ground truth" : source_.odometryKind();
   }
 
-  void requireContent()
+  /** Why there is no result; empty when there is one. */
+  std::string failure() const
   {
-    const std::string& file = request_.rawlog;
-    result_.odometry = odometryText();
-    if (result_.frames == 0 && !result_.interrupted)
-      throw std::runtime_error(
-          file + ": no usable RGB-D images; it has " + source_.contentSummary());
-    if (result_.frames > 0 && result_.framesWithoutPose == result_.frames)
-      throw std::runtime_error(file + ": " + odometry_.whyNoPoses());
+    if (result_.frames == 0) return "no usable RGB-D images; it has " + source_.contentSummary();
+    if (result_.framesWithoutPose == result_.frames) return odometry_.whyNoPoses();
     if (result_.updates.empty())
-      throw std::runtime_error(
-          file + (source_.hasBoxes()
-                      ? ": none of its boxes can show an object of " + request_.mapFile
-                      : ": no object boxes, neither in it nor beside it"));
+      return source_.hasBoxes() ? "none of its boxes can show an object of " + request_.mapFile
+                                : "no object boxes, neither in it nor beside it";
     if (result_.trajectory().empty())
-      throw std::runtime_error(
-          file + ": the robot was not found in " + request_.mapFile + " (" +
-          std::to_string(result_.updates.size()) + " images were compared with it)");
+      return "the robot was not found in " + request_.mapFile + " (" +
+             std::to_string(result_.updates.size()) + " images were compared with it)";
+    return {};
+  }
+
+  void requireContent() const
+  {
+    std::string text = failure();
+    if (text.empty()) return;
+    if (!result_.dropped.empty())
+      text += "; left out: " + std::to_string(result_.dropped.size()) + ", the first being " +
+              result_.dropped.front();
+    throw std::runtime_error(request_.rawlog + ": " + text);
   }
 
   const LocalizationRequest& request_;

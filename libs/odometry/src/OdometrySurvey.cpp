@@ -119,6 +119,14 @@ std::string bestKind(
 
 }  // namespace
 
+std::string OdometrySurvey::warning(const std::string& rawlog) const
+{
+  if (uselessKind.empty()) return {};
+  return rawlog + ": " + uselessKind +
+         " has no pose at the times of the first images (is a clock wrong?): visual odometry "
+         "replaces it";
+}
+
 std::optional<Eigen::Vector3d> upOfFloor(
     const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
 {

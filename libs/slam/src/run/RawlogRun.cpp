@@ -52,11 +52,8 @@ class RawlogRun
         {
           if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
         });
-    if (!survey_.uselessKind.empty())
-      slam_.warn(
-          request.rawlog + ": " + survey_.uselessKind +
-          " has no pose at the times of the first images (is a clock wrong?): visual odometry "
-          "replaces it");
+    const std::string warning = survey_.warning(request.rawlog);
+    if (!warning.empty()) slam_.warn(warning);
     if (request.isLive) slam_.keepUp();
   }
 

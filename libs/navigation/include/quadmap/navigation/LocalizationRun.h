@@ -38,7 +38,7 @@ struct LocalizationRequest
 struct LocalizationUpdate
 {
   double time = 0;        //!< Of the frame [s]
-  std::size_t boxes = 0;  //!< That could be compared with the map
+  std::size_t boxes = 0;  //!< That may show an object of the map, by their labels
   LocalizationEstimate estimate;
 };
 
@@ -49,7 +49,7 @@ struct LocalizationResult
   std::string odometry;              //!< Where the motion came from, for people
   std::vector<std::string> dropped;  //!< What keepGoing left out, one line each
   bool interrupted = false;
-  double measureSeconds = 0;  //!< CPU time of this thread for looking at the images [s]
+  double measureSeconds = 0;  //!< CPU time of the process for looking at the images [s]
   double filterSeconds = 0;   //!< Wall-clock time of the filter [s]
 
   /** T_map_robot after the updates that found the robot. */
@@ -60,8 +60,9 @@ struct LocalizationResult
 
 /** Finds the robot of a rawlog in a map.
  * \exception std::invalid_argument If the map has no confirmed object.
- * \exception std::runtime_error For a broken input, and when the robot was never found. The message
- * is one line that names file, record and sensor where they are known. */
+ * \exception std::runtime_error For a broken input, and when the robot was never found, unless the
+ * run was interrupted. The message is one line that names file, record and sensor where they are
+ * known. */
 LocalizationResult localiseInMap(const LocalizationRequest& request);
 
 /** The report in the form of doc/formats.md. \param version Of the program. */

@@ -26,6 +26,9 @@ struct OdometrySurvey
   /** A kind that the rawlog has, but that gave the images no poses, so that visual odometry
    * replaces it. It is empty otherwise. */
   std::string uselessKind;
+
+  /** What to tell the user about `uselessKind`, one line; empty when that is. */
+  std::string warning(const std::string& rawlog) const;
 };
 
 /** Looks at the first images of a rawlog. It finds out whether the rawlog has odometry, or shows a
