@@ -26,11 +26,11 @@ void run(const std::string& input, const std::string& output, const std::string&
   const auto detector = model.empty() ? nullptr : quadmap::loadDetector(model);
   quadmap::VisualOdometry visual({});  // stands for your robot's odometry where there is none
   quadmap::CQuadricObjectMap map;
-  for (int keyframes = 0; !stopped;)
+  auto frame = source->next();
+  const bool hasOdometry = frame && frame->T_odom_robot;  // two odometries would be two frames
+  for (int keyframes = 0; frame && !stopped; frame = source->next())
   {
-    const auto frame = source->next();
-    if (!frame) break;
-    const auto T_map_robot = frame->T_odom_robot ? frame->T_odom_robot : visual.add(*frame->scan);
+    const auto T_map_robot = hasOdometry ? frame->T_odom_robot : visual.add(*frame->scan);
     const auto boxes = detector ? quadmap::detectObjects(*frame, *detector) : frame->objects;
     if (!T_map_robot || !boxes) continue;  // lost for a moment, or an image without colour
     map.insertObservation(*frame->scan, *T_map_robot);  // measured when its boxes come
