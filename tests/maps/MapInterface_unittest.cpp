@@ -187,6 +187,17 @@ TEST(MapDefinition, MistakesInTheIniAreErrors)
         << wrong;
 }
 
+TEST(MapDefinition, SharesOfRepeatedErrorsMayBeEqual)
+{
+  InsertionOptions options;
+  using Memory = mrpt::config::CConfigFileMemory;
+  options.loadFromConfigFile(Memory("[x]\nrepeatedAnywhere=0.5\nrepeatedThere=0.5\n"), "x");
+  EXPECT_EQ(options.estimator.repeatedAnywhere, 0.5);
+  EXPECT_THROW(
+      options.loadFromConfigFile(Memory("[x]\nrepeatedAnywhere=0.6\nrepeatedThere=0.5\n"), "x"),
+      std::invalid_argument);
+}
+
 TEST(MapDefinition, SavedOptionsReadBackExactly)
 {
   InsertionOptions a;

@@ -93,7 +93,9 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "poseAngleSigma_deg", o.poseNoise.angle, {0, 90},
       "Uncertainty of the orientation of a pose, or what remains of it where poses are "
       "estimated.");
-  list.requireLess("repeatedAnywhere", "repeatedThere");
+  list.require(
+      [&e = o.estimator] { return e.repeatedAnywhere <= e.repeatedThere; },
+      "repeatedAnywhere: must be <= repeatedThere");
 }
 
 void describeExistence(InsertionOptions& o, OptionList& list)
