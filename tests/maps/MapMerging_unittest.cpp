@@ -291,6 +291,21 @@ TEST(MapMerging, WhatMovedALittleIsWhereTheNewerMapHasIt)
   }
 }
 
+TEST(MapMerging, OfMapsThatEndTogetherThatOfMoreMeasurementsIsTheNewerOne)
+{
+  std::mt19937 rng(5);
+  const Room room = randomRoom(rng);
+  Room more = room;
+  more[0].completeCount += 5;
+  for (const bool otherHasMore : {true, false})
+  {
+    CQuadricObjectMap own = mapOf(otherHasMore ? room : more, CPose3D(), rng);
+    const auto merge = own.mergeMap(mapOf(otherHasMore ? more : room, kOther, rng));
+    ASSERT_TRUE(merge);
+    EXPECT_EQ(merge->otherIsNewer, otherHasMore);
+  }
+}
+
 TEST(MapMerging, OtherPlacesAreToldAndLeaveTheMapAsItWas)
 {
   std::mt19937 rng(6);

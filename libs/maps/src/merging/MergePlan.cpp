@@ -40,7 +40,7 @@ class Region
 };
 
 /** A map and the frames it was made of; all in the frame of the own map. */
-struct Side
+struct MergeSide
 {
   bool isOwn = false;
   std::vector<MapObject> copies;  //!< Confirmed objects
@@ -49,13 +49,13 @@ struct Side
   const MatchedFrames* frames = nullptr;
 };
 
-Side sideOf(
+MergeSide sideOf(
     const MergedMap& map,
     const std::set<ObjectId>& paired,
     const mrpt::poses::CPose3D& T_own_map,
     const MatchedFrames& frames)
 {
-  Side side;
+  MergeSide side;
   side.T_own_map = T_own_map;
   side.frames = &frames;
   for (const MapObject* object : map.confirmed())
@@ -89,7 +89,7 @@ class Planner
   {
     plan_.report.match = both.match;
     plan_.report.placeCovariance = both.joint.covariance;
-    plan_.report.otherIsNewer = other.age().first >= own.age().first;
+    plan_.report.otherIsNewer = other.age() >= own.age();
   }
 
   MergePlan run(const MatchedFrames& ownFrames, const MatchedFrames& otherFrames)
@@ -162,7 +162,7 @@ class Planner
 
   void note(const MapMerge::Conflict& conflict) { plan_.report.conflicts.push_back(conflict); }
 
-  MapMerge::Origin originOf(const Side& side, ObjectId id) const
+  MapMerge::Origin originOf(const MergeSide& side, ObjectId id) const
   {
     MapMerge::Origin origin;
     (side.isOwn ? origin.own : origin.other) = id;
@@ -171,7 +171,7 @@ class Planner
   }
 
   /** Objects that only `known` has and the frames of `session` show not to be there. */
-  std::set<ObjectId> absent(const Side& known, const Side& session) const
+  std::set<ObjectId> absent(const MergeSide& known, const MergeSide& session) const
   {
     ConstellationMatch match;  // both are in the own frame
     for (const auto* pairs : {&both_.together, &both_.displaced})
@@ -195,13 +195,13 @@ class Planner
         ownPaired.insert(here);
         otherPaired.insert(there);
       }
-    Side own = sideOf(own_, ownPaired, {}, ownFrames);
+    MergeSide own = sideOf(own_, ownPaired, {}, ownFrames);
     own.isOwn = true;
-    const Side other = sideOf(other_, otherPaired, both_.match.T_map_local, otherFrames);
+    const MergeSide other = sideOf(other_, otherPaired, both_.match.T_map_local, otherFrames);
     judge(otherIsNewer() ? own : other, otherIsNewer() ? other : own);
   }
 
-  void judge(const Side& older, const Side& newer)
+  void judge(const MergeSide& older, const MergeSide& newer)
   {
     const std::set<ObjectId> gone = absent(older, newer), fresh = absent(newer, older);
     Objects left;
@@ -241,14 +241,14 @@ class Planner
     }
   }
 
-  static std::string labelOf(const Side& side, ObjectId id)
+  static std::string labelOf(const MergeSide& side, ObjectId id)
   {
     for (const MapObject* object : side.confirmed)
       if (object->id == id) return object->label();
     return {};
   }
 
-  void drop(const Side& side, ObjectId id)
+  void drop(const MergeSide& side, ObjectId id)
   {
     if (side.isOwn)
       plan_.removed.push_back(id);
