@@ -129,6 +129,7 @@ TEST_F(Localize, AnInterruptedRunNeedNotHaveFoundTheRobot)
     int asked = 0;
     request.shouldStop = [&] { return ++asked > frames; };
     LocalizationResult result;
+    request.configuration.localization.localisedSigma = 1e-5;
     ASSERT_NO_THROW(result = localiseInMap(request)) << frames;
     EXPECT_TRUE(result.interrupted);
     EXPECT_TRUE(result.trajectory().empty());
