@@ -92,9 +92,11 @@ struct TwoMaps
  * \exception cli::UsageError If one of them would be replaced. */
 void requireNewFile(const TwoMaps& maps, const std::string& output)
 {
+  if (!fs::exists(output)) return;
   for (const std::string* name : {&maps.ownName, &maps.otherName})
-    if (fs::exists(output) && fs::equivalent(output, mapFileOf(*name)))
-      throw cli::UsageError("-o: must not be one of the two maps, which stay as they are");
+    for (const std::string& file : {mapFileOf(*name), framesFileOf(*name)})
+      if (!file.empty() && fs::equivalent(output, file))
+        throw cli::UsageError("-o: must not be one of the two maps, which stay as they are");
 }
 
 std::string quantity(std::size_t n, const char* thing)

@@ -86,6 +86,7 @@ TEST_F(QuadmapMapMerge, MakesOneMapOfTwoAndSaysWhereItCameFrom)
   }
   const auto json = report("both.merge.json");
   EXPECT_EQ(json["format"], "quadmap-merge");
+  EXPECT_EQ(readFile(folder_.path("both.merge.json")).back(), '\n');
   EXPECT_EQ(json["own"]["sha256"], sha256OfFile(folder_.path("own.quadmap")));
   EXPECT_EQ(json["other"]["file"], folder_.path("other.simplemap"));
   EXPECT_EQ(json["newer"], "other");
@@ -149,11 +150,16 @@ TEST_F(QuadmapMapMerge, RefusesMapsOfOtherPlacesAndDamagedOnes)
 
 TEST_F(QuadmapMapMerge, WrongCallsAreTold)
 {
+  namespace fs = std::filesystem;
+  fs::create_directory(folder_.path("home"));
+  fs::copy(folder_.path("own.quadmap"), folder_.path("home/objects.quadmap"));
+  fs::copy(folder_.path("other.simplemap"), folder_.path("home/objects.simplemap"));
   for (const char* arguments :
        {"@own.quadmap -o @x", "@own.quadmap --keep 1 -o @x",
         "@own.quadmap @other.simplemap --keep 1 --absorb 2 -o @x",
         "@own.quadmap @other.simplemap @own.quadmap -o @x",
         "@own.quadmap @other.simplemap -o @own.quadmap",
+        "@home @own.quadmap -o @home/objects.simplemap",
         "@own.quadmap --keep 1 --absorb 2 --config @x.ini -o @x"})
   {
     const auto result = run(arguments);

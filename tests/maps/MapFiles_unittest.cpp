@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <cstdlib>
 #include <thread>
@@ -7,6 +9,7 @@
 #include "../obs/TemporaryFolder.h"
 #include "ObjectMapFixture.h"
 #include "quadmap/base/GzipStream.h"
+#include "quadmap/maps/MapFile.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -92,6 +95,28 @@ TEST(MapFiles, SavedMapReadsBack)
   EXPECT_EQ(archiveOf(loaded), archiveOf(map)) << "nothing of the map before is left";
   const auto error = errorOf([&] { map.saveToFile("/nowhere/a.quadmap"); });
   EXPECT_NE(error.find("/nowhere/a.quadmap"), std::string::npos) << error;
+}
+
+TEST(MapFiles, WhatGoesWrongWithAFrameNamesItsFile)
+{
+  const TemporaryFolder folder;
+  auto boxes = mrpt::obs::CObservation::Ptr(std::make_shared<CObservationObjects>());
+  mrpt::obs::CSensoryFrame frame;
+  frame.insert(boxes);
+  mrpt::maps::CSimpleMap keyframes;
+  keyframes.insert(mrpt::poses::CPose3DPDFGaussian(), frame);
+  keyframes.saveToFile(folder.path("objects.simplemap"));
+  const auto frames = framesOf(folder.path("objects.simplemap"));
+  ASSERT_TRUE(frames);
+  try
+  {
+    frames([](const auto&, const auto&) { throw std::invalid_argument("does not fit"); });
+    FAIL();
+  }
+  catch (const std::runtime_error& e)
+  {
+    EXPECT_EQ(e.what(), folder.path("objects.simplemap") + ": does not fit");
+  }
 }
 
 TEST(MapFiles, KeepTheirLabelTable)

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/sensors/SimpleMapReader.h"
 
 namespace quadmap
@@ -27,7 +28,14 @@ void forEachFrame(const std::string& simpleMapPath, F&& use)
       if (const auto* boxes = dynamic_cast<const CObservationObjects*>(observation.get()))
       {
         hasBoxes = true;
-        use(*boxes, T_map_robot);
+        try
+        {
+          use(*boxes, T_map_robot);
+        }
+        catch (const std::exception& e)
+        {
+          throw std::runtime_error(simpleMapPath + ": " + rootMessage(e));
+        }
       }
   }
   if (!hasBoxes)
@@ -66,12 +74,18 @@ CQuadricObjectMap readMap(const std::string& path)
   return map;
 }
 
-SessionFrames framesOf(const std::string& path)
+std::string framesFileOf(const std::string& path)
 {
   fs::path file = mapFileOf(path);
   if (file.filename() == kMapFile) file.replace_filename(kBoxFile);
-  if (file.extension() != ".simplemap" || !fs::exists(file)) return {};
-  return [name = file.string()](const auto& use) { forEachFrame(name, use); };
+  return file.extension() == ".simplemap" && fs::exists(file) ? file.string() : std::string();
+}
+
+SessionFrames framesOf(const std::string& path)
+{
+  const std::string file = framesFileOf(path);
+  if (file.empty()) return {};
+  return [name = file](const auto& use) { forEachFrame(name, use); };
 }
 
 }  // namespace quadmap

@@ -83,7 +83,7 @@ std::string mergeToJson(
       {        "objects",                              objects       },
       {      "conflicts",                            conflicts         }
   };
-  return jsonText(json, 1);
+  return jsonText(json, 1) + "\n";
 }
 
 MapMergeOptions readMergeOptions(const std::string& path)

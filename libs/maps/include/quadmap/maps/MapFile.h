@@ -17,9 +17,13 @@ CQuadricObjectMap readMap(const std::string& path);
  * \exception std::runtime_error If there is no such path, or no map in the folder. */
 std::string mapFileOf(const std::string& path);
 
-/** The frames that the map at a path was made of: an objects.simplemap, or that beside the
- * objects.quadmap of a folder. Empty when there is none. The frames are read when they are asked
- * for, and a damaged file is then a std::runtime_error that names it. */
+/** The file with the frames that the map at a path was made of: an objects.simplemap, or that
+ * beside the objects.quadmap of a folder. Empty when there is none. \exception std::runtime_error
+ * As mapFileOf(). */
+std::string framesFileOf(const std::string& path);
+
+/** The frames in framesFileOf() a path; empty when there is no such file. The frames are read when
+ * they are asked for, and a damaged file is then a std::runtime_error that names it. */
 SessionFrames framesOf(const std::string& path);
 
 }  // namespace quadmap

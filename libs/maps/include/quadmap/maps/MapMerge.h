@@ -64,7 +64,7 @@ struct MapMerge
    */
   ConstellationMatch match;
   Eigen::Matrix4d placeCovariance = Eigen::Matrix4d::Zero();  //!< Of (x, y, z [m], yaw [rad])
-  bool otherIsNewer = true;         //!< It has the later last measurement, or both end together
+  bool otherIsNewer = true;         //!< It ends later; of equal ends it has no fewer measurements
   std::vector<Origin> origins;      //!< Of all objects of the merged map, by id
   std::vector<Conflict> conflicts;  //!< Among confirmed objects
 };
