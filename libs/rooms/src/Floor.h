@@ -32,7 +32,7 @@ bool collide(const SceneObject& a, const SceneObject& b);
 /** Whether a box is inside the walls, the floor and the ceiling. */
 bool isInside(const UprightBox& box, const Room& room);
 
-/** The box around both. It has the yaw of the first. */
+/** The box grown by so much to each side of the floor, not up and down [m]. */
 UprightBox grown(UprightBox box, double by);
 
 }  // namespace quadmap::simulator

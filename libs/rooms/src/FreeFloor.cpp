@@ -100,14 +100,6 @@ bool FreeFloor::isFree(const Eigen::Vector2d& p) const
   return cell >= 0 && placeOfCell_[static_cast<std::size_t>(cell)] >= 0;
 }
 
-std::size_t FreeFloor::nearest(const Eigen::Vector2d& p) const
-{
-  const auto found = std::min_element(
-      places_.begin(), places_.end(),
-      [&](const auto& a, const auto& b) { return (a - p).squaredNorm() < (b - p).squaredNorm(); });
-  return static_cast<std::size_t>(found - places_.begin());
-}
-
 std::vector<std::size_t> FreeFloor::way(std::size_t from, std::size_t to) const
 {
   std::vector<double> cost(places_.size(), std::numeric_limits<double>::infinity());

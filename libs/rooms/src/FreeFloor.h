@@ -22,9 +22,6 @@ class FreeFloor
    * Indices of places(). */
   std::vector<std::size_t> way(std::size_t from, std::size_t to) const;
 
-  /** The place nearest to a point. */
-  std::size_t nearest(const Eigen::Vector2d& p) const;
-
  private:
   int cellOf(const Eigen::Vector2d& p) const;  // -1 outside
   void keepLargestPart(const std::vector<double>& clearance, double margin);

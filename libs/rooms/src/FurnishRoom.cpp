@@ -72,14 +72,19 @@ void addDoor(RoomBuilder& room)
   }
 }
 
+/** Hangs a thing up, its lower edge at a height between two [m]. */
+void putOnWall(RoomBuilder& room, SceneObject (*make)(FurnitureKit&), double low, double high)
+{
+  const double height = room.kit().between(low, high);
+  room.putAtWall(make(room.kit()), 0, height, 0.002);
+}
+
 void addOnWalls(RoomBuilder& room)
 {
   FurnitureKit& kit = room.kit();
-  for (int i = kit.whole(0, 2); i > 0; --i)
-    room.putAtWall(window(kit), 0, kit.between(0.8, 1.0), 0.002);
-  for (int i = kit.whole(1, 4); i > 0; --i)
-    room.putAtWall(picture(kit), 0, kit.between(1.1, 1.5), 0.002);
-  if (kit.chance(0.4)) room.putAtWall(wallClock(kit), 0, kit.between(1.6, 1.9), 0.002);
+  for (int i = kit.whole(0, 2); i > 0; --i) putOnWall(room, &window, 0.8, 1.0);
+  for (int i = kit.whole(1, 4); i > 0; --i) putOnWall(room, &picture, 1.1, 1.5);
+  if (kit.chance(0.4)) putOnWall(room, &wallClock, 1.6, 1.9);
   if (kit.chance(0.4)) room.putAtWall(radiator(kit), 0);
 }
 

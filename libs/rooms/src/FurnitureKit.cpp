@@ -16,6 +16,13 @@ std::size_t FurnitureKit::add(Material material)
   return materials_.size() - 1;
 }
 
+/** A colour each of whose channels is drawn between those of two others. */
+Eigen::Vector3d FurnitureKit::colorBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+{
+  const double blue = between(low[2], high[2]), green = between(low[1], high[1]);
+  return {between(low[0], high[0]), green, blue};
+}
+
 /** A colour in whole steps about another one. */
 Eigen::Vector3d FurnitureKit::near(const Eigen::Vector3d& color, double spread)
 {
@@ -52,7 +59,7 @@ std::size_t FurnitureKit::lacquer()
 
 std::size_t FurnitureKit::cloth()
 {
-  const Eigen::Vector3d color(between(40, 220), between(40, 220), between(40, 220));
+  const Eigen::Vector3d color = colorBetween({40, 40, 40}, {220, 220, 220});
   const Pattern pattern = chance(0.15) ? Pattern::Checker : Pattern::Mottled;
   return add({"", near(color, 0.05), pattern, between(0.03, 0.12), between(0.1, 0.3)});
 }
@@ -90,7 +97,7 @@ std::size_t FurnitureKit::paper()
 
 std::size_t FurnitureKit::cover()
 {
-  const Eigen::Vector3d color(between(30, 230), between(30, 230), between(30, 230));
+  const Eigen::Vector3d color = colorBetween({30, 30, 30}, {230, 230, 230});
   return add({"", near(color, 0.05), Pattern::Mottled, between(0.02, 0.05), between(0.15, 0.4)});
 }
 
@@ -101,7 +108,7 @@ std::size_t FurnitureKit::skin()
 
 std::size_t FurnitureKit::printed()
 {
-  const Eigen::Vector3d color(between(60, 220), between(60, 220), between(60, 220));
+  const Eigen::Vector3d color = colorBetween({60, 60, 60}, {220, 220, 220});
   return add({"", near(color, 0.1), Pattern::Checker, between(0.08, 0.25), between(0.3, 0.7)});
 }
 
@@ -118,14 +125,14 @@ std::size_t FurnitureKit::glass()
 
 std::size_t FurnitureKit::wallpaper()
 {
-  const Eigen::Vector3d color(between(170, 235), between(165, 230), between(150, 225));
+  const Eigen::Vector3d color = colorBetween({170, 165, 150}, {235, 230, 225});
   return add({"", near(color, 0.02), Pattern::Mottled, between(0.1, 0.3), between(0.06, 0.22)});
 }
 
 std::size_t FurnitureKit::floor()
 {
   if (chance(0.4)) return wood();
-  const Eigen::Vector3d color(between(110, 190), between(105, 180), between(95, 165));
+  const Eigen::Vector3d color = colorBetween({110, 105, 95}, {190, 180, 165});
   const Pattern pattern = chance(0.6) ? Pattern::Checker : Pattern::Mottled;
   return add({"", near(color, 0.05), pattern, between(0.2, 0.5), between(0.12, 0.25)});
 }

@@ -25,7 +25,9 @@ struct Furniture
   std::vector<Shelf> shelves;
 };
 
-/** Draws numbers and materials for the furniture of one room, and counts its names. */
+/** Draws numbers and materials for the furniture of one room, and counts its names. No two draws
+ * may be arguments of one call or sides of one operator, which compilers evaluate in an order of
+ * their own: the room of a seed would depend on it. In braces they come from left to right. */
 class FurnitureKit
 {
  public:
@@ -66,6 +68,7 @@ class FurnitureKit
 
  private:
   std::size_t add(Material material);
+  Eigen::Vector3d colorBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
   Eigen::Vector3d near(const Eigen::Vector3d& color, double spread);
 
   RandomStream& random_;

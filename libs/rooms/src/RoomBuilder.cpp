@@ -110,7 +110,8 @@ std::optional<std::size_t> RoomBuilder::putInTheMiddle(const SceneObject& object
   const Eigen::Vector2d half = scene_.room.size.head<2>() / 2;
   for (int i = 0; i < kTries; ++i)
   {
-    const double yaw = M_PI / 2 * static_cast<double>(kit_.pick(4)) + kit_.gaussian(0.12);
+    const double quarters = static_cast<double>(kit_.pick(4));
+    const double yaw = M_PI / 2 * quarters + kit_.gaussian(0.12);
     placed.T_world_obj = {
         kit_.between(-half.x(), half.x()), kit_.between(-half.y(), half.y()), 0, yaw, 0, 0};
     UprightBox floor = grown(boundsOf(placed), around);
@@ -158,9 +159,9 @@ std::optional<std::size_t> RoomBuilder::putOnShelf(
         c * bounds.half.x() + s * bounds.half.y(), s * bounds.half.x() + c * bounds.half.y());
     const Eigen::Vector2d reach = shelf.half - half;
     if (reach.minCoeff() < 0) continue;
-    const Eigen::Vector2d at =
-        shelf.center - bounds.center +
-        Eigen::Vector2d(kit_.between(-reach.x(), reach.x()), kit_.between(-reach.y(), reach.y()));
+    const double aside = kit_.between(-reach.y(), reach.y());
+    const Eigen::Vector2d off(kit_.between(-reach.x(), reach.x()), aside);
+    const Eigen::Vector2d at = shelf.center - bounds.center + off;
     if (const auto index = putBeside(thing, piece, {at.x(), at.y(), shelf.z, turn, 0, 0}))
       return index;
   }

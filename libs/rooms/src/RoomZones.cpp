@@ -95,7 +95,8 @@ void addScreens(RoomBuilder& room, std::size_t piece, const Shelf& top)
   const double back = top.center.x() - top.half.x();
   if (kit.chance(0.3))
   {
-    room.putOnShelf(laptop(kit), piece, top, kit.gaussian(0.25));
+    const double yaw = kit.gaussian(0.25);
+    room.putOnShelf(laptop(kit), piece, top, yaw);
     return;
   }
   const SceneObject screen = monitor(kit);
@@ -109,10 +110,15 @@ void addScreens(RoomBuilder& room, std::size_t piece, const Shelf& top)
   }
   const double front = top.center.x() + top.half.x();
   if (kit.chance(0.8))
-    room.putBeside(
-        keyboard(kit), piece, {front - 0.15, kit.gaussian(0.05), top.z, kit.gaussian(0.08), 0, 0});
+  {
+    const double y = kit.gaussian(0.05), yaw = kit.gaussian(0.08);
+    room.putBeside(keyboard(kit), piece, {front - 0.15, y, top.z, yaw, 0, 0});
+  }
   if (kit.chance(0.6))
-    room.putBeside(computerMouse(kit), piece, {front - 0.15, 0.36, top.z, kit.gaussian(0.2), 0, 0});
+  {
+    const double yaw = kit.gaussian(0.2);
+    room.putBeside(computerMouse(kit), piece, {front - 0.15, 0.36, top.z, yaw, 0, 0});
+  }
 }
 
 /** Things in the compartments of a shelf: rows of books that count as one thing, and single ones.
@@ -131,9 +137,10 @@ void fillCompartments(RoomBuilder& room, std::size_t piece, const std::vector<Sh
       for (int i = 0; i < 6; ++i)
       {
         const double h = height * kit.between(0.8, 1.0);
+        const std::size_t cover = kit.cover();
         addBox(
             row, {0, width * ((i + 0.5) / 6 - 0.5), h / 2},
-            {depth * kit.between(0.8, 1), width / 6, h}, kit.cover());
+            {depth * kit.between(0.8, 1), width / 6, h}, cover);
       }
       room.putOnShelf(row, piece, shelf, 0.0);
     }
@@ -197,13 +204,17 @@ void addLounge(RoomBuilder& room)
   }
   if (kit.chance(0.5)) room.putInTheMiddle(armchair(kit), 0.2);
   if (kit.chance(0.3))
-    room.putAtWall(wallTelevision(kit), 0.8, kit.between(0.85, 1.3), 0.05);
+  {
+    const double height = kit.between(0.85, 1.3);
+    room.putAtWall(wallTelevision(kit), 0.8, height, 0.05);
+  }
   else
   {
     const Furniture stand = screenStand(kit);
     const auto low = room.putAtWall(stand.object, 0.6);
     if (!low) return;
-    room.putOnShelf(television(kit), *low, stand.shelves[0], kit.gaussian(0.05));
+    const double yaw = kit.gaussian(0.05);
+    room.putOnShelf(television(kit), *low, stand.shelves[0], yaw);
     addSmallThings(room, *low, stand.shelves[0], kit.whole(0, 2));
   }
 }
@@ -232,7 +243,8 @@ void addKitchenRow(RoomBuilder& room)
 {
   FurnitureKit& kit = room.kit();
   std::vector<Furniture> row{kitchenBlock(kit), oven(kit), kitchenBlock(kit)};
-  row.insert(kit.chance(0.5) ? row.begin() : row.end(), refrigerator(kit));
+  const Furniture cold = refrigerator(kit);
+  row.insert(kit.chance(0.5) ? row.begin() : row.end(), cold);
   double width = 0;
   for (const auto& piece : row) width += 2 * halfOf(piece.object).y() + 0.01;
   for (int i = 0; i < 8; ++i)

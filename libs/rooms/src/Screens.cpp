@@ -54,7 +54,8 @@ SceneObject television(FurnitureKit& kit)
 SceneObject wallTelevision(FurnitureKit& kit)
 {
   SceneObject tv = objectOf("tv");
-  addPanel(tv, kit, panelOf(kit, 0.8, 1.45), 0, kit.between(0.01, 0.03));
+  const double rim = kit.between(0.01, 0.03);
+  addPanel(tv, kit, panelOf(kit, 0.8, 1.45), 0, rim);
   return tv;
 }
 

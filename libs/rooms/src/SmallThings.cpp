@@ -156,7 +156,8 @@ SceneObject standingBook(FurnitureKit& kit)
 {
   SceneObject book = objectOf("book");
   const double d = kit.between(0.13, 0.2), h = kit.between(0.19, 0.29);
-  addBox(book, {0, 0, h / 2}, {d, kit.between(0.02, 0.06), h}, kit.cover());
+  const std::size_t cover = kit.cover();
+  addBox(book, {0, 0, h / 2}, {d, kit.between(0.02, 0.06), h}, cover);
   return book;
 }
 
@@ -164,9 +165,8 @@ SceneObject keyboard(FurnitureKit& kit)
 {
   SceneObject keyboard = objectOf("keyboard");
   const double h = kit.between(0.015, 0.03);
-  addBox(
-      keyboard, {0, 0, h / 2}, {kit.between(0.12, 0.17), kit.between(0.35, 0.47), h},
-      kit.chance(0.6) ? kit.darkPlastic() : kit.lacquer());
+  const std::size_t body = kit.chance(0.6) ? kit.darkPlastic() : kit.lacquer();
+  addBox(keyboard, {0, 0, h / 2}, {kit.between(0.12, 0.17), kit.between(0.35, 0.47), h}, body);
   return keyboard;
 }
 
@@ -180,7 +180,8 @@ SceneObject computerMouse(FurnitureKit& kit)
 SceneObject remote(FurnitureKit& kit)
 {
   SceneObject remote = objectOf("remote");
-  addBox(remote, {0, 0, 0.012}, {kit.between(0.15, 0.21), 0.05, 0.024}, kit.darkPlastic());
+  const std::size_t plastic = kit.darkPlastic();
+  addBox(remote, {0, 0, 0.012}, {kit.between(0.15, 0.21), 0.05, 0.024}, plastic);
   return remote;
 }
 

@@ -104,7 +104,8 @@ Furniture screenStand(FurnitureKit& kit)
 {
   const Eigen::Vector3d size{
       kit.between(0.36, 0.48), kit.between(1.1, 1.8), kit.between(0.35, 0.6)};
-  return closedBody(kit, kit.chance(0.5) ? "cabinet" : "", size, kit.whole(2, 4), kit.whole(1, 2));
+  const int rows = kit.whole(1, 2), columns = kit.whole(2, 4);
+  return closedBody(kit, kit.chance(0.5) ? "cabinet" : "", size, columns, rows);
 }
 
 Furniture refrigerator(FurnitureKit& kit)
@@ -160,8 +161,9 @@ Furniture kitchenBlock(FurnitureKit& kit)
 {
   const double width = kit.between(0.6, 1.8);
   const int columns = static_cast<int>(std::lround(width / 0.55));
+  const int rows = kit.whole(1, 3);
   Furniture block =
-      closedBody(kit, "cabinet", {0.58, width, kit.between(0.83, 0.87)}, columns, kit.whole(1, 3));
+      closedBody(kit, "cabinet", {0.58, width, kit.between(0.83, 0.87)}, columns, rows);
   const double top = block.shelves.front().z;
   addBox(block.object, {0.01, 0, top + 0.02}, {0.62, width, 0.04}, kit.wood());
   block.shelves.front().z = top + 0.04;
@@ -174,9 +176,8 @@ Furniture wallCupboard(FurnitureKit& kit)
   Furniture cupboard{objectOf("cabinet"), {}};
   const Eigen::Vector3d size{kit.between(0.3, 0.36), width, kit.between(0.55, 0.75)};
   addBox(cupboard.object, {0, 0, size.z() / 2}, size, kit.lacquer());
-  addFronts(
-      cupboard.object, size, 0, static_cast<int>(std::lround(width / 0.5)), 1, kit.lacquer(),
-      kit.metal());
+  const std::size_t grip = kit.metal(), front = kit.lacquer();
+  addFronts(cupboard.object, size, 0, static_cast<int>(std::lround(width / 0.5)), 1, front, grip);
   return cupboard;
 }
 

@@ -80,7 +80,8 @@ Furniture diningTable(FurnitureKit& kit)
                                       ? Eigen::Vector2d(0.3 * size)
                                       : Eigen::Vector2d{size.array() / 2 - kit.between(0.05, 0.1)};
     if (!round && kit.chance(0.6)) addApron(table.object, reach, below, wood);
-    addLegs(table.object, reach, below, kit.between(0.04, 0.08), kit.chance(0.3), leg);
+    const bool roundLegs = kit.chance(0.3);
+    addLegs(table.object, reach, below, kit.between(0.04, 0.08), roundLegs, leg);
   }
   table.shelves.push_back(topOf(size, height, round));
   return table;
