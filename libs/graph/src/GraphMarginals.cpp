@@ -17,7 +17,8 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
  * says nothing about the poses. */
 constexpr double kLooseSigma = 100;  // [m], [rad]
 
-constexpr double kLeastInformation = 1e-9;  // information added to every unknown, so that no pivot is zero
+/** Information that is added to every unknown, so that no pivot is zero. */
+constexpr double kLeastInformation = 1e-9;
 
 SparseMatrix jacobianOf(const ceres::CRSMatrix& crs)
 {

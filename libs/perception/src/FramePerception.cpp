@@ -68,7 +68,9 @@ std::vector<ObjectTask> tasksOf(
 {
   std::vector<ObjectTask> tasks;
   for (std::size_t i = 0; i < detections.size(); ++i)
-    tasks.push_back({&detections[i], labels.properties(detections[i].label), supports[i].plane, supports[i].wall});
+    tasks.push_back(
+        {&detections[i], labels.properties(detections[i].label), supports[i].plane,
+         supports[i].wall});
   return tasks;
 }
 

@@ -144,9 +144,9 @@ struct DetectorOptions : public OptionGroup
   bool instanceIds = false;  //!< Boxes carry the number of their object; false alarms have none
   double flipRate = 0.03;    //!< Share of boxes with a label the object is mistaken for, 0..1
   double viewAngle_deg =
-      20;                //!< An object looks the same to a network within so much [deg], 1..180
-  double viewEdges = 0;  //!< Scale of a view's errors of edges, with long tails: a share of the
-                         //!< box's sqrt(width * height), 0..1
+      20;                  //!< An object looks the same to a network within so much [deg], 1..180
+  double viewEdges = 0;    //!< Scale of a view's errors of edges, with long tails: a share of the
+                           //!< box's sqrt(width * height), 0..1
   double viewMisses = 0;   //!< Share of views in which an object is not found, 0..1
   double viewFlips = 0;    //!< Share of views with a label the object is mistaken for, 0..1
   double viewParts = 0;    //!< Share of views in which only a part is boxed, 0..1
