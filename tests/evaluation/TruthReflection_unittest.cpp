@@ -65,6 +65,11 @@ TEST(TruthReflection, RightHandedTruthStaysAsItIs)
     EXPECT_FALSE(reflectionOfTruth(pairsOf(poses, [](const CPose3D& p) { return p; })));
     EXPECT_FALSE(
         reflectionOfTruth(pairsOf(poses, [](const CPose3D& p) { return p + T_sensor_optical(); })));
+    const CPose3D backwards(0, 0, 0, M_PI, 0, 0);
+    EXPECT_FALSE(reflectionOfTruth(pairsOf(poses, [&](const CPose3D& p) { return p + backwards; })))
+        << "the turns of a body that faces backwards are those of a left-handed one";
+    EXPECT_FALSE(reflectionOfTruth(
+        pairsOf(poses, [&](const CPose3D& p) { return p + backwards + T_sensor_optical(); })));
   }
   EXPECT_FALSE(reflectionOfTruth({}));
 }

@@ -66,6 +66,18 @@ Ellipsoid TruthReflection::operator()(const Ellipsoid& object) const
   return Ellipsoid(reflected(object.pose(), kWorld, kWorld), object.semiAxes());
 }
 
+namespace
+{
+/** Whether the estimated positions lie better on the true ones when these are reflected. */
+bool alignsBetter(const std::vector<PosePair>& pairs, const TruthReflection& reflection)
+{
+  std::vector<PosePair> mirrored = pairs;
+  for (auto& pair : mirrored) pair.T_truth_body = reflection(pair.T_truth_body);
+  return ateRmse(mirrored, alignPositions(mirrored)) < ateRmse(pairs, alignPositions(pairs));
+}
+
+}  // namespace
+
 std::optional<TruthReflection> reflectionOfTruth(const std::vector<PosePair>& pairs)
 {
   constexpr double kClearlyBetter = 0.04;  // of squares: a fifth of the disagreement
@@ -78,7 +90,11 @@ std::optional<TruthReflection> reflectionOfTruth(const std::vector<PosePair>& pa
                optical =
                    disagreement(turns, Eigen::Matrix3d((-kOptical).asDiagonal() * C_optical_robot));
   if (!(std::min(robot, optical) < kClearlyBetter * rightHanded)) return std::nullopt;
-  return TruthReflection(optical < robot ? kOptical : kRobot);
+  const TruthReflection reflection(optical < robot ? kOptical : kRobot);
+  // The turns are as well those of a right-handed body that is mounted half a turn about its
+  // vertical axis, but then the positions are not mirrored.
+  if (!alignsBetter(pairs, reflection)) return std::nullopt;
+  return reflection;
 }
 
 }  // namespace quadmap

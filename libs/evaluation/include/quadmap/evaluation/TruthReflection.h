@@ -26,9 +26,9 @@ class TruthReflection
   Eigen::Vector3d body_;
 };
 
-/** Whether the world of a true trajectory is left-handed, by the turns of its bodies:
- * doc/mathematics.md, (20.9). Turns about one axis alone do not tell; the world then counts as
- * right-handed. \param pairs In the order of time. */
+/** Whether the world of a true trajectory is left-handed, by the turns of its bodies and by its
+ * positions: doc/mathematics.md, (20.9). Turns about one axis alone do not tell; the world then
+ * counts as right-handed. \param pairs In the order of time. */
 std::optional<TruthReflection> reflectionOfTruth(const std::vector<PosePair>& pairs);
 
 }  // namespace quadmap
