@@ -82,7 +82,8 @@ TEST(ViewErrors, HappenInTheirShareOfViews)
 class DetectorWithViews : public testing::Test
 {
  protected:
-  std::vector<DetectedObject> boxesOf(const std::string& objects, const DetectorOptions& options)
+  std::vector<DetectedObject> boxesOf(
+      const std::string& objects, const DetectorOptions& options, std::uint64_t seed = 1)
   {
     const Scene scene = sceneFromText(kRoomText + objects);
     const PinholeCamera camera = CameraOptions().pinhole();
@@ -90,7 +91,7 @@ class DetectorWithViews : public testing::Test
     visible = visibleObjects(scene, frame, options);
     const LabelTable labels = LabelTable::installed();
     RandomStream random(1, Purpose::Detector, 0);
-    return SimulatedDetector(scene, options, labels, 1).detect(visible, camera, random).boxes;
+    return SimulatedDetector(scene, options, labels, seed).detect(visible, camera, random).boxes;
   }
   std::vector<VisibleObject> visible;
 };
@@ -114,6 +115,16 @@ TEST_F(DetectorWithViews, MergesNeighboursOfOneLabel)
   const auto apart = boxesOf(chairAndTable, options);
   ASSERT_EQ(2U, apart.size()) << "other labels are not merged";
   EXPECT_NEAR(visible[0].box.x2, apart[0].box.x2, 1e-9);
+}
+
+TEST_F(DetectorWithViews, TwoThatMergeDoNotHideEachOther)
+{
+  DetectorOptions options = faultless();
+  options.viewMergers = 1;
+  std::set<std::size_t> counts;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    counts.insert(boxesOf(kTwoChairs, options, seed).size());
+  EXPECT_EQ((std::set<std::size_t>{1, 2}), counts);
 }
 
 TEST_F(DetectorWithViews, BoxesAPartAndSaysAnotherLabel)

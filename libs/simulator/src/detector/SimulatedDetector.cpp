@@ -119,12 +119,14 @@ std::vector<SimulatedDetector::TakenObject> SimulatedDetector::taken(
     const double w = exact.x2 - exact.x1, h = exact.y2 - exact.y1, size = std::sqrt(w * h);
     const ViewErrors e = viewErrors(options_, seed_, visible[i].object, visible[i].eye);
     TakenObject& object = result[i];
+    const bool isHidden = object.isMissed;  // by an object before it
     object.isMissed |= e.isMissed;
     if (e.wrongLabel) object.label = wrongLabel(object.label, *e.wrongLabel);
     object.box = {
         exact.x1 + e.cut[0] * w + e.edges[0] * size, exact.y1 + e.cut[1] * h + e.edges[1] * size,
         exact.x2 - e.cut[2] * w + e.edges[2] * size, exact.y2 - e.cut[3] * h + e.edges[3] * size};
-    if (e.isMerged) mergeWithNeighbour(i, visible, result, e.hidesNeighbour);
+    // Who is hidden has no box that could hide another one; otherwise two would hide each other.
+    if (e.isMerged && !isHidden) mergeWithNeighbour(i, visible, result, e.hidesNeighbour);
   }
   return result;
 }
