@@ -112,6 +112,18 @@ TEST(CameraSource, KeepsTheFramesBeforeAFailure)
     device->breaks = true;
     expectFailure(std::move(device), "something broke");
   }
+  const std::string cutOff = "the recording is cut off: its end is missing";
+  auto device = deviceWith(3, false);
+  device->cutOff();
+  expectFailure(std::move(device), cutOff);
+  device = deviceWith(3, false);
+  device->cutOff();
+  device->whenEmpty = RgbdDevice::State::Running;
+  expectFailure(std::move(device), cutOff + " (no frame for 0.05 s)");
+  device = deviceWith(3, false);
+  device->cutOff();
+  device->breaks = true;
+  expectFailure(std::move(device), cutOff + " (something broke)");
 }
 
 TEST(CameraSource, StopsWhenItIsNotWantedAnyMore)
@@ -142,6 +154,13 @@ TEST(CameraSource, RefusesOptionsOutOfRange)
   };
   refuse([](CameraOptions& o) { o.width = 0; }, "resolution");
   refuse([](CameraOptions& o) { o.intrinsics = {0, 1, 1, 1}; }, "intrinsics");
+  const auto leftHanded = [](CameraOptions& o)
+  {
+    o.calibration.emplace();
+    o.calibration->origin = "icl";
+    o.calibration->color.setIntrinsicParamsFromValues(480, -480, 320, 240);
+  };
+  refuse(leftHanded, "icl: fx and fy must be > 0");
   refuse([](CameraOptions& o) { o.maxPairDelay = 0; }, "maxPairDelay");
   refuse([](CameraOptions& o) { o.duration = -1; }, "duration");
   refuse([](CameraOptions& o) { o.timeout = 0; }, "timeout");

@@ -48,6 +48,8 @@ class FakeDevice : public RgbdDevice
     images.push_back(fakeImage(DeviceImage::Kind::Color, number, time + 0.001));
   }
 
+  void cutOff() { description_.isCutOff = true; }  //!< Makes it a recording without an end
+
   const DeviceDescription& description() const override { return description_; }
   std::optional<DeviceImage> read(double timeout) override
   {

@@ -60,6 +60,8 @@ void check(const CameraOptions& o)
   if (o.intrinsics)
     require((*o.intrinsics)[0] > 0 && (*o.intrinsics)[1] > 0, "intrinsics: fx and fy must be > 0");
   require(!o.intrinsics || !o.calibration, "intrinsics, calibration: give only one of them");
+  if (o.calibration && !(o.calibration->color.fx() > 0 && o.calibration->color.fy() > 0))
+    throw std::invalid_argument(o.calibration->origin + ": fx and fy must be > 0 for a device");
   if (o.calibration && o.calibration->isDistorted())
     throw std::invalid_argument(
         o.calibration->origin + " distorts, and images of a device are not rectified");
@@ -156,8 +158,8 @@ struct CameraSource::Impl
       const std::chrono::duration<double> waited = SteadyClock::now() - begin;
       if (waited.count() > options.timeout)
       {
-        // A recording has its next frame at once, or it has ended.
-        fail(camera.isLive ? mrpt::format("no frame for %g s", options.timeout) : kCutOff);
+        const std::string what = mrpt::format("no frame for %g s", options.timeout);
+        fail(camera.isCutOff ? kCutOff + " (" + what + ")" : what);
         return std::nullopt;
       }
     }
@@ -165,7 +167,7 @@ struct CameraSource::Impl
   }
   catch (const std::exception& e)
   {
-    fail(camera.isCutOff ? kCutOff : rootMessage(e));
+    fail(camera.isCutOff ? kCutOff + " (" + rootMessage(e) + ")" : rootMessage(e));
     return std::nullopt;
   }
 
