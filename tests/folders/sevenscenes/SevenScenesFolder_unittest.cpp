@@ -90,6 +90,22 @@ TEST_F(SevenScenes, CountsWhatIsMissing)
   EXPECT_NE(poseless.notes()[0].find("no frame-*.pose.txt"), std::string::npos);
 }
 
+TEST_F(SevenScenes, RefusesCamerasOfWhichOneIsLeftHanded)
+{
+  const auto errorWith = [&](const std::string& signs)
+  {
+    FrameFolderOptions options;
+    options.camera = files_.write("my.ini", "[camera]\nfx = 525\ndepthFx = 580\n" + signs);
+    return errorOf([&] { openFrameFolder("7scenes", folder(), options); });
+  };
+  for (const char* signs : {"fy = 525\ndepthFy = -580\n", "fy = -525\ndepthFy = 580\n"})
+    EXPECT_NE(
+        errorWith(signs).find("my.ini: fy of colour and of depth must have the same sign"),
+        std::string::npos)
+        << errorWith(signs);
+  EXPECT_EQ(errorWith("fy = -525\ndepthFy = -580\n"), "");
+}
+
 TEST_F(SevenScenes, RefusesMatricesThatAreNoPoses)
 {
   const auto expect = [&](const std::string& text, const std::string& what)

@@ -1,6 +1,7 @@
 #include "frames/RightHanded.h"
 
 #include <Eigen/Dense>
+#include <stdexcept>
 
 #include "quadmap/geometry/PoseReflection.h"
 
@@ -27,7 +28,12 @@ void makeRightHanded(mrpt::img::TCamera& camera)
 FolderContent rightHanded(FolderContent content)
 {
   FolderCamera& camera = content.camera;
-  if (camera.color.fy() > 0) return content;
+  const bool isLeftHanded = camera.color.fy() < 0;
+  if (camera.depth && (camera.depth->camera.fy() < 0) != isLeftHanded)
+    throw std::runtime_error(
+        camera.origin + ": fy of colour and of depth must have the same sign, as a world is " +
+        "left-handed for both or for neither");
+  if (!isLeftHanded) return content;
   makeRightHanded(camera.color);
   if (camera.depth)
   {

@@ -81,11 +81,19 @@ mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& file)
   return camera;
 }
 
+/** A camera and the cloud that it was taken from. */
+struct CloudCamera
+{
+  mrpt::img::TCamera camera;
+  std::string file;
+};
+
 /** A cloud of another camera, or of another frame, would get wrong places with this one's.
  * \exception std::runtime_error If the points are not at the pixels at which the camera sees them.
  */
-void requireSeenBy(const mrpt::img::TCamera& camera, const PcdCloud& cloud, const std::string& file)
+void requireSeenBy(const CloudCamera& known, const PcdCloud& cloud, const std::string& file)
 {
+  const mrpt::img::TCamera& camera = known.camera;
   double squares = 0;  // of the distances from the pixels [px^2]
   int count = 0;
   for (std::size_t v = 0, i = 0; v < cloud.height; ++v)
@@ -100,19 +108,19 @@ void requireSeenBy(const mrpt::img::TCamera& camera, const PcdCloud& cloud, cons
     }
   if (count < kFewest || std::sqrt(squares / count) < 2 * kLargestPixelError) return;
   throw std::runtime_error(mrpt::format(
-      "%s: its points are not those of the first cloud's camera, which sees them %.1f px beside "
-      "their places",
-      file.c_str(), std::sqrt(squares / count)));
+      "%s: its points are not those of the camera of %s, which sees them %.1f px beside their "
+      "places",
+      file.c_str(), known.file.c_str(), std::sqrt(squares / count)));
 }
 
 /** The camera of the first cloud that can be read, as a damaged one need not end the work.
  * \exception std::runtime_error If there is none; says what is wrong with the first one. */
-mrpt::img::TCamera cameraOfFirst(const std::vector<FolderFrame>& frames)
+CloudCamera cameraOfFirst(const std::vector<FolderFrame>& frames)
 {
   std::string problem;
   for (const auto& frame : frames) try
     {
-      return cameraOf(readPcd(frame.color), frame.color);
+      return {cameraOf(readPcd(frame.color), frame.color), frame.color};
     }
     catch (const std::exception& e)
     {
@@ -126,7 +134,7 @@ class PcdImages : public FrameImageReader
 {
  public:
   /** \param camera Whose images the clouds must be; empty when a user answers for that. */
-  explicit PcdImages(std::optional<mrpt::img::TCamera> camera) : camera_(std::move(camera)) {}
+  explicit PcdImages(std::optional<CloudCamera> camera) : camera_(std::move(camera)) {}
 
   FrameImages read(const FolderFrame& frame) const override
   {
@@ -150,7 +158,7 @@ class PcdImages : public FrameImageReader
   }
 
  private:
-  std::optional<mrpt::img::TCamera> camera_;
+  std::optional<CloudCamera> camera_;
 };
 
 /** A name that is a number with a point is a time [s].
@@ -245,9 +253,10 @@ FolderContent readPcdFolder(const std::string& folder, const FrameFolderOptions&
   content.pairing = "of one cloud";
   if (options.camera.empty())
   {
-    content.camera.color = cameraOfFirst(content.frames);
-    content.camera.origin = "the first cloud";
-    content.images = std::make_shared<PcdImages>(content.camera.color);
+    const CloudCamera known = cameraOfFirst(content.frames);
+    content.camera.color = known.camera;
+    content.camera.origin = fs::path(known.file).filename().string();
+    content.images = std::make_shared<PcdImages>(known);
   }
   else
   {
