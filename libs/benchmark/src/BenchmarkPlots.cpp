@@ -95,14 +95,15 @@ Picture mapPlotOf(const BenchmarkResult& run)
       readTumTrajectory(inFolder(run, "trajectory.tum")));
 }
 
-/** Values of a figure by label, for one method. */
+/** Values of a figure by label, for one method. Random rooms are not among them, as they are mapped
+ * with one method alone. */
 std::map<std::string, MeanAndSpread> byClass(
     const BenchmarkResults& results, const std::string& method, const std::string& figure)
 {
   std::map<std::string, MeanAndSpread> values;
   for (const auto& run : results.done)
-    if (run.job.kind == BenchmarkKind::Simulated && run.job.poses == "rawlog" &&
-        run.job.method == method)
+    if (run.job.kind == BenchmarkKind::Simulated && run.job.subject != kRandomRooms &&
+        run.job.poses == "rawlog" && run.job.method == method)
       for (const auto& match : run.matches)
         if (const auto found = match.figures.find(figure); found != match.figures.end())
           values[match.label].add(found->second);
