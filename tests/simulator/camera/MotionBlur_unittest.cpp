@@ -51,18 +51,46 @@ TEST(MotionBlur, DoesNothingStandingStill)
   EXPECT_NEAR(0, frame.blur, 1e-9);
 }
 
+/** The rim of a dark board (grey 6) before a light wall (grey 73 to 90) in the middle row. */
+struct Rim
+{
+  explicit Rim(const SimulatedFrame& frame)
+  {
+    for (int u = 0; u < 160; ++u)
+    {
+      const int grey = frame.scan->intensityImage.at<std::uint8_t>(u, 60, 0);
+      dark += grey < 40 ? 1 : 0;
+      between += grey > 12 && grey < 70 ? 1 : 0;
+    }
+  }
+  int dark = 0, between = 0;  // pixels
+};
+
 TEST(MotionBlur, FollowsTheCameraThatWalks)
 {
-  Scene scene = sceneFromText(kRoomText);
+  // It walks aside in its second quarter, past the rim of a dark board.
+  Scene scene = sceneFromText(
+      kRoomText +
+      "[object board]\nlabel = tv\nposition = 2.5 1.5 0\npart1 = box 0 0 1.3 0.1 2.9 2.6 screen\n");
+  for (auto& waypoint : scene.waypoints) waypoint.target = waypoint.eye + Eigen::Vector3d(2, 0, 0);
   scene.options.resize(160, 120);
-  scene.options.camera.exposure = 0.1;
+  scene.options.camera.colorNoise = 0;
   scene.options.trajectory.duration = 2;
+  scene.options.trajectory.frames = 20;
+  scene.options.camera.exposure = 0.1;  // to the next frame
   const Simulator blurred(scene, LabelTable::installed(), 1);
   scene.options.camera.exposure = 0;
   const Simulator sharp(scene, LabelTable::installed(), 1);
-  const auto a = blurred.frame(1), b = sharp.frame(1);
+  constexpr std::size_t kAside = 7;
+  const auto a = blurred.frame(kAside), b = sharp.frame(kAside);
+  const Rim before(b), after(sharp.frame(kAside + 1));
+  const int moved = after.dark - before.dark;
+  EXPECT_GE(moved, 5) << "or the test says nothing";
+  EXPECT_LE(before.between, 1);
+  EXPECT_NEAR(moved - 1, Rim(a).between, 1.5) << "[px]";
   EXPECT_EQ(a.scan->rangeImage, b.scan->rangeImage) << "depth is not blurred";
-  EXPECT_EQ(blurred.truePoses()[1].asString(), sharp.truePoses()[1].asString()) << "nor the way";
+  EXPECT_EQ(blurred.truePoses()[kAside].asString(), sharp.truePoses()[kAside].asString())
+      << "nor the way";
 }
 
 }  // namespace
