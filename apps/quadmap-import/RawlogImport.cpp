@@ -136,12 +136,11 @@ void writeFrame(
 {
   const auto time = frame.scan->timestamp;
   if (frame.T_world_robot) writer.writePose(time, kGroundTruthLabel, *frame.T_world_robot);
-  if (T_odom_robot && options.posesAs != PosesAs::None)
-  {
-    const bool isOdometry = options.posesAs == PosesAs::Odometry;
+  const bool isOdometry = options.posesAs == PosesAs::Odometry;
+  const bool hasTruth = options.posesAs == PosesAs::GroundTruth && frame.T_world_robot;
+  if (T_odom_robot && !hasTruth && options.posesAs != PosesAs::None)
     writer.writePose(time, isOdometry ? kOdometryLabel : kGroundTruthLabel, *T_odom_robot);
-    ++report.poses;
-  }
+  if (hasTruth || (T_odom_robot && options.posesAs != PosesAs::None)) ++report.poses;
   writer.write(*frame.scan);
   ++report.frames;
   if (!frame.objects) return;

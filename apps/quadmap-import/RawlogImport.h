@@ -11,7 +11,9 @@ namespace quadmap
 /** Which frames of a rawlog are taken. */
 struct RawlogImportOptions
 {
-  PosesAs posesAs = PosesAs::Odometry;  //!< What its odometry becomes; true poses stay true poses
+  /** What its odometry becomes. True poses stay true poses, and a frame that has one gets no other.
+   */
+  PosesAs posesAs = PosesAs::Odometry;
   /** File with the poses of the robot (TUM form), instead of its odometry; may be empty. */
   std::string trajectory;
   std::size_t every = 1;   //!< Only every n-th frame of each sensor, >= 1

@@ -151,12 +151,13 @@ void reportMissingDetections(
   std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
 }
 
-/** Frames without a pose are mapped only where the poses around them are known. */
-void reportMissingPoses(const FrameFolder& folder, const FolderImportReport& report)
+/** Frames without a pose are mapped only where the poses around them are known.
+ *  \param poses Where the poses are from. */
+void reportMissingPoses(const std::string& poses, const FolderImportReport& report)
 {
-  if (!folder.poses().empty() && report.poses < report.frames)
+  if (report.poses < report.frames)
     std::cerr << "quadmap-import: warning: " << report.frames - report.poses << " of "
-              << report.frames << " frames have no pose in " << oneLine(folder.poses()) << "\n";
+              << report.frames << " frames have no pose in " << oneLine(poses) << "\n";
 }
 
 RawlogWriter writerOf(Cli& cli)
@@ -193,7 +194,8 @@ void import(const FrameFolder& folder, Cli& cli)
   if (report.frames == 0)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
   reportMissingDetections(folder, report, options.keepGoing);
-  if (options.posesAs != PosesAs::None) reportMissingPoses(folder, report);
+  if (options.posesAs != PosesAs::None && !folder.poses().empty())
+    reportMissingPoses(folder.poses(), report);
   writer.finish();
   tellWritten(report, cli);
 }
@@ -205,6 +207,8 @@ int importFromRawlog(Cli& cli)
     throw cli::UsageError(
         "--detections, --labels, --camera: not for a rawlog, whose boxes are in "
         "NAME.objects.rawlog and whose cameras are in its records");
+  if (cli.trajectory.isSet() && posesAs(cli.posesAs.getValue()) == PosesAs::None)
+    throw cli::UsageError("--trajectory: has the poses that --poses-as none leaves out");
   const std::string& rawlog = cli.source.getValue();
   if (cli.check.getValue()) return checkRawlog(rawlog, std::cout, cli::ProgressBar()) ? 0 : 1;
   RawlogImportOptions options;
@@ -215,6 +219,10 @@ int importFromRawlog(Cli& cli)
   RawlogWriter writer = writerOf(cli);
   const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
   tellDropped(report);
+  // A rawlog may have no poses at all, as a folder, but a trajectory is given for the sake of them.
+  const bool hasPoses = report.poses > 0 || cli.trajectory.isSet();
+  if (options.posesAs != PosesAs::None && hasPoses)
+    reportMissingPoses(cli.trajectory.isSet() ? options.trajectory : rawlog, report);
   writer.finish();
   tellWritten(report, cli);
   return 0;
@@ -249,11 +257,12 @@ int importFromCamera(Cli& cli)
   return importCamera(request);
 }
 
+/** Whether a source has the name of a rawlog, which may be compressed. */
 bool isRawlog(const std::string& source)
 {
-  std::error_code ignored;  // of names that are too long
-  return std::filesystem::is_regular_file(source, ignored) ||
-         std::filesystem::path(source).extension() == ".rawlog";
+  std::filesystem::path name(source);
+  if (name.extension() == ".gz") name.replace_extension();
+  return name.extension() == ".rawlog";
 }
 
 int run(Cli& cli)
@@ -271,8 +280,8 @@ int run(Cli& cli)
   if (kind == kOpenNi2) return importFromCamera(cli);
   cli.camera.requireNone();
   const std::string& source = cli.source.getValue();
-  if (kind == kAuto) kind = isRawlog(source) ? kRawlog : kindOfFolder(source);
   if (kind == kRawlog) return importFromRawlog(cli);
+  if (kind == kAuto) kind = kindOfFolder(source);
   FrameFolderOptions reading;
   reading.detections = cli.detections.getValue();
   reading.labels = cli.labels.getValue();

@@ -223,6 +223,39 @@ TEST_F(QuadmapImport, TakesPosesAsAsked)
   EXPECT_FALSE(frame.T_world_robot || frame.T_odom_robot);
 }
 
+TEST_F(QuadmapImport, TruePosesOfARawlogStay)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);
+  std::string elsewhere;
+  for (int i = 0; i < SampleRecording::kFrames; ++i) elsewhere += SampleRecording::pose(i, 7);
+  recording_.files.write("odometry.tum", elsewhere);
+  const auto result = run(
+      "rawlog OUT/x.rawlog -o OUT/y.rawlog --poses-as ground-truth --trajectory IN/odometry.tum");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("6 frames, 6 poses as ground-truth"), kNotFound) << result.out;
+  const auto before = readAll(out_.path("x.rawlog")), after = readAll(out_.path("y.rawlog"));
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    ASSERT_TRUE(after[i].T_world_robot);
+    EXPECT_LT((*after[i].T_world_robot - *before[i].T_world_robot).norm(), 1e-9);
+    EXPECT_FALSE(after[i].T_odom_robot);
+  }
+}
+
+TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  EXPECT_EQ(run("rawlog OUT/x.rawlog -o OUT/y.rawlog").err, "") << "it has none at all";
+  recording_.files.write("start.tum", SampleRecording::pose(0, 0) + SampleRecording::pose(1, 0.05));
+  const auto result = run("auto OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/start.tum");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("warning: 4 of 6 frames have no pose in "), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("start.tum"), kNotFound) << result.err;
+}
+
 TEST_F(QuadmapImport, TakesEveryNthFrameAndOtherDetections)
 {
   const TemporaryFolder detections;
@@ -386,7 +419,8 @@ TEST_F(QuadmapImport, WrongUsageIsStatus2)
         "tum IN -o OUT/x.rawlog --every -1", "tum IN -o OUT/x.rawlog --every two",
         "tum IN -o OUT/x.rawlog --poses-as truth", "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o",
         "tum IN --check --max-gap -1", "tum IN --check --max-speed 0",
-        "openni2 live -o OUT/x.rawlog --labels IN/x"})
+        "openni2 live -o OUT/x.rawlog --labels IN/x",
+        "rawlog x.rawlog -o OUT/x.rawlog --trajectory IN/groundtruth.txt --poses-as none"})
   {
     const auto result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
