@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "PluggedCamera.h"
 
@@ -207,7 +208,11 @@ TEST_F(ImportOpenNi2, TellsThatARecordingWasCutOff)
   expectRefusal(cut(20), 1, "cut.oni: OpenNI2 cannot open it: it is no recording, or was cut off");
   ASSERT_EQ(importOni(oni).status, 0);
   const std::size_t all = frames().size();
-  cut(98);  // without the tables at its end
+  std::filesystem::remove(rawlog());
+  const auto result = cut(98);  // without the tables at its end
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err.find("cut off"), kNotFound) << "no image is missing: " << result.err;
+  EXPECT_NE(result.out.find(std::to_string(all) + " frames written"), kNotFound) << result.out;
   const auto written = frames();
   EXPECT_EQ(written.size(), all);
   for (const auto& frame : written) numberOf(frame);
