@@ -140,8 +140,8 @@ endfunction()
 
 # quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ... [LIGHT] [EACH_CASE]): a GoogleTest program with the label
 # <name>. CTest runs its suites one by one, because the start of a program takes a fifth of a second, or its cases when
-# these take long. A case may take TIMEOUT seconds (120). With sanitizers the code of LIGHT tests, which compute little
-# themselves, is not optimised: that takes half as long to compile.
+# these take long. A case may take TIMEOUT seconds (120), a suite that and 10 s more for each of its cases. With
+# sanitizers the code of LIGHT tests, which compute little themselves, is not optimised: that takes half as long to compile.
 # The private headers of the libraries in INTERNALS are found from their src folders.
 # Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)

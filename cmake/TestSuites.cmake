@@ -1,14 +1,21 @@
 # Read by CTest: makes a test of each suite of a GoogleTest program, or of each case when `eachCase` is set. The list of
-# them is kept in the file `list` until the program changes. `timeout` is that of a case [s].
+# them is kept in the file `list` until the program, this file or the file that includes it changes. `timeout` is that of a
+# case [s]; a suite has 10 s more for each of its cases, as they are not all as long. A case of which GoogleTest says that it
+# was skipped is skipped for CTest, too, when it runs alone.
 
 # quadmap_append_test(<filter> <cases>): to `text`.
 macro(quadmap_append_test filter cases)
   if(${cases} GREATER 0)
     string(REGEX REPLACE "[.][*]$" "" name "${label}.${filter}")
-    math(EXPR seconds "${timeout} * ${cases}")
+    math(EXPR seconds "${timeout} + 10 * ${cases}")
+    set(skipped "")
+    if(eachCase)
+      set(seconds ${timeout})
+      set(skipped "SKIP_REGULAR_EXPRESSION [==[\\[  SKIPPED \\]]==]")
+    endif()
     # What may take longest starts first.
     string(APPEND text "add_test([==[${name}]==] [==[${program}]==] [==[--gtest_filter=${filter}]==])\n"
-      "set_tests_properties([==[${name}]==] PROPERTIES TIMEOUT ${seconds} LABELS ${label} COST ${seconds})\n")
+      "set_tests_properties([==[${name}]==] PROPERTIES TIMEOUT ${seconds} LABELS ${label} COST ${seconds} ${skipped})\n")
   endif()
 endmacro()
 
@@ -45,7 +52,8 @@ endfunction()
 if(NOT EXISTS ${program})
   add_test(${label}_NOT_BUILT ${program})
 else()
-  if(${program} IS_NEWER_THAN ${list})
+  if(${program} IS_NEWER_THAN ${list} OR ${CMAKE_CURRENT_LIST_FILE} IS_NEWER_THAN ${list}
+      OR ${CMAKE_PARENT_LIST_FILE} IS_NEWER_THAN ${list})
     quadmap_write_tests()
   endif()
   include(${list})
