@@ -32,7 +32,8 @@ void writeDenseClouds(
   if (!wanted.objectClouds) return;
   cli::ProgressBar bar;
   const auto found = findObjectPoints(result, objects, options, [&](double share) { bar(share); });
-  if (std::all_of(found.begin(), found.end(), [](const auto& one) { return one.cloud.empty(); }))
+  const auto isEmpty = [](const auto& one) { return one.cloud.empty(); };
+  if (!found.empty() && std::all_of(found.begin(), found.end(), isEmpty))
     throw std::runtime_error(
         result + ": --object-clouds found no points of any of its " +
         std::to_string(objects.size()) + " objects");

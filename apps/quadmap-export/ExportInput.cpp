@@ -1,8 +1,10 @@
 #include "ExportInput.h"
 
 #include <filesystem>
+#include <iostream>
 #include <stdexcept>
 
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 #include "quadmap/maps/MapFile.h"
 #include "quadmap/maps/ObjectRecords.h"
@@ -36,6 +38,8 @@ std::vector<ObjectRecord> readTruth(const ExportInput& input)
   alignment.estimate = input.path;
   alignment.trueTrajectoryPath = input.trajectoryPath;
   const EvaluationReport aligned = evaluateRun(alignment);
+  for (const std::string& note : aligned.notes)
+    std::cerr << "quadmap-export: note: " << oneLine(note) << "\n";
   const mrpt::poses::CPose3D T_map_truth = -aligned.T_truth_estimated;
   for (ObjectRecord& record : truth)
   {
