@@ -66,6 +66,7 @@ TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
   const auto survey = surveyOdometry(file, {}, PoseSource::Auto);
   EXPECT_EQ(survey.source, PoseSource::Auto);
   EXPECT_EQ(survey.uselessKind, "");
+  EXPECT_EQ(survey.warning("a.rawlog"), "");
 }
 
 TEST(OdometrySurvey, TellsOfOdometryThatFitsNoImage)
@@ -81,6 +82,10 @@ TEST(OdometrySurvey, TellsOfOdometryThatFitsNoImage)
       surveyOdometry(writeObjects(folder.path("x.rawlog"), records), {}, PoseSource::Auto);
   EXPECT_EQ(survey.source, PoseSource::Visual);
   EXPECT_EQ(survey.uselessKind, "CObservationRobotPose odometry");
+  EXPECT_EQ(
+      survey.warning("a.rawlog"),
+      "a.rawlog: CObservationRobotPose odometry has no pose at the times of the first images (is a "
+      "clock wrong?): visual odometry replaces it");
 }
 
 TEST(OdometrySurvey, FindsUpFromTheFloorWhenThereIsNone)
