@@ -104,6 +104,13 @@ TEST(MirroredRecording, VisualOdometryMapsItAsTheOriginal)
   const double ate = expected["trajectory"]["ate_rmse_m"];
   EXPECT_LT(figures["trajectory"]["ate_rmse_m"], 1.5 * ate)
       << "flow rounds in another way upside down";
+  const auto page = runProgram(
+      "quadmap-export", folder.path("original") + " --html " + folder.path("x.html") + " --truth " +
+                            folder.path("mirrored.json") + " --trajectory " +
+                            folder.path("mirrored.tum"));
+  EXPECT_EQ(page.status, 0) << page.err;
+  EXPECT_NE(page.err.find("quadmap-export: note: The true world is left-handed"), std::string::npos)
+      << page.err;
   // The truth of the room judges its mirror image as well, and the other way round.
   for (const auto& [run, truth] : {
            std::pair("mirrored", "original"), {"original", "mirrored"}
