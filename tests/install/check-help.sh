@@ -21,6 +21,8 @@ completions() {
   )
 }
 
+# grep reads to the end here: with -q it would leave at the first match, and what still writes would fail.
+
 # check NAME [COMMAND]: one program, or one of its commands.
 check() {
   local name=$1 help manual options
@@ -43,23 +45,23 @@ for program in "$bin"/quadmap-*; do
     warnings=$(man --warnings -E UTF-8 -l -Tutf8 -Z <(gzip -dc "$share/man/man1/$name.1.gz") 2>&1 >/dev/null)
     [[ -z $warnings ]] || wrong "$name.1: $warnings"
   fi
-  gzip -dc "$share/man/man1/$name.1.gz" | grep -qE "^$name \\\\- [a-z].{20,}" || wrong "$name.1: no line for whatis"
+  gzip -dc "$share/man/man1/$name.1.gz" | grep -E "^$name \\\\- [a-z].{20,}" >/dev/null || wrong "$name.1: no line for whatis"
   commands=$("$program" --help | sed -n '/^Arguments:/,/^$/s/^  \([a-z|]*\)$/\1/p' | tr '|' ' ')
   if [[ -n $commands ]] && "$program" "${commands%% *}" --help >/dev/null 2>&1 &&
     [[ $("$program" "${commands%% *}" --help) == "Usage: $name ${commands%% *}"* ]]; then
     for command in $commands; do
       check "$name" "$command"
-      completions "$name" "" | grep -qx "$command" || wrong "$name: completion does not offer $command"
+      completions "$name" "" | grep -x "$command" >/dev/null || wrong "$name: completion does not offer $command"
     done
   else
     check "$name"
   fi
 done
 
-completions quadmap-slam --method "" | grep -qx quadric || wrong "no values of --method"
-completions quadmap-import "" | grep -qx tum || wrong "no formats of quadmap-import"
+completions quadmap-slam --method "" | grep -x quadric >/dev/null || wrong "no values of --method"
+completions quadmap-import "" | grep -x tum >/dev/null || wrong "no formats of quadmap-import"
 folder=$(mktemp -d)
 touch "$folder/a room.rawlog"
-(cd "$folder" && completions quadmap-slam "a") | grep -qx 'a room.rawlog' || wrong "no files"
+(cd "$folder" && completions quadmap-slam "a") | grep -x 'a room.rawlog' >/dev/null || wrong "no files"
 rm -r "$folder"
 exit $failed
