@@ -66,7 +66,7 @@ void expectSavesWithoutLoss(const std::string& section)
     }
     catch (const std::invalid_argument& e)
     {
-      ASSERT_NE(std::string(e.what()).find("must be > "), std::string::npos) << e.what();
+      ASSERT_NE(std::string(e.what()).find("must be >"), std::string::npos) << e.what();
       continue;  // the value contradicts another option
     }
     expectSameOptions(list, loaded.options(), section);

@@ -95,7 +95,7 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "estimated.");
   list.require(
       [&e = o.estimator] { return e.repeatedAnywhere <= e.repeatedThere; },
-      "repeatedAnywhere: must be <= repeatedThere");
+      "repeatedThere: must be >= repeatedAnywhere");
 }
 
 void describeExistence(InsertionOptions& o, OptionList& list)
