@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cloud/BoxSurroundings.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
@@ -68,8 +69,7 @@ std::optional<Eigen::Vector3d> seedWithoutCloud(const DepthCloud& cloud, const I
   const DepthsIn core(cloud, {box.x1 + w, box.y1 + h, box.x2 - w, box.y2 - h}, {});
   if (!core.tellNothing()) return Eigen::Vector3d(ray * quantile(core.depths, 0.3));
 
-  const double ring = std::max(8.0, 0.1 * std::max(box.width(), box.height()));
-  const DepthsIn around(cloud, {box.x1 - ring, box.y1 - ring, box.x2 + ring, box.y2 + ring}, box);
+  const DepthsIn around(cloud, withSurroundings(box), box);
   if (around.tellNothing()) return {};
   const auto onPlane = depthOnPlane(around, ray);
   return Eigen::Vector3d(ray * (onPlane ? *onPlane : quantile(around.depths, 0.25)));

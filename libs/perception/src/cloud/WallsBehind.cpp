@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cloud/BoxSurroundings.h"
 #include "support/SupportRing.h"
 
 namespace quadmap
@@ -27,13 +28,6 @@ TolerantPoints withTolerances(
   return out;
 }
 
-/** Width of what is looked at around a box, of its size. */
-constexpr double kRing = 0.15;
-double ringOf(const ImageBox& box)
-{
-  return std::max(8.0, kRing * std::max(box.width(), box.height()));
-}
-
 /** Points around a box, a regular sample, without floors and table tops. */
 TolerantPoints surroundings(
     const DepthCloud& cloud,
@@ -48,9 +42,7 @@ TolerantPoints surroundings(
         [&](int i) { return p.isOn(planes.plane(i).plane); });
   };
   constexpr int kStep = 3;  // cells
-  const double width = ringOf(box);
-  const auto outer =
-      cloud.cellsOf({box.x1 - width, box.y1 - width, box.x2 + width, box.y2 + width});
+  const auto outer = cloud.cellsOf(withSurroundings(box));
   const auto inner = cloud.cellsOf(box);
   TolerantPoints out;
   for (int r = outer.r0; r < outer.r1; r += kStep)
@@ -153,7 +145,7 @@ struct SeenEnds
   {
     const Eigen::Vector2d down = downInImage(camera, up, box);
     const bool isUpright = std::abs(down.y()) >= std::abs(down.x());
-    const double margin = 0.5 * ringOf(box);
+    const double margin = 0.5 * surroundingWidth(box);
     const bool before = (isUpright ? box.x1 : box.y1) - margin > 0;
     const bool after = isUpright ? box.x2 + margin < camera.width : box.y2 + margin < camera.height;
     const bool isMirrored = isUpright ? down.y() < 0 : down.x() > 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/BoxSurroundings.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
@@ -48,9 +49,7 @@ std::vector<RingPoint> ringAround(
     const ImageBox& box,
     const PerceptionOptions& options)
 {
-  const double reach = std::max(6.0, 0.12 * std::max(box.width(), box.height()));  // [px]
-  const auto outer =
-      cloud.cellsOf({box.x1 - reach, box.y1 - reach, box.x2 + reach, box.y2 + reach});
+  const auto outer = cloud.cellsOf(withSurroundings(box));
   const auto inner = cloud.cellsOf(box);
   const Eigen::Vector2d down = downInImage(cloud.camera(), planes.up, box);
   const double halfHeight =
