@@ -35,47 +35,64 @@ class RandomSolids
   int id_ = 0;
 };
 
-/** The point of a cuboid that is nearest to a point. */
-Eigen::Vector3d nearestPoint(const Ellipsoid& cuboid, const Eigen::Vector3d& p)
+/** A cuboid whose rotation is not computed anew for each point. */
+class Solid
 {
-  const Eigen::Matrix3d r = cuboid.rotation();
-  const Eigen::Vector3d local = r.transpose() * (p - cuboid.center());
-  const Eigen::Vector3d s = cuboid.semiAxes();
-  return cuboid.center() + r * local.cwiseMax(-s).cwiseMin(s);
-}
+ public:
+  explicit Solid(const Ellipsoid& cuboid) :
+      r_(cuboid.rotation()), center_(cuboid.center()), s_(cuboid.semiAxes())
+  {
+  }
+
+  const Eigen::Vector3d& center() const { return center_; }
+
+  Eigen::Vector3d nearestPoint(const Eigen::Vector3d& p) const
+  {
+    const Eigen::Vector3d local = r_.transpose() * (p - center_);
+    return center_ + r_ * local.cwiseMax(-s_).cwiseMin(s_);
+  }
+
+  bool holds(const Eigen::Vector3d& p) const { return (nearestPoint(p) - p).norm() < 1e-12; }
+
+  /** Does the upright cuboid hold the point at another height? */
+  bool isAboveOrBelow(const Eigen::Vector3d& p) const { return holds({p.x(), p.y(), center_.z()}); }
+
+  /** A point by its place between -1 and 1 along each semi-axis. */
+  Eigen::Vector3d at(const Eigen::Vector3d& place) const
+  {
+    return center_ + r_ * place.cwiseProduct(s_);
+  }
+
+ private:
+  Eigen::Matrix3d r_;
+  Eigen::Vector3d center_, s_;
+};
 
 /** The gap of two cuboids by going to and fro between their nearest points. */
-double gapBySearch(const Ellipsoid& a, const Ellipsoid& b)
+double gapBySearch(const Solid& a, const Solid& b)
 {
   Eigen::Vector3d p = a.center(), q = b.center();
   for (int i = 0; i < 3000; ++i)
   {
-    q = nearestPoint(b, p);
-    p = nearestPoint(a, q);
+    q = b.nearestPoint(p);
+    p = a.nearestPoint(q);
   }
   return (p - q).norm();
 }
 
-bool holds(const Ellipsoid& cuboid, const Eigen::Vector3d& p)
-{
-  return (nearestPoint(cuboid, p) - p).norm() < 1e-12;
-}
-
 /** Share of the points of one cuboid that fulfil a condition, by sampling. */
 template <typename F>
-double shareOf(const Ellipsoid& cuboid, F&& condition, int steps = 20)
+double shareOf(const Solid& solid, F&& condition, const Eigen::Array3i& steps = {20, 20, 20})
 {
   int fulfilled = 0;
-  for (int i = 0; i < steps; ++i)
-    for (int j = 0; j < steps; ++j)
-      for (int k = 0; k < steps; ++k)
+  for (int i = 0; i < steps.x(); ++i)
+    for (int j = 0; j < steps.y(); ++j)
+      for (int k = 0; k < steps.z(); ++k)
       {
-        const Eigen::Vector3d cell = (Eigen::Vector3d(i, j, k).array() + 0.5) * 2 / steps - 1;
-        const Eigen::Vector3d p =
-            cuboid.center() + cuboid.rotation() * cell.cwiseProduct(cuboid.semiAxes());
-        if (condition(p)) ++fulfilled;
+        const Eigen::Array3d cell = Eigen::Array3d(i, j, k) + 0.5;
+        if (condition(solid.at(cell * 2 / steps.cast<double>() - 1))) ++fulfilled;
       }
-  return fulfilled / std::pow(steps, 3);
+  return static_cast<double>(fulfilled) / steps.prod();
 }
 
 using Told = std::set<std::tuple<std::string, std::string, std::string>>;
@@ -98,7 +115,8 @@ TEST(RelationGeometry, GapIsTheSmallestDistanceOfTheCuboids)
   for (int i = 0; i < 60; ++i)
   {
     const Inventory two = inventoryWith({random.next("box"), random.next("box")});
-    const double expected = gapBySearch(two.items[0].record.object, two.items[1].record.object);
+    const double expected =
+        gapBySearch(Solid(two.items[0].record.object), Solid(two.items[1].record.object));
     const Geometry geometry(two);
     EXPECT_NEAR(geometry.gap(0, 1), expected, 1e-3) << i;
     EXPECT_DOUBLE_EQ(geometry.gap(0, 1), geometry.gap(1, 0));
@@ -122,10 +140,11 @@ TEST(RelationGeometry, FootprintsOverlapAsTheirPointsDo)
     };
     const double area = areaOf(footprint(a));
     EXPECT_NEAR(area, 4 * a.semiAxes().x() * a.semiAxes().y(), 1e-9);
-    const auto isOver = [&](const Eigen::Vector3d& p) {
-      return holds(b, {p.x(), p.y(), b.center().z()});
-    };
-    EXPECT_NEAR(sharedArea(footprint(a), footprint(b)) / area, shareOf(a, isOver, 60), 0.03) << i;
+    const Solid below(b);
+    const auto isOver = [&](const Eigen::Vector3d& p) { return below.isAboveOrBelow(p); };
+    EXPECT_NEAR(
+        sharedArea(footprint(a), footprint(b)) / area, shareOf(Solid(a), isOver, {60, 60, 1}), 0.03)
+        << i;
   }
 }
 
@@ -145,12 +164,10 @@ TEST(RelationGeometry, OnAndInAgreeWithSampledPoints)
         above.record.id, "box", {0.6 * c.x(), 0.6 * c.y(), bottom + s.z()}, 2 * s,
         above.record.object.pose().yaw());
     const Ellipsoid &a = above.record.object, &b = below.record.object;
+    const Solid one(a), other(b);
     const double over = shareOf(
-        a,
-        [&](const Eigen::Vector3d& p) {
-          return holds(b, {p.x(), p.y(), b.center().z()});
-        });
-    const double inside = shareOf(a, [&](const Eigen::Vector3d& p) { return holds(b, p); });
+        one, [&](const Eigen::Vector3d& p) { return other.isAboveOrBelow(p); }, {20, 20, 1});
+    const double inside = shareOf(one, [&](const Eigen::Vector3d& p) { return other.holds(p); });
     const double tolerance = std::min(0.05, std::max(0.02, b.semiAxes().z() / 2));
     if (std::abs(over - 0.5) < 0.06 || std::abs(inside - 0.5) < 0.06) continue;
 
