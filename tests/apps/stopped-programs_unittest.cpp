@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "../detection/TinyDetector.h"
+#include "../folders/SampleRecording.h"
 #include "RunProgram.h"
 
 extern char** environ;
@@ -151,6 +152,29 @@ TEST_F(StoppedPrograms, ASimulationThatASignalEndsChangesNothing)
     program.send(signal);
     EXPECT_EQ(program.wait(), 128 + signal);
     EXPECT_EQ(folder_.fileCount(), 0u) << signal;
+  }
+}
+
+TEST_F(StoppedPrograms, AnImportThatASignalEndsChangesNothing)
+{
+  const SampleRecording recording;
+  constexpr int kFrames = 100000;
+  std::string associations;
+  for (int i = 0; i < kFrames; ++i)
+    associations += SampleRecording::line(
+        i % SampleRecording::kFrames, SampleRecording::kStart + SampleRecording::kInterval * i);
+  recording.files.write("associations.txt", associations);
+  folder_.write("x.rawlog", "as before");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  {
+    const auto before = bytesIn(folder_.folder());
+    const auto program = start(
+        "quadmap-import", {"tum", recording.folder(), "-o", folder_.path("x.rawlog"), "--force"});
+    waitUntil([&] { return bytesIn(folder_.folder()) > before; });
+    program.send(signal);
+    EXPECT_EQ(program.wait(), 128 + signal) << log();
+    EXPECT_EQ(readFile(folder_.path("x.rawlog")), "as before");
+    EXPECT_EQ(folder_.fileCount(), 1u) << signal;
   }
 }
 
