@@ -13,7 +13,7 @@ TEST(NoisyOdometry, IsFoundOutAndTrustedLess)
 {
   const TemporaryFolder folder;
   auto scene = simulator::readScene(simulator::findScene("corridor"));
-  scene.options.resize(320, 240);
+  scene.options.resize(240, 180);
   simulator::NoiseFactors factors;
   factors.odometry = 6;
   scene.options.scaleNoise(factors);

@@ -20,7 +20,7 @@ class SeveralFloors : public testing::TestWithParam<const char*>
   EvaluationReport map(const std::string& name, int frames) const
   {
     auto scene = simulator::readScene(simulator::findScene(name));
-    scene.options.resize(320, 240);
+    scene.options.resize(240, 180);
     scene.options.trajectory.frames = frames;
     simulator::simulateToFiles(
         simulator::Simulator(scene, LabelTable::installed(), 1), folder_.path("a.rawlog"));
