@@ -61,7 +61,7 @@ build_targets() {
   local strict=OFF
   [[ ${CI:-false} == false ]] || strict=ON
   say "configuring $build"
-  (cd "$root" && quietly configure cmake --preset release -DQUADMAP_WARNINGS_AS_ERRORS=$strict)
+  (cd "$root" && quietly configure cmake --preset release -DQUADMAP_WARNINGS_AS_ERRORS=$strict -DQUADMAP_TOGETHER=ON)
   say "building $* ($(parallel_jobs) jobs)"
   if [[ -t 1 ]]; then
     cmake --build "$build" --target "$@" -- -j "$(parallel_jobs)" || fail "the build failed"

@@ -99,10 +99,8 @@ function(quadmap_add_library name)
     set_target_properties(quadmap_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
     target_compile_options(quadmap_${name} PRIVATE -Wno-shadow)
   endif()
-  if(QUADMAP_SANITIZE)
-    # Otherwise templates that a test instantiates, too, would be those of the test, which is not optimised.
-    target_link_options(quadmap_${name} PRIVATE -Wl,-Bsymbolic-functions)
-  endif()
+  # Otherwise templates that a test instantiates, too, would be those of the test, which is not optimised.
+  target_link_options(quadmap_${name} PRIVATE -Wl,-Bsymbolic-functions)
   install(TARGETS quadmap_${name} EXPORT quadmap-${name}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib NAMELINK_COMPONENT dev)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
@@ -140,8 +138,8 @@ endfunction()
 
 # quadmap_add_test(<name> SOURCES ... LINK ... INTERNALS ... [LIGHT] [EACH_CASE]): a GoogleTest program with the label
 # <name>. CTest runs its suites one by one, because the start of a program takes a fifth of a second, or its cases when
-# these take long. A case may take TIMEOUT seconds (120), a suite that and 10 s more for each of its cases. With
-# sanitizers the code of LIGHT tests, which compute little themselves, is not optimised: that takes half as long to compile.
+# these take long. A case may take TIMEOUT seconds (120), a suite that and 10 s more for each of its cases. The
+# code of LIGHT tests, which compute little themselves, is not optimised: that takes half as long to compile.
 # The private headers of the libraries in INTERNALS are found from their src folders.
 # Tests find their fixtures in QUADMAP_SOURCE_DIR/tests, the programs in QUADMAP_BIN_DIR.
 function(quadmap_add_test name)
@@ -158,9 +156,9 @@ function(quadmap_add_test name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/libs/${library}/src)
   endforeach()
   quadmap_target_options(${name})
-  if(QUADMAP_SANITIZE AND arg_LIGHT)
+  if(arg_LIGHT)
     quadmap_reuse_precompiled(${name} quadmap_light_test_headers)
-    target_compile_options(${name} PRIVATE -O0)
+    target_compile_options(${name} PRIVATE ${QUADMAP_LIGHT_TEST_OPTIONS})
   else()
     quadmap_reuse_precompiled(${name} quadmap_test_headers)
     target_compile_options(${name} PRIVATE ${QUADMAP_TEST_OPTIONS})
