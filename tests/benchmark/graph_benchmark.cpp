@@ -94,8 +94,8 @@ std::vector<std::optional<ObjectId>> associate(
   return ids;
 }
 
-/** 1,000 keyframes, 100 objects, 10,000 measurements, five rounds. */
-void finalRounds()
+/** 1,000 keyframes and 100 objects. */
+GraphWorld::Size largeWorld()
 {
   GraphWorld::Size size;
   size.objects = 100;
@@ -104,12 +104,55 @@ void finalRounds()
   size.radius = 12;
   size.maxRange = 12;
   size.stepAngle = 0.0005;
-  GraphWorld world(2, size);
+  return size;
+}
+
+/** 10,000 measurements. */
+std::vector<Measured> measurementsOf(GraphWorld& world)
+{
   std::vector<Measured> measured;
   for (std::size_t k = 0; k < world.truth.size(); ++k)
     for (std::size_t i = 0; i < world.objects.size(); ++i)
       if (world.visible(k, i) && (3 * i + k) % 40 < 27)
         measured.push_back({k, i, world.view(k, i)});
+  return measured;
+}
+
+/** Poses and objects without measurements. */
+void addWorld(
+    FactorGraph& graph,
+    const GraphWorld& world,
+    const std::vector<CPose3D>& poses,
+    const std::vector<std::optional<Ellipsoid>>& objects)
+{
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    graph.addPose(poses[k]);
+    if (k > 0)
+      graph.addStep(k - 1, k, world.stepDistribution(world.odometry[k] - world.odometry[k - 1]));
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    graph.setObject(
+        static_cast<ObjectId>(i + 1), objects[i].value_or(world.objects[i]), world.label());
+}
+
+void printMarginals(FactorGraph& graph)
+{
+  const double begin = cpu_s();
+  const std::size_t objects = graph.marginals(0, true).objects.size();
+  const double ofObjects = cpu_s();
+  std::printf("marginals of %zu objects: %.2f s\n", objects, ofObjects - begin);
+  const std::size_t poses = graph.poseMarginals().size(), edges = graph.graphEdges().size();
+  std::printf(
+      "marginals of %zu poses and %zu edges of the pose graph: %.2f s\n", poses, edges,
+      cpu_s() - ofObjects);
+}
+
+/** Five rounds of association and optimisation. */
+void finalRounds()
+{
+  GraphWorld world(2, largeWorld());
+  const std::vector<Measured> measured = measurementsOf(world);
   std::vector<CPose3D> poses = world.odometry;
   std::vector<std::optional<Ellipsoid>> objects(world.objects.size());
   for (const auto& m : measured)
@@ -123,15 +166,7 @@ void finalRounds()
   for (int round = 1; round <= 5; ++round)
   {
     FactorGraph graph(options());
-    for (std::size_t k = 0; k < poses.size(); ++k)
-    {
-      graph.addPose(poses[k]);
-      if (k > 0)
-        graph.addStep(k - 1, k, world.stepDistribution(world.odometry[k] - world.odometry[k - 1]));
-    }
-    for (std::size_t i = 0; i < objects.size(); ++i)
-      graph.setObject(
-          static_cast<ObjectId>(i + 1), objects[i].value_or(world.objects[i]), world.label());
+    addWorld(graph, world, poses, objects);
     const double begin = cpu_s();
     const auto ids = associate(graph, measured, objects.size());
     std::size_t wrong = 0;
@@ -149,15 +184,7 @@ void finalRounds()
     std::printf(
         "%5d %12.2f %16.2f %12d %7zu %11.3f\n", round, associated - begin, done - associated,
         summary.iterations, wrong, positionError(world.truth, [&](auto k) { return poses[k]; }));
-    if (round != 5) continue;
-    const auto marginals = graph.marginals(0, true);
-    const double ofObjects = cpu_s();
-    std::printf("marginals of %zu objects: %.2f s\n", marginals.objects.size(), ofObjects - done);
-    const std::size_t poseMarginals = graph.poseMarginals().size(),
-                      edges = graph.graphEdges().size();
-    std::printf(
-        "marginals of %zu poses and %zu edges of the pose graph: %.2f s\n", poseMarginals, edges,
-        cpu_s() - ofObjects);
+    if (round == 5) printMarginals(graph);
   }
   std::printf(
       "total: %.2f s; odometry alone %.3f m\n", cpu_s() - start,
