@@ -6,13 +6,13 @@
 #include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/estimation/LabelPrior.h"
 #include "quadmap/estimation/NormalEquations.h"
+#include "quadmap/estimation/RobustKernel.h"
 #include "quadmap/geometry/RotationDistance.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr double kKernel = 4.3;  // c of doc/mathematics.md, (19.6): chi of 7 numbers, 99 %
 constexpr Eigen::Index kYaw = 3;
 
 using ByPlace = Eigen::Matrix<double, 7, 4>;
@@ -112,7 +112,7 @@ class JointObject
   }
 
   /** doc/mathematics.md, (25.6). */
-  double weight() const { return 1 / (1 + distance_ * distance_ / (kKernel * kKernel)); }
+  double weight() const { return RobustKernel::cauchy(kObjectKernel).weight(distance_); }
   const Eigen::Matrix4d& ofPlace() const { return ofPlace_; }
   const Eigen::Vector4d& gOfPlace() const { return gOfPlace_; }
 

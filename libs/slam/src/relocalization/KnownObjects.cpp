@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "quadmap/estimation/AxisRenaming.h"
+#include "quadmap/estimation/RobustKernel.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr double kKernel = 4.3;       // c of doc/mathematics.md, (19.6): chi of 7 numbers, 99 %
 constexpr double kAnyYaw = 2 * M_PI;  // sigma of a yaw that means nothing [rad]
 
 struct Known
@@ -53,7 +53,7 @@ ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma
   Eigen::Map<UprightState>(prior.at.data()) = known.state;
   prior.L = 0.5 * (L + L.transpose());
   prior.g = Eigen::VectorXd::Zero(7);
-  prior.cauchy = kKernel;
+  prior.cauchy = kObjectKernel;
   return prior;
 }
 
