@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "quadmap/geometry/Projection.h"
 #include "quadmap/geometry/ViewAngles.h"
 
 namespace quadmap
@@ -72,8 +73,7 @@ void weakenCutFaces(
     const mrpt::poses::CPose3D& T_map_sensor,
     ObjectView& view)
 {
-  constexpr double kLooksOut = 0.25;  // cosine between outward normal and the edge's outside
-  constexpr double kReaches = 0.03;   // distance to the edge's plane as a share of the range
+  constexpr double kReaches = 0.03;  // distance to the edge's plane as a share of the range
   const Ellipsoid cuboid(
       mrpt::poses::CPose3D(view.center.x(), view.center.y(), view.center.z(), view.yaw, 0, 0),
       view.halfSizes);
@@ -86,7 +86,7 @@ void weakenCutFaces(
     for (std::size_t f = 0; f < kFaces; ++f)
     {
       if (view.faces[f].kind != FaceKind::Measured) continue;
-      if (-plane.n.dot(view.faceNormal(f)) < kLooksOut) continue;
+      if (!looksOver(plane, view.faceNormal(f))) continue;
       double nearest = std::numeric_limits<double>::infinity();
       for (Eigen::Index c = 0; c < 8; ++c)
         if (view.faceNormal(f).dot(corners.col(c)) > view.faceOffset(f) - 1e-6)

@@ -11,13 +11,6 @@ namespace quadmap
 {
 namespace
 {
-bool sameCalibration(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b)
-{
-  constexpr double kSamePixel = 1e-3;  // [px]
-  const Eigen::Matrix3d off = a.intrinsicParams.asEigen() - b.intrinsicParams.asEigen();
-  return off.allFinite() && off.cwiseAbs().maxCoeff() < kSamePixel;
-}
-
 /** Images without distortion are those of any model whose coefficients are 0. */
 bool sameDistortion(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b)
 {
@@ -35,6 +28,13 @@ bool sameDistortion(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b)
 }
 
 }  // namespace
+
+bool sameCalibration(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b)
+{
+  constexpr double kSamePixel = 1e-3;  // [px]
+  const Eigen::Matrix3d off = a.intrinsicParams.asEigen() - b.intrinsicParams.asEigen();
+  return off.allFinite() && off.cwiseAbs().maxCoeff() < kSamePixel;
+}
 
 void requireCalibration(const mrpt::img::TCamera& camera, const std::string& whose)
 {

@@ -8,12 +8,11 @@ namespace quadmap
 mrpt::poses::CPose3DPDFGaussian gaussianOf(
     const Eigen::Isometry3d& T_from_to, const Matrix6& covarianceInFrom)
 {
-  constexpr double kLeastCosine = 1e-3;  // of the pitch, as 90 degrees leave yaw undefined
   mrpt::poses::CPose3DPDFGaussian result(poseOf(T_from_to));
   Matrix6 J = Matrix6::Zero();
   J.topLeftCorner<3, 3>().setIdentity();
   J.topRightCorner<3, 3>() = -crossMatrix(T_from_to.translation());
-  J.bottomRightCorner<3, 3>() = anglesPerTurn(result.mean, kLeastCosine);
+  J.bottomRightCorner<3, 3>() = anglesPerTurn(result.mean);
   result.cov = (J * covarianceInFrom * J.transpose()).eval();
   return result;
 }

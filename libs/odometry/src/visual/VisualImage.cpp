@@ -9,6 +9,7 @@
 #include "FlowSettings.h"
 #include "RigidMotion.h"
 #include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/obs/FrameAgreement.h"
 
 namespace quadmap
 {
@@ -46,11 +47,8 @@ bool hasGray(const CObservation3DRangeScan& scan)
 bool isRegistered(const CObservation3DRangeScan& scan)
 {
   const auto &a = scan.cameraParams, &b = scan.cameraParamsIntensity;
-  constexpr double kSamePixel = 1e-3;  // [px]
-  const double difference =
-      (a.intrinsicParams.asEigen() - b.intrinsicParams.asEigen()).cwiseAbs().maxCoeff();
   return scan.doDepthAndIntensityCamerasCoincide() && a.ncols == b.ncols && a.nrows == b.nrows &&
-         difference < kSamePixel;
+         sameCalibration(a, b);
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kCentrality = 0.35;  // spread of the weights over the box, share of its size
 
 /** Weights exp(-((i - middle) / sigma)^2 / 2) of i = first ... last - 1. */
 std::vector<double> gaussian(int first, int last, double middle, double sigma)

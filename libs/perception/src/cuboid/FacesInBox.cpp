@@ -8,7 +8,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kLooksOut = 0.25;      // cosine between a face's normal and the outside of an edge
 constexpr double kMaxTolerances = 3.0;  // that an edge may lie outside the cuboid
 constexpr double kMaxShare = 0.05;      // added to these, as a share of the box's size
 
@@ -35,7 +34,7 @@ CompleteMeasurement weakenFacesInsideBox(
     {
       const Eigen::Vector3d n = (f % 2 == 0 ? 1.0 : -1.0) * R.col(static_cast<Eigen::Index>(f / 2));
       FaceKind& kind = complete.faces[f].kind;
-      if (kind == FaceKind::Measured && -planes[e].n.dot(n) > kLooksOut) kind = FaceKind::AtLeast;
+      if (kind == FaceKind::Measured && looksOver(planes[e], n)) kind = FaceKind::AtLeast;
     }
   }
   return complete;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportEvidence.h"
 #include "support/SupportRing.h"
 
@@ -215,7 +216,6 @@ Tops addTops(
     ScenePlanes& planes,
     const PerceptionOptions& options)
 {
-  constexpr double kSameHeight = 0.02;  // [m]
   Tops tops;
   for (std::size_t lower = 0; lower < boxes.size(); ++lower)
   {

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "cloud/Cluster.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -146,7 +147,6 @@ RoughObject roughObject(
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
-  constexpr double kCentrality = 0.35;  // spread of the weight over the box, share of its size
   const ImageBox box = detection.box.clipped(cloud.camera().width, cloud.camera().height);
   const auto range = cloud.cellsOf(box);
   RoughObject out;

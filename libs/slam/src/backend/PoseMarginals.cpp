@@ -9,11 +9,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 std::optional<mrpt::math::CMatrixDouble66> covarianceOfPose(
     const mrpt::poses::CPose3D& T_map_robot, const Matrix6& covarianceOfStep)
 {
-  constexpr double kLeastCosine = 1e-3;  // of the pitch, 0.06 deg off straight down
-  if (std::abs(std::cos(T_map_robot.pitch())) < kLeastCosine) return std::nullopt;
+  if (std::abs(std::cos(T_map_robot.pitch())) < kLeastPitchCosine) return std::nullopt;
   Matrix6 J = Matrix6::Zero();
   J.topRightCorner<3, 3>().setIdentity();
-  J.bottomLeftCorner<3, 3>() = anglesPerTurn(T_map_robot, kLeastCosine);
+  J.bottomLeftCorner<3, 3>() = anglesPerTurn(T_map_robot);
   const Matrix6 covariance = J * covarianceOfStep * J.transpose();
   return mrpt::math::CMatrixDouble66(Matrix6(0.5 * (covariance + covariance.transpose())));
 }

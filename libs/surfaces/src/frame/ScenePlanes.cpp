@@ -30,7 +30,7 @@ void setMainHeight(ScenePlane& plane, const HorizontalFit& fit, const SurfaceOpt
  * and each piece alone is too small to tell the slope that they all have. */
 void alignFloorPieces(ScenePlanes& planes, const SurfaceOptions& options)
 {
-  constexpr double kSameHeight = 0.02, kMaxSlope = 0.015;  // [m], [rad]
+  constexpr double kMaxSlope = 0.015;  // [rad]
   const ScenePlane& floor = planes.plane(*planes.floor);
   std::vector<int> pieces;
   std::vector<Eigen::Vector3d> points;
@@ -99,8 +99,7 @@ KnownSurface knownSurfaceIn(
     const SurfaceOptions& options)
 {
   const Plane& known = patch.plane;
-  constexpr double kPoseError = 0.05;   // of its height [m]
-  constexpr double kSameHeight = 0.02;  // of two planes of one frame [m]; a keyboard is thicker
+  constexpr double kPoseError = 0.05;  // of its height [m]
   KnownSurface out = {known, std::move(samples), kSameHeight, patch.isFurniture};
   out.extent = PlaneExtent(known.n, out.samples);
   out.area = out.extent->area();

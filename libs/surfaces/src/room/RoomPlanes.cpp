@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadmap/surfaces/SurfaceTolerance.h"
 #include "room/RoomGeometry.h"
 
 namespace quadmap
@@ -158,9 +159,7 @@ void RoomPlanes::fuse(const SurfacePatch& patch_map, double tolerance, std::vect
     RoomSurface& surface = roomSurfaces_[i];
     if (surface.kind != fresh.kind || surface.plane.n.dot(fresh.plane.n) < kSameDirection) continue;
     const double gap = std::abs(surface.plane.signedDistance(center));
-    // Two surfaces of one frame are one of the room only when they have one height to the
-    // millimetre the sensor has: a book's cover is not the table under it.
-    constexpr double kSameHeight = 0.02;
+    // Two surfaces of one frame are one of the room only when they have one height.
     if (gap >= bestGap || (i < taken.size() && taken[i] && gap > kSameHeight)) continue;
     if (!isWall && !isNear(surface, patch_map)) continue;
     best = &surface;

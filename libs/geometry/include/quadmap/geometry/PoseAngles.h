@@ -23,9 +23,13 @@ inline Eigen::Matrix3d localTurnsPerAngle(
   return J;
 }
 
+/** Cosine of the pitch below which yaw and roll say the same: 0.06 degrees off straight down. */
+constexpr double kLeastPitchCosine = 1e-3;
+
 /** Derivatives of (yaw, pitch, roll) of a pose by a small turn about the axes of the frame that the
  * pose is given in. \param leastCosine As above. */
-inline Eigen::Matrix3d anglesPerTurn(const mrpt::poses::CPose3D& pose, double leastCosine)
+inline Eigen::Matrix3d anglesPerTurn(
+    const mrpt::poses::CPose3D& pose, double leastCosine = kLeastPitchCosine)
 {
   const Eigen::Matrix3d R = pose.getRotationMatrix().asEigen();
   return localTurnsPerAngle(pose, leastCosine).inverse() * R.transpose();

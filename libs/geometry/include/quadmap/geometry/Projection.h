@@ -43,4 +43,12 @@ Plane boxEdgePlane(const PinholeCamera& camera, const ImageBox& box, BoxEdge edg
 /** The planes of all four edges, in the order of BoxEdge. */
 std::array<Plane, 4> boxEdgePlanes(const PinholeCamera& camera, const ImageBox& box);
 
+/** Does a face with this outward normal look out over an edge of a box? Only such a face can end at
+ * the edge. \param edge One of boxEdgePlanes(), in the frame of the normal. */
+inline bool looksOver(const Plane& edge, const Eigen::Vector3d& normal)
+{
+  constexpr double kMinCosine = 0.25;  // between the normal and the outside
+  return -edge.n.dot(normal) > kMinCosine;
+}
+
 }  // namespace quadmap

@@ -19,6 +19,10 @@ inline bool isOnPlane(const Eigen::Vector3d& p, const Plane& plane, const Surfac
   return std::abs(plane.signedDistance(p)) <= options.onPlane(p.z());
 }
 
+/** Within this height two horizontal surfaces of one frame are one [m]: a keyboard, or the cover of
+ * a book, is higher above the table. */
+constexpr double kSameHeight = 0.02;
+
 /** The bound for a surface that an object may stand on. It is wider than (4.2), because the point
  * may be where the object and the surface meet. */
 inline double contactTolerance(double z, const SurfaceOptions& options)
