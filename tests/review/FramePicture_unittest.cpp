@@ -63,6 +63,16 @@ TEST_F(FramePicture, DrawsABoxThatNobodyMeasuredInTheColourOfItsLabel)
   EXPECT_NE(at(draw(), 30, 50), at(one, 30, 50));
 }
 
+TEST_F(FramePicture, MakesDarkColoursLightEnoughForDarkGround)
+{
+  for (const char* label : {"tv", "potted plant", "dining table", "chair", "cup", "book"})
+  {
+    boxes_.objects[0].label = label;
+    const Rgb color = at(draw(), 30, 50);
+    EXPECT_GE(0.299 * color[0] + 0.587 * color[1] + 0.114 * color[2], 130) << label;
+  }
+}
+
 TEST_F(FramePicture, ShowsWhichEdgesAreUsable)
 {
   measurement().kind = MeasurementKind::Partial;

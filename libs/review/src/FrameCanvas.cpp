@@ -52,25 +52,45 @@ void FrameCanvas::line(
   cv::line(picture_, onPicture(a), onPicture(b), color, static_cast<int>(weight), cv::LINE_AA);
 }
 
-void FrameCanvas::text(
-    const Eigen::Vector2d& at, int row, const std::string& text, cv::Scalar color)
+void FrameCanvas::textsBelow(const Eigen::Vector2d& at, const Texts& rows)
 {
-  if (text.empty()) return;
-  const cv::Size size(
-      cv::getTextSize(text, kCanvasFont, kFontScale, 1, nullptr).width + 6, kRowHeight);
-  cv::Point corner = onPicture(at);
-  corner.x = std::clamp(corner.x, 0, std::max(0, picture_.cols - size.width));
-  corner.y = std::clamp(corner.y + row * kRowHeight, 0, std::max(0, picture_.rows - kRowHeight));
-  corner.y = freeRow(cv::Rect(corner, size));
-  texts_.emplace_back(corner, size);
-  cv::Mat ground = picture_(cv::Rect(corner, size) & cv::Rect(0, 0, picture_.cols, picture_.rows));
-  ground *= 0.35;
-  cv::putText(
-      picture_, text, corner + cv::Point(3, kRowHeight - 5), kCanvasFont, kFontScale, color, 1,
-      cv::LINE_AA);
+  writeTexts(onPicture(at), rows);
 }
 
-/** The upper end of a text, so that it does not lie on an earlier one: rows below are tried. */
+void FrameCanvas::textsAbove(const Eigen::Vector2d& at, const Texts& rows)
+{
+  const auto count =
+      std::count_if(rows.begin(), rows.end(), [](const Text& row) { return !row.text.empty(); });
+  writeTexts(cv::Point(onPicture(at)) - cv::Point(0, static_cast<int>(count) * kRowHeight), rows);
+}
+
+void FrameCanvas::writeTexts(const cv::Point& corner, const Texts& rows)
+{
+  constexpr int kMargin = 3;
+  cv::Rect place(corner, cv::Size(0, 0));
+  for (const Text& row : rows)
+  {
+    if (row.text.empty()) continue;
+    const int width = cv::getTextSize(row.text, kCanvasFont, kFontScale, 1, nullptr).width;
+    place.width = std::max(place.width, width + 2 * kMargin);
+    place.height += kRowHeight;
+  }
+  if (place.height == 0) return;
+  place.x = std::clamp(place.x, 0, std::max(0, picture_.cols - place.width));
+  place.y = std::clamp(place.y, 0, std::max(0, picture_.rows - place.height));
+  place.y = freeRow(place);
+  texts_.push_back(place);
+  picture_(place & cv::Rect(0, 0, picture_.cols, picture_.rows)) *= 0.35;
+  cv::Point baseline = place.tl() + cv::Point(kMargin, kRowHeight - 5);
+  for (const Text& row : rows)
+  {
+    if (row.text.empty()) continue;
+    cv::putText(picture_, row.text, baseline, kCanvasFont, kFontScale, row.color, 1, cv::LINE_AA);
+    baseline.y += kRowHeight;
+  }
+}
+
+/** The upper end of texts, so that they do not lie on earlier ones: rows below are tried. */
 int FrameCanvas::freeRow(const cv::Rect& text) const
 {
   constexpr int kMostRows = 8;  // farther away nobody knows what it belongs to

@@ -27,9 +27,17 @@ class FrameCanvas
   };
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, cv::Scalar color, Weight weight);
 
-  /** Text on a dark ground, moved into the picture and below earlier texts. \param at Its upper
-   * left corner [px of the image]. \param row Rows of text above it; it moves up when < 0. */
-  void text(const Eigen::Vector2d& at, int row, const std::string& text, cv::Scalar color);
+  /** A row of text. */
+  struct Text
+  {
+    std::string text;
+    cv::Scalar color;
+  };
+  /** Rows of text on a dark ground, moved together into the picture and below earlier texts. Empty
+   * ones are left out. */
+  using Texts = std::vector<Text>;
+  void textsBelow(const Eigen::Vector2d& at, const Texts& rows);  //!< at: upper left [px of image]
+  void textsAbove(const Eigen::Vector2d& at, const Texts& rows);  //!< at: lower left [px of image]
 
   /** Mixes a colour into the pixels of a mask. */
   void tint(const ObjectMask& mask, cv::Scalar color);
@@ -48,6 +56,7 @@ class FrameCanvas
 
  private:
   cv::Point2d onPicture(const Eigen::Vector2d& pixel) const;
+  void writeTexts(const cv::Point& corner, const Texts& rows);
   int freeRow(const cv::Rect& text) const;
 
   PinholeCamera camera_;

@@ -2,8 +2,10 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <array>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "FrameCanvas.h"
 #include "quadmap/base/ErrorText.h"
@@ -16,10 +18,16 @@ namespace
 const cv::Scalar kGreen(60, 220, 60), kGrey(150, 150, 150), kWhite(255, 255, 255);
 const cv::Scalar kYellow(0, 220, 255);
 
+/** The colour of a label, mixed with white as far as it needs to be seen on dark ground: that of
+ * texts is dark, and the thin lines have dark rims. */
 cv::Scalar colorOf(const std::string& label)
 {
-  const mrpt::img::TColor color = labelColor(label);
-  return {static_cast<double>(color.B), static_cast<double>(color.G), static_cast<double>(color.R)};
+  constexpr double kLeastBrightness = 140;
+  const mrpt::img::TColor c = labelColor(label);
+  const cv::Scalar color(c.B, c.G, c.R);
+  const double brightness = 0.114 * color[0] + 0.587 * color[1] + 0.299 * color[2];
+  const double share = std::max(0.0, (kLeastBrightness - brightness) / (255 - brightness));
+  return color * (1 - share) + kWhite * share;
 }
 
 /** The depth image as greys, black where there is none and white near by. */
@@ -86,7 +94,10 @@ class FramePainter
     for (const auto& object : content_.objects) paintObject(object);
     for (const auto& box : boxes) paintMeasurement(box.measurement);
     for (const auto& box : boxes) paintEdges(box);
-    for (std::size_t i = 0; i < boxes.size(); ++i) paintText(boxes[i], i);
+    // Texts go where earlier ones leave room, so that the most important come first.
+    for (std::size_t i = 0; i < boxes.size(); ++i) writeModel(boxes[i], i);
+    for (const auto& [top, id] : ids_) canvas_.textsBelow(top, {id});
+    for (const auto& box : boxes) writeReasons(box);
     return {canvas_.picture(), mrpt::img::DEEP_COPY};
   }
 
@@ -97,7 +108,9 @@ class FramePainter
     const Ellipsoid object_optical = object.object_sensor.transformed(T_optical_sensor_);
     canvas_.cuboid(object_optical, color);
     if (const auto top = canvas_.outline(object_optical, color))
-      canvas_.text(*top, 0, "#" + object.id, color);
+      ids_.push_back({
+          *top, {"#" + object.id, color}
+      });
   }
 
   void paintMeasurement(const ObjectMeasurement& measurement)
@@ -111,46 +124,74 @@ class FramePainter
     canvas_.cuboid(object_optical, kWhite);
   }
 
-  void paintEdges(const DetectedObject& object)
+  /** An edge of a box. */
+  struct Edge
+  {
+    Eigen::Vector2d from, to;
+    EdgeState state = EdgeState::Usable;
+  };
+
+  /** Left, top, right, bottom. */
+  static std::array<Edge, 4> edgesOf(const DetectedObject& object)
   {
     const ImageBox& b = object.box;
     const std::array<Eigen::Vector2d, 4> corners{
         {{b.x1, b.y1}, {b.x2, b.y1}, {b.x2, b.y2}, {b.x1, b.y2}}
     };
-    for (std::size_t edge = 0; edge < 4; ++edge)  // left, top, right, bottom
+    std::array<Edge, 4> edges;
+    for (std::size_t i = 0; i < edges.size(); ++i)
     {
-      const Eigen::Vector2d &from = corners[(edge + 3) % 4], &to = corners[edge];
-      const auto& edges = object.measurement.edges;
-      cv::Scalar color = kGrey;
-      if (object.measurement.kind == MeasurementKind::None) color = colorOf(object.label);
-      if (edges && (*edges)[edge].state == EdgeState::Usable) color = kGreen;
-      canvas_.line(from, to, color, FrameCanvas::Weight::Bold);
-      if (edges && (*edges)[edge].state != EdgeState::Usable)
-        canvas_.text(
-            (from + to) / 2, 0,
-            (*edges)[edge].state == EdgeState::Occluded ? "occluded" : "cut by the image", kGrey);
+      edges[i] = {corners[(i + 3) % 4], corners[i]};
+      if (object.measurement.edges) edges[i].state = (*object.measurement.edges)[i].state;
+    }
+    return edges;
+  }
+
+  void paintEdges(const DetectedObject& object)
+  {
+    const bool isMeasured = object.measurement.kind != MeasurementKind::None;
+    const bool isUnusable = isMeasured && !object.measurement.edges;
+    for (const Edge& edge : edgesOf(object))
+    {
+      cv::Scalar color = isMeasured ? kGreen : colorOf(object.label);
+      if (isUnusable || edge.state != EdgeState::Usable) color = kGrey;
+      canvas_.line(edge.from, edge.to, color, FrameCanvas::Weight::Bold);
     }
   }
 
-  void paintText(const DetectedObject& object, std::size_t index)
+  void writeReasons(const DetectedObject& object)
+  {
+    for (const Edge& edge : edgesOf(object))
+      if (edge.state != EdgeState::Usable)
+        canvas_.textsBelow(
+            (edge.from + edge.to) / 2,
+            {
+                {edge.state == EdgeState::Occluded ? "occluded" : "cut by the image", kGrey}
+        });
+  }
+
+  void writeModel(const DetectedObject& object, std::size_t index)
   {
     std::string head = mrpt::format("%s %.2f", oneLine(object.label).c_str(), object.score);
     if (index < content_.objectOfBox.size())
       head += content_.objectOfBox[index].empty() ? ", no object"
                                                   : ", object #" + content_.objectOfBox[index];
-    const Eigen::Vector2d corner(object.box.x1, object.box.y1);
+    FrameCanvas::Texts rows{
+        {head, kWhite}
+    };
     const ObjectMeasurement& m = object.measurement;
-    const int rows = m.kind == MeasurementKind::None ? 1 : 2;  // above the box, not on the object
-    canvas_.text(corner, -rows, head, kWhite);
     if (m.kind != MeasurementKind::None)
-      canvas_.text(
-          corner, -1, std::string(nameOf(m.kind)) + ": " + oneLine(m.reason),
-          m.kind == MeasurementKind::Rejected ? kGrey : kGreen);
+      rows.push_back(
+          {std::string(nameOf(m.kind)) + ": " + oneLine(m.reason),
+           m.kind == MeasurementKind::Rejected ? kGrey : kGreen});
+    canvas_.textsAbove({object.box.x1, object.box.y1}, rows);  // not on the object
   }
 
   const FramePictureContent& content_;
   FrameCanvas canvas_;
   mrpt::poses::CPose3D T_optical_sensor_;
+  /** Where the ids of objects go, and these. */
+  std::vector<std::pair<Eigen::Vector2d, FrameCanvas::Text>> ids_;
 };
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <mrpt/core/format.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "quadmap/review/FramePicture.h"
 #include "quadmap/review/SceneRenderer.h"
@@ -24,6 +24,7 @@ class KeyframePictures
       const std::string& folder) :
       keyframes_(result, ResultKeyframes::Boxes::Read), objects_(objects), folder_(folder)
   {
+    for (const auto& object : objects) ids_.insert(object.id);
     fs::create_directories(folder);
   }
 
@@ -44,12 +45,18 @@ class KeyframePictures
     FramePictureContent content;
     content.scan = image.scan.get();
     content.boxes = image.boxes.get();
-    for (const auto& id : image.objectOfBox)
-      content.objectOfBox.push_back(id ? std::to_string(*id) : "");
+    std::set<std::string> shown;
+    for (const auto& number : image.objectOfBox)
+    {
+      const std::string id = number ? std::to_string(*number) : "";
+      // The back end may have dropped it since, or never confirmed it.
+      const bool isNone = number && ids_.count(id) == 0;
+      content.objectOfBox.push_back(isNone ? id + " (not in the map)" : id);
+      shown.insert(id);
+    }
     const mrpt::poses::CPose3D T_sensor_map = -(image.T_map_robot + image.scan->sensorPose);
-    const auto& ids = content.objectOfBox;
     for (const auto& object : objects_)
-      if (std::find(ids.begin(), ids.end(), object.id) != ids.end())
+      if (shown.count(object.id) > 0)
         content.objects.push_back(
             {object.id, object.label, object.object.transformed(T_sensor_map)});
     const std::string name = mrpt::format("frame-%06zu.jpg", written_++);
@@ -58,6 +65,7 @@ class KeyframePictures
 
   ResultKeyframes keyframes_;
   const std::vector<ObjectRecord>& objects_;
+  std::set<std::string> ids_;  // of the objects
   std::string folder_;
   std::size_t written_ = 0;
 };

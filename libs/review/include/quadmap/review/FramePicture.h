@@ -25,8 +25,8 @@ struct FramePictureContent
   const mrpt::obs::CObservation3DRangeScan* scan = nullptr;  //!< Its colour image; else its depth
   const mrpt::img::CImage* image = nullptr;    //!< Shown instead of the scan's, when there is one
   const CObservationObjects* boxes = nullptr;  //!< Null when no detector looked
-  /** The object of the map that each box was taken for, "" for none; empty before there is a map.
-   */
+  /** The object that each box was taken for, its id and what else is to be said of it; "" for
+   * none. Empty before there is a map. */
   std::vector<std::string> objectOfBox;
   std::vector<ObjectInFrame> objects;
 };
@@ -38,7 +38,8 @@ struct FramePictureContent
  * green and the unusable ones grey, with the reason beside them. Its text has the label and score,
  * the object it was taken for, the model that was chosen, and why. The measured cuboid is white;
  * its side on the support is filled with yellow. Objects of the map are drawn in the colour of
- * their label as the outlines of ellipsoid and cuboid, with their id. Masks are tinted. */
+ * their label, made lighter where it is dark, as the outlines of ellipsoid and cuboid, with their
+ * id. Masks are tinted. */
 mrpt::img::CImage drawFrame(const FramePictureContent& content);
 
 }  // namespace quadmap
