@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-#include "BackgroundPlanes.h"
+#include "Background.h"
 #include "GridCloud.h"
 #include "NearbyPoints.h"
 #include "quadmap/base/OutputSet.h"
@@ -73,8 +73,7 @@ class Separation
       out.weights.push_back(static_cast<float>(candidates[i].weight));
     }
     for (const auto& entry : near_[object])
-      if (own.count(entry.point) == 0 &&
-          !isBackground(background, pointOf(entry.point, 0).position))
+      if (own.count(entry.point) == 0 && !background.contains(pointOf(entry.point, 0).position))
         out.others.push_back(cloud_[entry.point].position);
     return out;
   }
@@ -148,43 +147,36 @@ class Separation
       points[i].position = positions[i].cast<double>();
   }
 
-  std::vector<BackgroundPlane> backgroundOf(
+  Background backgroundOf(
       const std::vector<NearPoint>& near,
       const std::vector<NearPoint>& candidates,
       ObjectPoints& out) const
   {
-    const auto support = supportOf(near, candidates);
-    if (!support) return wallsOf(near, candidates);
-    out.supportHeight = support->distance;
-    std::vector<NearPoint> standing;
-    for (const NearPoint& point : candidates)
-      if (support->height(point.position) > clearanceOf(*support)) standing.push_back(point);
-    auto planes = wallsOf(near, standing);
-    planes.push_back(*support);
-    return planes;
-  }
-
-  double clearanceOf(const BackgroundPlane& plane) const
-  {
-    return std::clamp(3 * plane.spread, options_.clearance, 2 * options_.clearance);
-  }
-
-  bool isBackground(const std::vector<BackgroundPlane>& background, const Eigen::Vector3d& p) const
-  {
-    return std::any_of(
-        background.begin(), background.end(),
-        [&](const BackgroundPlane& plane) { return plane.height(p) <= clearanceOf(plane); });
+    Background background(options_.clearance);
+    std::vector<NearPoint> standing = candidates;
+    if (const auto support = supportOf(near, candidates))
+    {
+      out.supportHeight = support->distance;
+      background.addSupport(*support, near, candidates);
+      standing.erase(
+          std::remove_if(
+              standing.begin(), standing.end(),
+              [&](const NearPoint& point) { return background.contains(point.position); }),
+          standing.end());
+    }
+    background.add(wallsOf(near, standing));
+    return background;
   }
 
   void keepForeground(
-      const std::vector<BackgroundPlane>& background,
+      const Background& background,
       std::vector<NearPoint>& candidates,
       std::vector<std::size_t>& indices) const
   {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i)
     {
-      if (isBackground(background, candidates[i].position)) continue;
+      if (background.contains(candidates[i].position)) continue;
       candidates[kept] = candidates[i];
       indices[kept++] = indices[i];
     }
