@@ -70,6 +70,8 @@ FolderImportReport importFolder(
     const ProgressCallback& progress)
 {
   FolderImportReport report;
+  if (!folder.posesProblem().empty() && options.posesAs != PosesAs::None)
+    drop(report, options, folder.posesProblem());
   const auto& frames = folder.frames();
   std::optional<double> lastTime;  // of a frame [s]
   for (std::size_t i = 0; i < frames.size(); i += options.every)

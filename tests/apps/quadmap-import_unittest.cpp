@@ -131,6 +131,21 @@ TEST_F(QuadmapImport, SaysThatNoFrameHasAPose)
   EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").err.find(what), kNotFound);
 }
 
+TEST_F(QuadmapImport, TellsOfPosesThatCannotBeReadAndOfTheRest)
+{
+  recording_.files.write("groundtruth.txt", SampleRecording::pose(0, 0) + "nonsense\n");
+  const auto checked = run("tum IN --check");
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_NE(checked.out.find("frames: 6 in"), kNotFound) << checked.out;
+  EXPECT_NE(checked.out.find("groundtruth.txt:2: "), kNotFound) << checked.out;
+  expectFailure(run("tum IN -o OUT/x.rawlog"), "groundtruth.txt:2: ");
+  const auto without = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(without.status, 0) << without.err;
+  EXPECT_NE(without.err.find("dropped: "), kNotFound) << without.err;
+  EXPECT_NE(without.err.find("6 of 6 frames have no pose"), kNotFound) << without.err;
+  EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").status, 0);
+}
+
 TEST_F(QuadmapImport, RefusesResultsOfOtherImages)
 {
   const std::string file = recording_.files.write(

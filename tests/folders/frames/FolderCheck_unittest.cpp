@@ -181,6 +181,13 @@ TEST(FolderCheck, FindsFramesWithoutPose)
   expectOnly(check(recording), "no pose", "associations.txt:6");
 }
 
+TEST(FolderCheck, FindsPosesThatCannotBeRead)
+{
+  const SampleRecording recording;
+  recording.files.write("groundtruth.txt", SampleRecording::pose(0, 0) + "100.1 0 0\n");
+  expectOnly(check(recording), "pose", "groundtruth.txt:2");
+}
+
 TEST(FolderCheck, RejectsOptionsOutOfRange)
 {
   const SampleRecording recording;

@@ -262,11 +262,6 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
       "associations.txt:2: expected 4 columns, got 3");
   expect("associations.txt", "one rgb/f0.png 1.0 d\n", "associations.txt:1: 'one' is not a number");
   expect("associations.txt", "1 rgb/f0.png nan d\n", "associations.txt:1: the time nan must be");
-  expect("groundtruth.txt", "1 0 0 0 0 0 0\n", "groundtruth.txt:1");
-  expect("groundtruth.txt", "1 nan 0 0 0 0 0 1\n", "groundtruth.txt:1");
-  expect(
-      "groundtruth.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
-      "groundtruth.txt: pose 1: time goes back from 2.000000 to 1.000000 s");
   EXPECT_EQ(errorOf([] { openFrameFolder("tum", "/no/such"); }), "/no/such: no such folder");
   const SampleRecording recording;
   FrameFolderOptions options;
@@ -274,6 +269,24 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
   expectIn(
       errorOf([&] { openFrameFolder("tum", recording.folder(), options); }),
       "/no/such: no such folder");
+}
+
+TEST(TumFolder, TellsWhyItsPosesCannotBeUsed)
+{
+  const SampleRecording recording;
+  const auto expect = [&](const char* poses, const std::string& what)
+  {
+    recording.files.write("groundtruth.txt", poses);
+    const FrameFolder dataset = openFrameFolder("tum", recording.folder());
+    expectIn(dataset.posesProblem(), what);
+    EXPECT_EQ(dataset.posesCount(), 0u);
+    EXPECT_EQ(dataset.frames().size(), std::size_t{SampleRecording::kFrames});
+  };
+  expect("1 0 0 0 0 0 0\n", "groundtruth.txt:1");
+  expect("1 nan 0 0 0 0 0 1\n", "groundtruth.txt:1");
+  expect(
+      "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
+      "groundtruth.txt: pose 1: time goes back from 2.000000 to 1.000000 s");
 }
 
 TEST(TumFolder, RejectsBadImages)

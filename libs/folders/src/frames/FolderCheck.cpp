@@ -176,6 +176,7 @@ void checkMotion(
     const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
   if (folder.poses().empty()) return;
+  if (!folder.posesProblem().empty()) return problems["pose"].push_back(folder.posesProblem());
   const auto motions = motionsOf(folder, problems);
   std::vector<double> speeds, turnRates;
   for (const auto& m : motions)

@@ -80,9 +80,18 @@ FolderCamera cameraOfFolder(
 
 void takePoses(FolderContent& content, const std::string& file, double maxGap)
 {
-  const Trajectory trajectory = readTumTrajectory(file);
-  requireInOrder(trajectory, file);
   content.poses = fs::path(file).filename().string();
+  Trajectory trajectory;
+  try
+  {
+    trajectory = readTumTrajectory(file);
+    requireInOrder(trajectory, file);
+  }
+  catch (const std::exception& e)
+  {
+    content.posesProblem = e.what();
+    return;
+  }
   for (auto& frame : content.frames) frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
 }
 

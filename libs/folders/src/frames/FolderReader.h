@@ -27,8 +27,9 @@ FolderCamera cameraOfFolder(
     const std::string& usual,
     double depthFactor);
 
-/** Sets the poses of the frames to those of a trajectory, interpolated at their times.
- * \exception std::runtime_error If the file's times go back; names it. */
+/** Sets the poses of the frames to those of a trajectory, interpolated at their times. A file that
+ * cannot be read, or whose times go back, becomes the content's posesProblem, as a check shall tell
+ * of the images, too. */
 void takePoses(FolderContent& content, const std::string& file, double maxGap);
 
 /** Adds the frames of two folders inside the recording, which have images of equal names, such as

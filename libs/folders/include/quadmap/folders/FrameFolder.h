@@ -36,6 +36,7 @@ struct FolderContent
   FolderCamera camera;
   std::vector<FolderFrame> frames;
   std::string poses;               //!< Where poses are from, such as "groundtruth.txt"; may be ""
+  std::string posesProblem;        //!< Why a file with all poses cannot be used; names it
   std::string pairing;             //!< How colour and depth images were paired
   std::size_t unpaired = 0;        //!< Number of images of which no pair could be made
   std::vector<std::string> notes;  //!< What a user should know, although it is no error
@@ -87,6 +88,9 @@ class FrameFolder
   std::size_t unpaired() const { return content_.unpaired; }
   std::size_t posesCount() const;                              //!< Number of frames with a pose
   const std::string& poses() const { return content_.poses; }  //!< Where they are from
+  /** Why the file that has the poses cannot be used; names file and line, "" when it can. The
+   * frames have no poses then. */
+  const std::string& posesProblem() const { return content_.posesProblem; }
   bool hasDetections() const { return boxes_ != nullptr; }
   std::string detections() const;  //!< Where boxes are from, and in which form; may be ""
   /** What a user should know, although it is no error. */
