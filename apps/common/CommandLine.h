@@ -62,6 +62,13 @@ int runMain(const char* program, F&& body) noexcept
   }
 }
 
+/** Does the command line ask for the defaults alone? The arguments that a run requires are then not
+ * needed. */
+inline bool asksForDefaults(int argc, char** argv)
+{
+  return argc == 2 && argv[1] == std::string("--defaults");
+}
+
 /** TCLAP with strict errors: it would print a page and let parse() return false for bad arguments
  * and for --help alike. */
 class StrictOutput : public TCLAP::StdOutput

@@ -21,13 +21,6 @@ using namespace quadmap;
 constexpr int kMostThreads = 64;
 constexpr unsigned kUsefulThreads = 4;  // beyond these the images take all of the time
 
-/** Does the command line ask for the defaults alone? The arguments that a run requires are then not
- * needed. */
-bool asksForDefaults(int argc, char** argv)
-{
-  return argc == 2 && argv[1] == std::string("--defaults");
-}
-
 /** The arguments of the program. */
 struct Cli
 {
@@ -208,7 +201,7 @@ int main(int argc, char** argv)
       "quadmap-localize",
       [&]
       {
-        if (asksForDefaults(argc, argv))
+        if (cli::asksForDefaults(argc, argv))
         {
           std::cout << LocalizationConfiguration().documentedIni();
           return 0;

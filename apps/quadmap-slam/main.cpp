@@ -16,13 +16,6 @@ namespace
 {
 using namespace quadmap;
 
-/** Does the command line ask for the defaults alone? The arguments that a run requires are then not
- * needed. */
-bool asksForDefaults(int argc, char** argv)
-{
-  return argc == 2 && argv[1] == std::string("--defaults");
-}
-
 /** The arguments of the program. */
 struct Cli
 {
@@ -312,7 +305,7 @@ int main(int argc, char** argv)
       "quadmap-slam",
       [&]
       {
-        if (asksForDefaults(argc, argv))
+        if (cli::asksForDefaults(argc, argv))
         {
           std::cout << SlamConfiguration().documentedIni();
           return 0;
