@@ -1,9 +1,7 @@
 #include "quadmap/navigation/LocalizationRun.h"
 
-#include <mrpt/poses/Lie/SO.h>
-
 #include <chrono>
-#include <map>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -12,6 +10,7 @@
 #include "quadmap/odometry/OdometryInput.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/perception/RoomPerception.h"
+#include "quadmap/sensors/KeyframeSelector.h"
 #include "quadmap/sensors/RawlogSource.h"
 
 namespace quadmap
@@ -47,6 +46,16 @@ catch (const std::invalid_argument& e)
   throw std::invalid_argument(request.mapFile + ": " + e.what());
 }
 
+/** A camera that stands still repeats its mistakes, however long it does. */
+KeyframeOptions byMotion(const LocalizationOptions& options)
+{
+  KeyframeOptions chosen;
+  chosen.minTranslation = options.updateDistance;
+  chosen.minRotation = options.updateAngle;
+  chosen.maxInterval = std::numeric_limits<double>::infinity();
+  return chosen;
+}
+
 /** How many boxes may show something of the map. */
 std::size_t comparedBoxes(const FrameLikelihood& seen)
 {
@@ -74,7 +83,8 @@ class LocalizationRun
           request.configuration.poses,
           request.configuration.visual,
           survey_.up_robot),
-      perception_(request.configuration.perception, request.map->labels())
+      perception_(request.configuration.perception, request.map->labels()),
+      selector_(byMotion(options_))
   {
     source_.logging_enable_console_output = false;
     source_.logRegisterCallback(
@@ -116,7 +126,8 @@ class LocalizationRun
     }
     // An image without boxes takes the place of none that has some; the next step holds its motion.
     if (!frame.objects || frame.objects->objects.empty()) return;
-    if (!isDue(frame.scan->sensorLabel, *T_odom_robot + frame.scan->sensorPose)) return;
+    const CPose3D T_odom_sensor = *T_odom_robot + frame.scan->sensorPose;
+    if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor)) return;
     moveTo(*T_odom_robot);
     look(frame, *T_odom_robot);
   }
@@ -126,20 +137,6 @@ class LocalizationRun
         request_.rawlog, frame.record, frame.scan->sensorLabel, rootMessage(e)};
     if (!request_.keepGoing) throw std::runtime_error(problem.text());
     result_.dropped.push_back(problem.text());
-  }
-
-  /** Whether a camera has moved since its last image that was used. */
-  bool isDue(const std::string& sensor, const CPose3D& T_odom_sensor)
-  {
-    const auto last = lastBySensor_.find(sensor);
-    if (last != lastBySensor_.end())
-    {
-      const CPose3D moved = T_odom_sensor - last->second;
-      const double turned = mrpt::poses::Lie::SO<3>::log(moved.getRotationMatrix()).norm();
-      if (moved.norm() < options_.updateDistance && turned < options_.updateAngle) return false;
-    }
-    lastBySensor_[sensor] = T_odom_sensor;
-    return true;
   }
 
   void moveTo(const CPose3D& T_odom_robot)
@@ -214,7 +211,7 @@ class LocalizationRun
   RawlogSource source_;
   OdometryInput odometry_;
   RoomPerception perception_;  // its map is the frame of the odometry
-  std::map<std::string, CPose3D> lastBySensor_;
+  KeyframeSelector selector_;
   std::optional<ParticleLocalization> filter_;
   LocalizationResult result_;
 };

@@ -11,7 +11,7 @@
 #include "MeanAndSpread.h"
 #include "quadmap/evaluation/ObjectEvaluation.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
-#include "quadmap/slam/KeyframeSelector.h"
+#include "quadmap/sensors/KeyframeSelector.h"
 
 namespace quadmap::observations
 {

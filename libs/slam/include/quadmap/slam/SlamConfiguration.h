@@ -14,8 +14,8 @@
 #include "quadmap/odometry/VisualOdometryOptions.h"
 #include "quadmap/perception/PerceptionOptions.h"
 #include "quadmap/points/PointOptions.h"
+#include "quadmap/sensors/KeyframeSelector.h"
 #include "quadmap/slam/JointOptions.h"
-#include "quadmap/slam/KeyframeSelector.h"
 #include "quadmap/slam/RelocalizationOptions.h"
 #include "quadmap/slam/SlamOptions.h"
 

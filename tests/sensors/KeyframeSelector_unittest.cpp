@@ -1,4 +1,4 @@
-#include "quadmap/slam/KeyframeSelector.h"
+#include "quadmap/sensors/KeyframeSelector.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>

@@ -1,4 +1,4 @@
-#include "quadmap/slam/KeyframeSelector.h"
+#include "quadmap/sensors/KeyframeSelector.h"
 
 #include <mrpt/poses/Lie/SO.h>
 
