@@ -3,12 +3,11 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 
+#include "FullestPlace.h"
 #include "ParallelRanges.h"
 
 namespace quadmap
@@ -173,39 +172,10 @@ LevelPose ParticleLocalization::drawnFrom(
   return pose;
 }
 
-/** Mean of the fullest of the cells of a grid over the poses, as wide as the estimate's place. */
-LevelPose ParticleLocalization::bestPlace(const std::vector<double>& weights) const
-{
-  struct Sum
-  {
-    double weight = 0, sine = 0, cosine = 0;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  };
-  std::map<std::array<long, 3>, Sum> cells;
-  for (std::size_t i = 0; i < particles_.size(); ++i)
-  {
-    const LevelPose& p = particles_[i];
-    const auto cell = [](double value, double width) { return std::lround(value / width); };
-    Sum& sum = cells[{
-        cell(p.position.x(), options_.placeRadius), cell(p.position.y(), options_.placeRadius),
-        cell(p.yaw, options_.placeAngle)}];
-    sum.weight += weights[i];
-    sum.position += weights[i] * p.position;
-    sum.sine += weights[i] * std::sin(p.yaw);
-    sum.cosine += weights[i] * std::cos(p.yaw);
-  }
-  const Sum& best =
-      std::max_element(
-          cells.begin(), cells.end(),
-          [](const auto& a, const auto& b) { return a.second.weight < b.second.weight; })
-          ->second;
-  return {best.position / best.weight, std::atan2(best.sine, best.cosine)};
-}
-
 /** Mean and spread of the particles around the best place, (14.7). */
 LocalizationEstimate ParticleLocalization::estimateOf(const std::vector<double>& weights) const
 {
-  LevelPose mean = bestPlace(weights);
+  LevelPose mean = fullestPlace(particles_, weights, options_.placeRadius, options_.placeAngle);
   double near = 0;
   Eigen::Vector4d spread = Eigen::Vector4d::Zero();
   for (int round = 0; round < kMeanShifts; ++round)

@@ -69,7 +69,6 @@ class ParticleLocalization
   std::vector<double> weigh(const FrameLikelihood& seen) const;
   void resample(const std::vector<double>& weights, const FrameLikelihood& seen);
   LevelPose drawnFrom(const FrameLikelihood& seen, const std::vector<double>& pairingSums);
-  LevelPose bestPlace(const std::vector<double>& weights) const;
   LocalizationEstimate estimateOf(const std::vector<double>& weights) const;
   Eigen::Vector3d normalVector();
 
