@@ -26,6 +26,10 @@ void LocalizationOptions::describe(OptionList& list)
       "its mistakes.");
   list.angle("updateAngle_deg", updateAngle, {0, 180}, "... or has turned by this.");
   list.number(
+      "floorShare", floorShare, {0, 1}, "",
+      "Share of the floor's tilt, as an image shows it, that is taken out of pitch and roll; 0 "
+      "leaves them to the odometry.");
+  list.number(
       "searchShare", searchShare, {0, 0.9}, "",
       "Share of the poses that are drawn anew from what is seen, while the robot is lost.");
   list.number(

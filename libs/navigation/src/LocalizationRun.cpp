@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "FloorLevel.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/ModuleTimes.h"
 #include "quadmap/odometry/OdometryInput.h"
@@ -84,7 +85,8 @@ class LocalizationRun
           request.configuration.visual,
           survey_.up_robot),
       perception_(request.configuration.perception, request.map->labels()),
-      selector_(byMotion(options_))
+      selector_(byMotion(options_)),
+      level_(options_.floorShare)
   {
     source_.logging_enable_console_output = false;
     source_.logRegisterCallback(
@@ -128,8 +130,11 @@ class LocalizationRun
     if (!frame.objects || frame.objects->objects.empty()) return;
     const CPose3D T_odom_sensor = *T_odom_robot + frame.scan->sensorPose;
     if (!selector_.isKeyframe(frame.scan->sensorLabel, frame.time(), T_odom_sensor)) return;
-    moveTo(*T_odom_robot);
-    look(frame, *T_odom_robot);
+    CObservationObjects boxes = *frame.objects;
+    measure(*frame.scan, boxes, *T_odom_robot);
+    const CPose3D T_level_robot = level_.levelled(*T_odom_robot);
+    moveTo(T_level_robot);
+    weigh(boxes, T_level_robot, frame.time());
   }
   catch (const std::exception& e)
   {
@@ -139,28 +144,36 @@ class LocalizationRun
     result_.dropped.push_back(problem.text());
   }
 
-  void moveTo(const CPose3D& T_odom_robot)
+  void moveTo(const CPose3D& T_level_robot)
   {
     const auto step = odometry_.keyframeStep();
     if (!filter_)
-      filter_.emplace(options_, region_, T_odom_robot, request_.threads);
+      filter_.emplace(options_, region_, T_level_robot, request_.threads);
     else if (step)
-      timed([&] { filter_->predict(*step, T_odom_robot); });
+      timed([&] { filter_->predict(*step, T_level_robot); });
   }
 
-  void look(const RgbdFrame& frame, const CPose3D& T_odom_robot)
+  /** Measures the boxes, and finds how the odometry is tilted. */
+  void measure(
+      const mrpt::obs::CObservation3DRangeScan& scan,
+      CObservationObjects& boxes,
+      const CPose3D& T_odom_robot)
   {
-    CObservationObjects boxes = *frame.objects;
     const double start = processCpuTime();
-    perception_.measure(*frame.scan, boxes, T_odom_robot + frame.scan->sensorPose);
+    const CPose3D T_level_sensor = level_.levelled(T_odom_robot) + scan.sensorPose;
+    level_.look(perception_.measure(scan, boxes, T_level_sensor), T_level_sensor);
     result_.measureSeconds += processCpuTime() - start;
+  }
+
+  void weigh(const CObservationObjects& boxes, const CPose3D& T_level_robot, double time)
+  {
     timed(
         [&]
         {
-          const auto seen = request_.map->likelihoodOf(boxes, T_odom_robot);
+          const auto seen = request_.map->likelihoodOf(boxes, T_level_robot);
           if (seen.pairings().empty()) return;
           filter_->update(seen);
-          result_.updates.push_back({frame.time(), comparedBoxes(seen), filter_->estimate()});
+          result_.updates.push_back({time, comparedBoxes(seen), filter_->estimate()});
         });
   }
 
@@ -212,6 +225,7 @@ class LocalizationRun
   OdometryInput odometry_;
   RoomPerception perception_;  // its map is the frame of the odometry
   KeyframeSelector selector_;
+  FloorLevel level_;
   std::optional<ParticleLocalization> filter_;
   LocalizationResult result_;
 };

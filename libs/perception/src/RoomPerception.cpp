@@ -14,14 +14,16 @@ FrameSurfaces measureInRoom(
   return perception.measure(scan, boxes, up_sensor, room.around(T_map_sensor));
 }
 
-void measureAndRemember(
+FrameSurfaces measureAndRemember(
     const FramePerception& perception,
     const mrpt::obs::CObservation3DRangeScan& scan,
     CObservationObjects& boxes,
     const mrpt::poses::CPose3D& T_map_sensor,
     RoomPlanes& room)
 {
-  room.add(measureInRoom(perception, scan, boxes, T_map_sensor, room), T_map_sensor);
+  FrameSurfaces surfaces = measureInRoom(perception, scan, boxes, T_map_sensor, room);
+  room.add(surfaces, T_map_sensor);
+  return surfaces;
 }
 
 }  // namespace quadmap

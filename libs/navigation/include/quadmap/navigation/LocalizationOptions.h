@@ -21,6 +21,7 @@ struct LocalizationOptions : public OptionGroup
   double startHeightSigma = 0.1;  //!< ... and this far from the height of the odometry [m], >= 0
   double updateDistance = 0.05;   //!< Weigh again after this way of a camera [m], >= 0
   double updateAngle = fromDegrees(2.0L);  //!< ... or this turn [rad], >= 0; INI in degrees
+  double floorShare = 0.5;    //!< Of the floor's tilt that an image takes out, in [0, 1]
   double searchShare = 0.25;  //!< Poses drawn anew from what is seen, while lost, in [0, 0.9]
   double doubtShare = 0.02;   //!< The same when all others agree, in [0, 0.9]
 

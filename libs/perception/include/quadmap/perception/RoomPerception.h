@@ -22,7 +22,7 @@ FrameSurfaces measureInRoom(
     const RoomPlanes& room);
 
 /** The same, and the room remembers the surfaces that the frame shows. */
-void measureAndRemember(
+FrameSurfaces measureAndRemember(
     const FramePerception& perception,
     const mrpt::obs::CObservation3DRangeScan& scan,
     CObservationObjects& boxes,
@@ -39,12 +39,12 @@ class RoomPerception
   }
 
   /** Measures the boxes of the next frame, as measureInRoom() does. */
-  void measure(
+  FrameSurfaces measure(
       const mrpt::obs::CObservation3DRangeScan& scan,
       CObservationObjects& boxes,
       const mrpt::poses::CPose3D& T_map_sensor)
   {
-    measureAndRemember(perception_, scan, boxes, T_map_sensor, room_);
+    return measureAndRemember(perception_, scan, boxes, T_map_sensor, room_);
   }
 
   const RoomPlanes& room() const { return room_; }  //!< Surfaces known so far

@@ -1,0 +1,29 @@
+#include "FloorLevel.h"
+
+#include <algorithm>
+
+#include "quadmap/geometry/PosePosition.h"
+
+namespace quadmap
+{
+using mrpt::poses::CPose3D;
+
+CPose3D FloorLevel::levelled(const CPose3D& T_odom_robot) const
+{
+  const Eigen::Matrix3d R = R_level_odom_ * T_odom_robot.getRotationMatrix().asEigen();
+  const Eigen::Vector3d p = positionOf(T_odom_robot);
+  return CPose3D::FromRotationAndTranslation(mrpt::math::CMatrixDouble33(R), p);
+}
+
+void FloorLevel::look(const FrameSurfaces& seen, const CPose3D& T_level_sensor)
+{
+  const auto floor = std::find_if(
+      seen.seen.begin(), seen.seen.end(),
+      [](const SurfacePatch& patch) { return patch.kind == SurfaceKind::Floor; });
+  if (floor == seen.seen.end()) return;
+  const Eigen::Vector3d up = floor->plane.transformed(T_level_sensor).n;
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  R_level_odom_ = Eigen::Quaterniond::Identity().slerp(share_, turn) * R_level_odom_;
+}
+
+}  // namespace quadmap
