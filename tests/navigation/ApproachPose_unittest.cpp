@@ -111,6 +111,19 @@ TEST_F(LivingRoom, ChairsAreApproachedFromWhereTheRoomIs)
   EXPECT_NEAR(distanceTo(chair, found->pose), options.gap + options.robotRadius, 0.06);
 }
 
+TEST_F(LivingRoom, ChairsAtATableAreApproachedFromBesideOrBehind)
+{
+  const ObjectId drawnUp = add(cuboid("chair", {0.1, 0.6, 0.45}, {0.5, 0.5, 0.9}, 0.3));
+  footprintInto(map, grid);
+  for (const TPose2D& robot : {TPose2D(0.3, -2.5, 0), TPose2D(2.6, 0, 0), TPose2D(-1.2, 0, 0)})
+  {
+    const auto found = approach(drawnUp, robot);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->isUsualSide);
+    EXPECT_LT(distanceTo(drawnUp, found->pose), 0.9) << "[m], not beyond the table";
+  }
+}
+
 TEST_F(LivingRoom, BedsAreApproachedFromTheNearerLongSide)
 {
   const auto found = approach(bed, {0, -2.5, 0});

@@ -9,6 +9,7 @@
 
 #include "SampleInventory.h"
 #include "quadmap/geometry/ConvexHull.h"
+#include "quadmap/rooms/RandomRoom.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -239,6 +240,66 @@ TEST(RelationGeometry, OrderDecidesFrontsOfRoundAndSquareThings)
   EXPECT_TRUE(inFront(standing("1", "chair", {2, 0}, 0, {0.5, 0.5, 0.9}, M_PI / 2), {1, 0}));
   EXPECT_FALSE(inFront(standing("1", "couch", {2, 0}, 0, {2.0, 0.9, 0.8}, 0), {0.5, 0}));
   EXPECT_TRUE(inFront(standing("1", "couch", {2, 0}, 0, {2.0, 0.9, 0.8}, M_PI / 2), {0.5, 0}));
+}
+
+TEST(RelationGeometry, AChairFacesTheTableItStandsAt)
+{
+  const auto frontOfChair = [](const InventoryItem& chair, const InventoryItem& table)
+  {
+    return Geometry(inventoryWith(
+                        {chair, table, standing("3", "cup", {0.01, 9}, 0, {0.1, 0.1, 0.1}),
+                         standing("4", "cup", {-0.01, 9.5}, 0, {0.1, 0.1, 0.1})}))
+        .frontOf(0);
+  };
+  const Eigen::Vector3d seat(0.5, 0.5, 0.9), top(2.4, 0.9, 0.75);
+  const InventoryItem table = standing("2", "dining table", {0, 0}, 0, top);
+  const auto at = [&](double x, double y) { return standing("1", "chair", {x, y}, 0, seat); };
+  // Near the end of a long side the middle of the table is far aside.
+  for (const double x : {-0.9, 0.0, 0.9})
+  {
+    EXPECT_TRUE(frontOfChair(at(x, 0.8), table).isApprox(Eigen::Vector2d(0, -1), 1e-9)) << x;
+    EXPECT_TRUE(frontOfChair(at(x, 0.35), table).isApprox(Eigen::Vector2d(0, -1), 1e-9))
+        << x << ", pushed under it";
+  }
+  EXPECT_TRUE(frontOfChair(at(1.5, 0.1), table).isApprox(Eigen::Vector2d(-1, 0), 1e-9));
+  const Eigen::Vector2d away(0, 1);  // to the middle of the map
+  EXPECT_TRUE(frontOfChair(at(0, 1.9), table).isApprox(away, 1e-9)) << "not at the table";
+  InventoryItem phantom = table;
+  phantom.record.existence = 0.3;
+  EXPECT_TRUE(frontOfChair(at(0, 0.8), phantom).isApprox(away, 1e-9));
+  EXPECT_TRUE(frontOfChair(at(0, 0.8), standing("2", "coffee table", {0, 0}, 0, {2.4, 0.9, 0.4}))
+                  .isApprox(away, 1e-9))
+      << "too low to sit at";
+  EXPECT_TRUE(
+      frontOfChair(standing("1", "suitcase", {0, 0.8}, 0, seat), table).isApprox(away, 1e-9));
+}
+
+TEST(RelationGeometry, MostChairsOfFurnishedRoomsFaceWhereTheyAreTakenToFace)
+{
+  int chairs = 0, right = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+  {
+    std::vector<InventoryItem> items;
+    std::vector<Eigen::Vector2d> truth;
+    for (const auto& object : simulator::randomRoom(seed).objects)
+    {
+      if (object.label.empty() || !object.way.empty()) continue;
+      items.push_back(item(std::to_string(items.size()), object.label, {0, 0, 0}, {1, 1, 1}));
+      items.back().record.object = object.truth();
+      items.back().record.orientationDefined = object.orientationDefined;
+      truth.push_back(object.truth().rotation().col(0).head<2>());  // all furniture faces +x
+    }
+    const Inventory inventory = inventoryWith(items);
+    const Geometry room(inventory);
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+      if (items[i].record.label != "chair") continue;
+      ++chairs;
+      if (room.frontOf(i).dot(truth[i]) > std::cos(M_PI / 4)) ++right;
+    }
+  }
+  EXPECT_GT(chairs, 20);
+  EXPECT_GT(right, 0.7 * chairs) << "towards the middle alone: less than half";
 }
 
 TEST(RelationGeometry, BetweenMakesTheWayHardlyLonger)

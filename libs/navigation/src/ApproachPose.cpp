@@ -62,6 +62,7 @@ std::vector<Side> sidesOf(
       options.longSideLabels.begin(), options.longSideLabels.end(),
       [&](const std::string& name) { return map.labels().canonical(name) == label.name; });
   const auto front = frontOf(map, object.id);
+  const bool facesTable = tableOf(map, object.id).has_value();
   const Eigen::Vector3d s = object.object.semiAxes();
   const Eigen::Matrix3d axes = object.object.rotation();
   std::vector<Side> sides;
@@ -72,7 +73,7 @@ std::vector<Side> sidesOf(
       if (byLength)
         side.isUsual = s[axis] <= s[1 - axis];
       else if (!label.levelTop && front)
-        side.isUsual = side.outward.dot(*front) > kOneFront;
+        side.isUsual = (side.outward.dot(*front) > kOneFront) != facesTable;
       sides.push_back(side);
     }
   return sides;

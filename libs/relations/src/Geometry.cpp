@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "quadmap/geometry/ConvexHull.h"
 #include "quadmap/geometry/Overlap.h"
@@ -17,7 +18,8 @@ constexpr double kShareIn = 0.5;      // of the subject's volume inside the obje
 constexpr double kShareBeside = 0.5;  // of the lower one's height that both have in common
 constexpr double kSquare = 0.8;       // ratio of the sides above which a footprint has four fronts
 constexpr double kFarthestFront = 3;  // [m]
-constexpr double kLeastDirection = 0.01;  // to the middle, below which there is no front [m]
+constexpr const char* kChair = "chair";   // what is drawn up to a table, and faces it
+constexpr double kLeastDirection = 0.01;  // to what it faces, below which there is no front [m]
 constexpr double kDetour = 0.1;           // longer way by what is between, as a share
 
 Eigen::Vector2d flat(const Eigen::Vector3d& v) { return v.head<2>(); }
@@ -53,12 +55,32 @@ Eigen::Vector2d middleOf(const Inventory& inventory)
   return {median(x), median(y)};
 }
 
+/** The nearest point of the line along the middle of an oblong thing, which ends as far from its
+ * short sides as from its long ones; of a square thing it is the centre. */
+Eigen::Vector2d nearestOfMiddleLine(const Ellipsoid& object, const Eigen::Vector2d& from)
+{
+  const Eigen::Vector3d s = object.semiAxes();
+  const Eigen::Index longer = s.x() >= s.y() ? 0 : 1;
+  const Eigen::Vector2d along = flat(object.rotation().col(longer)).normalized();
+  const double end = s[longer] - s[1 - longer];
+  const double at = along.dot(from - flat(object.center()));
+  return flat(object.center()) + std::clamp(at, -end, end) * along;
+}
+
 }  // namespace
 
 Geometry::Geometry(const Inventory& inventory) : middle_(middleOf(inventory))
 {
   for (const InventoryItem& item : inventory.items)
     solids_.push_back(solidOf(item, inventory.labels));
+  for (Solid& solid : solids_)
+  {
+    solid.table = tableFor(solid);
+    const Eigen::Vector2d at = flat(solid.object.center());
+    const Eigen::Vector2d faced =
+        solid.table ? nearestOfMiddleLine(solids_[*solid.table].object, at) : middle_;
+    solid.front = frontTowards(solid, faced);
+  }
 }
 
 Geometry::Solid Geometry::solidOf(const InventoryItem& item, const LabelTable& labels)
@@ -78,12 +100,15 @@ Geometry::Solid Geometry::solidOf(const InventoryItem& item, const LabelTable& l
   solid.lowestSeat = hasSeat ? solid.bottom + quarter : solid.top - solid.seatTolerance;
   solid.hasLevelTop = label.levelTop;
   solid.isDirected = item.record.orientationDefined;
+  solid.isChair = label.name == labels.canonical(kChair);
+  solid.isDoubtful = item.isDoubtful();
   return solid;
 }
 
-double Geometry::gap(std::size_t i, std::size_t j) const
+double Geometry::gap(std::size_t i, std::size_t j) const { return gap(solids_[i], solids_[j]); }
+
+double Geometry::gap(const Solid& a, const Solid& b) const
 {
-  const Solid &a = solids_[i], &b = solids_[j];
   const double up = std::max({0.0, a.bottom - b.top, b.bottom - a.top});
   return std::hypot(distanceBetween(a.footprint, b.footprint), up);  // (23.2)
 }
@@ -132,12 +157,34 @@ std::optional<double> Geometry::near(std::size_t i, std::size_t j) const
   return between;
 }
 
-/** The direction out of an object's front, (23.9); zero when nothing tells. */
-Eigen::Vector2d Geometry::frontOf(const Solid& solid) const
+/** The table that a chair is drawn up to; of several the one whose middle line is nearest. */
+std::optional<std::size_t> Geometry::tableFor(const Solid& chair) const
 {
-  const Eigen::Vector2d toMiddle = middle_ - flat(solid.object.center());
-  if (toMiddle.norm() < kLeastDirection) return Eigen::Vector2d::Zero();
-  if (!solid.isDirected) return toMiddle.normalized();
+  std::optional<std::size_t> found;
+  if (!chair.isChair) return found;
+  const Eigen::Vector3d at = chair.object.center();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const Solid& table = solids_[i];
+    const bool isAtSeat = table.bottom < at.z() && table.top > at.z();
+    if (!table.hasLevelTop || table.isDoubtful || !isAtSeat) continue;
+    if (gap(chair, table) > nextToBound(chair, table)) continue;
+    const double away = (nearestOfMiddleLine(table.object, flat(at)) - flat(at)).norm();
+    if (away >= nearest) continue;
+    nearest = away;
+    found = i;
+  }
+  return found;
+}
+
+/** The direction out of the front of an object that faces a point, (23.9); zero when nothing tells.
+ */
+Eigen::Vector2d Geometry::frontTowards(const Solid& solid, const Eigen::Vector2d& faced) const
+{
+  const Eigen::Vector2d toFaced = faced - flat(solid.object.center());
+  if (toFaced.norm() < kLeastDirection) return Eigen::Vector2d::Zero();
+  if (!solid.isDirected) return toFaced.normalized();
   const Eigen::Matrix3d axes = solid.object.rotation();
   const Eigen::Vector3d s = solid.object.semiAxes();
   const bool isSquare = std::min(s.x(), s.y()) > kSquare * std::max(s.x(), s.y());
@@ -147,7 +194,7 @@ Eigen::Vector2d Geometry::frontOf(const Solid& solid) const
   {
     if (!isSquare && s[axis] > s[1 - axis]) continue;  // a wide thing is looked at across
     const Eigen::Vector2d direction = flat(axes.col(axis)).normalized();
-    const double towards = direction.dot(toMiddle);
+    const double towards = direction.dot(toFaced);
     if (std::abs(towards) <= most) continue;
     most = std::abs(towards);
     best = towards > 0 ? direction : Eigen::Vector2d(-direction);
@@ -159,7 +206,7 @@ Eigen::Vector2d Geometry::frontOf(const Solid& solid) const
  */
 std::optional<double> Geometry::onSide(const Solid& subject, const Solid& object, double sign) const
 {
-  const Eigen::Vector2d n = sign * frontOf(object);
+  const Eigen::Vector2d n = sign * object.front;
   if (n.isZero()) return std::nullopt;
   const auto halfAlong = [&](const Eigen::Vector2d& direction) {
     return halfExtent(object.object, {direction.x(), direction.y(), 0});

@@ -32,7 +32,10 @@ class Geometry
   std::optional<double> between(std::size_t i, std::size_t j, std::size_t k) const;
 
   /** The direction out of the front of an object, (23.9); zero when nothing tells. */
-  Eigen::Vector2d frontOf(std::size_t i) const { return frontOf(solids_[i]); }
+  Eigen::Vector2d frontOf(std::size_t i) const { return solids_[i].front; }
+
+  /** The table that a chair is drawn up to, and faces. */
+  std::optional<std::size_t> tableOf(std::size_t i) const { return solids_[i].table; }
 
   bool hasLevelTop(std::size_t i) const { return solids_[i].hasLevelTop; }
 
@@ -46,12 +49,16 @@ class Geometry
     double bottom = 0, top = 0;  // z in the map [m]
     double lowestSeat = 0;       // lowest height at which things stand on it [m]
     double seatTolerance = 0;    // [m]
-    bool hasLevelTop = false, isDirected = false;
+    bool hasLevelTop = false, isDirected = false, isChair = false, isDoubtful = false;
+    std::optional<std::size_t> table;                 // that it is drawn up to
+    Eigen::Vector2d front = Eigen::Vector2d::Zero();  // direction out of it
   };
 
   static Solid solidOf(const InventoryItem& item, const LabelTable& labels);
+  double gap(const Solid& a, const Solid& b) const;
   double nextToBound(const Solid& a, const Solid& b) const;
-  Eigen::Vector2d frontOf(const Solid& solid) const;
+  std::optional<std::size_t> tableFor(const Solid& chair) const;
+  Eigen::Vector2d frontTowards(const Solid& solid, const Eigen::Vector2d& faced) const;
   std::optional<double> onSide(const Solid& subject, const Solid& object, double sign) const;
 
   std::vector<Solid> solids_;

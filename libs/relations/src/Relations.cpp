@@ -8,6 +8,20 @@
 
 namespace quadmap
 {
+namespace
+{
+/** Where an object of the map is in its inventory. */
+std::size_t indexOf(const CQuadricObjectMap& map, ObjectId id)
+{
+  const auto& objects = map.objects();
+  const auto found = objects.find(id);
+  if (found == objects.end())
+    throw std::out_of_range("the map has no object " + std::to_string(id));
+  return static_cast<std::size_t>(std::distance(objects.begin(), found));
+}
+
+}  // namespace
+
 const char* textOf(RelationKind kind)
 {
   switch (kind)
@@ -65,14 +79,18 @@ std::vector<Relation> relationsOf(const CQuadricObjectMap& map)
 
 std::optional<Eigen::Vector2d> frontOf(const CQuadricObjectMap& map, ObjectId id)
 {
-  const auto& objects = map.objects();
-  const auto found = objects.find(id);
-  if (found == objects.end())
-    throw std::out_of_range("the map has no object " + std::to_string(id));
-  const auto index = static_cast<std::size_t>(std::distance(objects.begin(), found));
+  const std::size_t index = indexOf(map, id);
   const Eigen::Vector2d front = Geometry(inventoryOf(map)).frontOf(index);
   if (front.isZero()) return std::nullopt;
   return front;
+}
+
+std::optional<ObjectId> tableOf(const CQuadricObjectMap& map, ObjectId id)
+{
+  const std::size_t index = indexOf(map, id);
+  const auto table = Geometry(inventoryOf(map)).tableOf(index);
+  if (!table) return std::nullopt;
+  return std::next(map.objects().begin(), static_cast<std::ptrdiff_t>(*table))->first;
 }
 
 }  // namespace quadmap

@@ -38,7 +38,8 @@ struct ApproachPose
 };
 
 /** A free pose before an object, at the side people use: the front of a chair or a screen, a long
- * side of a bed, any side of a table. Of several it is the one with the shortest way, and when
+ * side of a bed, any side of a table; a chair that is drawn up to a table is come to from beside or
+ * behind. Of several it is the one with the shortest way, and when
  * none of them is free it is one at another side. The robot can drive there: a way through free
  * cells leads there from where it is.
  *

@@ -49,4 +49,9 @@ std::vector<Relation> relationsOf(const CQuadricObjectMap& map);
  * map. \exception std::out_of_range If there is no such object. */
 std::optional<Eigen::Vector2d> frontOf(const CQuadricObjectMap& map, ObjectId id);
 
+/** The table, or another thing with a level top, that a chair of the map is drawn up to, and faces:
+ * doc/mathematics.md, (23.9).
+ * \return Nothing for other things. \exception std::out_of_range If there is no such object. */
+std::optional<ObjectId> tableOf(const CQuadricObjectMap& map, ObjectId id);
+
 }  // namespace quadmap
