@@ -21,7 +21,7 @@ struct MapMergeOptions : public ConstellationOptions
   double staySigma = 0.02;
   /** Correlation of what the two maps err by about an object, in [0, 1]: both see the same sides of
    * it with the same perception. 0 takes the maps as independent. */
-  double errorCorrelation = 0.5;
+  double errorCorrelation = 0.75;
 
  private:
   void describe(OptionList& list) override;
