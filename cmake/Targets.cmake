@@ -95,9 +95,10 @@ function(quadmap_add_library name)
   quadmap_target_options(quadmap_${name})
   if(QUADMAP_TOGETHER AND NOT arg_SEPARATE)
     # Most of what is compiled are templates that sources have in common. Names in unnamed namespaces are unique within
-    # a library for it; those of functions still hide them.
+    # a library for it; those of functions still hide them, and GCC takes them for those of a header.
     set_target_properties(quadmap_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
-    target_compile_options(quadmap_${name} PRIVATE -Wno-shadow)
+    target_compile_options(quadmap_${name} PRIVATE -Wno-shadow
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   # Otherwise templates that a test instantiates, too, would be those of the test, which is not optimised.
   target_link_options(quadmap_${name} PRIVATE -Wl,-Bsymbolic-functions)
