@@ -152,7 +152,7 @@ function(quadmap_add_test name)
   target_compile_definitions(${name} PRIVATE
     QUADMAP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" QUADMAP_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
     QUADMAP_LIB_DIR="${CMAKE_BINARY_DIR}/lib")
-  target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${arg_LINK} quadmap_test_algebra GTest::gtest GTest::gtest_main)
   foreach(library IN LISTS arg_INTERNALS)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/libs/${library}/src)
   endforeach()

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "../geometry/Algebra.h"
+
 using namespace quadmap;
 
 namespace
@@ -20,8 +22,7 @@ UprightCovariance drawn(std::mt19937& random)
 /** Whether a - b has no negative eigenvalue, but for rounding. */
 bool isAtLeast(const UprightCovariance& a, const UprightCovariance& b)
 {
-  const Eigen::SelfAdjointEigenSolver<UprightCovariance> eigen(a - b);
-  return eigen.eigenvalues().minCoeff() > -1e-9;
+  return eigenvaluesOf(a - b)[0] > -1e-9;
 }
 }  // namespace
 
@@ -47,8 +48,8 @@ TEST(CovarianceIntersection, ClaimsNoMoreThanIndependentOnesNorLessThanEither)
   {
     const UprightCovariance a = drawn(random), b = drawn(random);
     const UprightCovariance both = covarianceIntersection(a, b);
-    EXPECT_TRUE(isAtLeast(both, (a.inverse() + b.inverse()).inverse()));
-    EXPECT_LE(both.determinant(), std::min(a.determinant(), b.determinant()) * (1 + 1e-9));
+    EXPECT_TRUE(isAtLeast(both, inverseOf(inverseOf(a) + inverseOf(b))));
+    EXPECT_LE(determinantOf(both), std::min(determinantOf(a), determinantOf(b)) * (1 + 1e-9));
   }
 }
 
@@ -58,14 +59,13 @@ TEST(CovarianceIntersection, HoldsHoweverTheErrorsAreCorrelated)
   std::mt19937 random(4);
   const UprightCovariance a = drawn(random), b = drawn(random);
   const UprightCovariance both = covarianceIntersection(a, b);
-  const UprightCovariance rootA = a.llt().matrixL(), rootB = b.llt().matrixL();
+  const UprightCovariance rootA = rootOf(a), rootB = rootOf(b);
   // The share of a in (share A + (1 - share) B)^-1, from the traces.
-  const UprightCovariance A = a.inverse(), B = b.inverse();
-  const double share = (both.inverse() - B).trace() / (A - B).trace();
+  const UprightCovariance A = inverseOf(a), B = inverseOf(b);
+  const double share = (inverseOf(both) - B).trace() / (A - B).trace();
   for (int i = 0; i < 20; ++i)
   {
-    const Eigen::HouseholderQR<UprightCovariance> qr(drawn(random));
-    const UprightCovariance Q = qr.householderQ();
+    const UprightCovariance Q = orthogonalOf(drawn(random));
     const UprightCovariance cross = rootA * Q * rootB.transpose();  // fully correlated
     const UprightCovariance Ka = share * both * A, Kb = (1 - share) * both * B;
     const UprightCovariance error = Ka * a * Ka.transpose() + Kb * b * Kb.transpose() +

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "../geometry/Algebra.h"
 #include "../obs/TemporaryFolder.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 
@@ -89,7 +90,7 @@ double hornRmse(const Points& points)
   const Eigen::Vector3d z(S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0));
   Eigen::Matrix4d N;
   N << S.trace(), z.transpose(), z, S + S.transpose() - S.trace() * Eigen::Matrix3d::Identity();
-  const double lambda = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(N).eigenvalues()(3);
+  const double lambda = eigenvaluesOf(N)[3];
   return std::sqrt(
       (a.squaredNorm() + b.squaredNorm() - 2 * lambda) / static_cast<double>(a.cols()));
 }

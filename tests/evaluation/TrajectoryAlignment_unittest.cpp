@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "../geometry/Algebra.h"
 #include "../geometry/RandomGeometry.h"
 #include "quadmap/geometry/PinholeCamera.h"
 
@@ -56,8 +57,7 @@ Eigen::Matrix3d hornRotation(const std::vector<PosePair>& pairs)
       S(1, 2) - S(2, 1), S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2),  //
       S(2, 0) - S(0, 2), S(0, 1) + S(1, 0), S(1, 1) - S(0, 0) - S(2, 2), S(1, 2) + S(2, 1),  //
       S(0, 1) - S(1, 0), S(2, 0) + S(0, 2), S(1, 2) + S(2, 1), S(2, 2) - S(0, 0) - S(1, 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(N);
-  const Eigen::Vector4d q = solver.eigenvectors().col(3);
+  const Eigen::Vector4d q = eigenvectorsOf(N).col(3);
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 

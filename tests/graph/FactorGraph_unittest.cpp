@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../geometry/Algebra.h"
 #include "../maps/SyntheticScene.h"
 #include "GraphWorld.h"
 #include "quadmap/estimation/ViewResiduals.h"
@@ -82,12 +83,11 @@ TEST(FactorGraph, MarginalsAreHonest)
     e << rotationVectorOf(Eigen::Quaterniond(turn)),
         Eigen::Vector3d(
             estimate.x() - truth.x(), estimate.y() - truth.y(), estimate.z() - truth.z());
-    poseSum += e.dot(marginals.lastPose.llt().solve(e)) / kWorlds;
+    poseSum += squaredError(e, marginals.lastPose) / kWorlds;
     for (const auto& [id, covariance] : marginals.objects)
     {
       const Eigen::Vector3d off = graph.object(id).center() - world.objects[id - 1].center();
-      const Eigen::Matrix3d S = covariance.topLeftCorner<3, 3>();
-      objectSum += off.dot(S.llt().solve(off));
+      objectSum += squaredError(off, covariance.topLeftCorner<3, 3>());
       objects += 1;
     }
   }
@@ -121,16 +121,14 @@ TEST(FactorGraph, AlignedMarginalsAreHonestWhereTheWorldIsMovedToFit)
       estimated.col(k) << e.x(), e.y(), e.z();
       truth.col(k) << t.x(), t.y(), t.z();
     }
-    const Eigen::Isometry3d T(Eigen::umeyama(estimated, truth, false));
+    const Eigen::Isometry3d T(Eigen::Matrix4d(rigidAlignment(estimated, truth)));
     const auto given = graph.objectMarginals();
     for (const auto& [id, covariance] : graph.alignedObjectMarginals(0))
     {
       const Eigen::Vector3d off =
           T.linear().transpose() * (T * graph.object(id).center() - world.objects[id - 1].center());
-      const Eigen::Matrix3d S = covariance.topLeftCorner<3, 3>();
-      sum += off.dot(S.llt().solve(off));
-      const Eigen::Matrix3d atPoses = given.at(id).topLeftCorner<3, 3>();
-      fixed += off.dot(atPoses.llt().solve(off));
+      sum += squaredError(off, covariance.topLeftCorner<3, 3>());
+      fixed += squaredError(off, given.at(id).topLeftCorner<3, 3>());
       objects += 1;
     }
   }

@@ -1,5 +1,6 @@
 #include <random>
 
+#include "../geometry/Algebra.h"
 #include "FactorCheck.h"
 #include "quadmap/geometry/RotationVector.h"
 
@@ -61,7 +62,7 @@ TEST(OdometryFactor, ResidualsOfSampledStepsAreWhite)
   // Steps drawn from the Gaussian over (x, y, z, yaw, pitch, roll), as MRPT defines it.
   const auto step = stepWithCovariance(CPose3D(0.3, -0.2, 0.1, 0.8, 0.4, -0.3), 0.004);
   const auto factor = createOdometryFactor(step);
-  const Eigen::Matrix<double, 6, 6> L = step.cov.asEigen().llt().matrixL();
+  const Eigen::Matrix<double, 6, 6> L = rootOf(step.cov.asEigen());
   std::mt19937 random(3);
   std::normal_distribution<double> gauss;
   constexpr int kSamples = 20000;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "../geometry/Algebra.h"
 #include "../obs/TemporaryFolder.h"
 #include "ObjectMapFixture.h"
 #include "quadmap/maps/MapMerge.h"
@@ -60,8 +61,7 @@ UprightCovariance randomCovariance(std::mt19937& rng)
   std::normal_distribution<double> any(0, 1);
   UprightCovariance A;
   for (Eigen::Index i = 0; i < A.size(); ++i) A.data()[i] = any(rng);
-  const Eigen::HouseholderQR<UprightCovariance> qr(A);
-  const UprightCovariance Q = qr.householderQ();
+  const UprightCovariance Q = orthogonalOf(A);
   UprightState s;
   for (auto& value : s) value = sigma(rng);
   return Q * s.cwiseAbs2().asDiagonal() * Q.transpose();
@@ -82,8 +82,8 @@ CQuadricObjectMap mapOf(
     seen.covariance = randomCovariance(rng);
     UprightState noise;
     for (auto& value : noise) value = any(rng);
-    const UprightState state = uprightStateOf(truth.object.transformed(-T_room_map)) +
-                               seen.covariance.llt().matrixL() * noise;
+    const UprightState state =
+        uprightStateOf(truth.object.transformed(-T_room_map)) + rootOf(seen.covariance) * noise;
     seen.object = ellipsoidOf(state);
     for (auto* time : {&seen.firstSeen, &seen.lastSeen})
       *time = mrpt::Clock::fromDouble(mrpt::Clock::toDouble(*time) + later);
@@ -156,13 +156,13 @@ TEST(MapMerging, KnowsMoreThanEitherMapAndAsMuchAsItClaims)
       sum.own += (nearestTo(before, p)->object.center() - p).norm();
       sum.other += (nearestTo(otherHere, p)->object.center() - p).norm();
       sum.merged += error.norm();
-      sum.nees += error.dot(merged->covariance.topLeftCorner<3, 3>().llt().solve(error));
+      sum.nees += squaredError(error, merged->covariance.topLeftCorner<3, 3>());
       ++sum.count;
     }
     Eigen::Vector4d off(
         merge->match.T_map_local.x() - kOther.x(), merge->match.T_map_local.y() - kOther.y(),
         merge->match.T_map_local.z() - kOther.z(), merge->match.T_map_local.yaw() - kOther.yaw());
-    place += off.dot(merge->placeCovariance.llt().solve(off)) / kRooms;
+    place += squaredError(off, merge->placeCovariance) / kRooms;
   }
   EXPECT_LT(sum.merged, 0.8 * std::min(sum.own, sum.other)) << "1 / sqrt(2) at best";
   EXPECT_NEAR(sum.nees / sum.count, 3, 0.5) << "squared error over claimed, of the centres";

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "../geometry/Algebra.h"
 #include "SyntheticScene.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/Overlap.h"
@@ -167,8 +168,7 @@ TEST(ObjectEstimator, ClaimsWhatViewsErrByTogether)
     {
       const auto e = estimatorOf(views, options).estimate(truth, boxy("suitcase"), options);
       const Eigen::Vector3d off = (e.state - truth).head<3>();
-      const Eigen::Matrix3d P = e.covariance.topLeftCorner<3, 3>();
-      return off.dot(P.llt().solve(off));
+      return squaredError(off, e.covariance.topLeftCorner<3, 3>());
     };
     nees += neesWith({}) / kTrials;
     neesOfIndependent += neesWith(independent) / kTrials;

@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "../geometry/Algebra.h"
+
 using namespace quadmap;
 using mrpt::poses::CPose3D;
 using mrpt::poses::CPose3DPDFGaussian;
@@ -44,7 +46,7 @@ CPose3DPDFGaussian poseWith(const CPose3D& pose, const Matrix6& cov)
 CPose3D perturbed(const CPose3DPDFGaussian& pose, std::mt19937& random)
 {
   std::normal_distribution<double> normal;
-  const Matrix6 root = pose.cov.asEigen().llt().matrixL();
+  const Matrix6 root = rootOf(pose.cov.asEigen());
   auto v = pose.mean.asVectorVal();
   v.asEigen() += root * Eigen::Matrix<double, 6, 1>::NullaryExpr([&] { return normal(random); });
   return {v[0], v[1], v[2], v[3], v[4], v[5]};

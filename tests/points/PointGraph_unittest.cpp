@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "../geometry/Algebra.h"
 #include "PointWorld.h"
 
 using namespace quadmap;
@@ -55,7 +56,7 @@ Eigen::VectorXd residuals(const PointGraph<D>& graph)
   std::vector<double> all;
   const auto add = [&](const Eigen::VectorXd& e, const Eigen::MatrixXd& covariance)
   {
-    const Eigen::VectorXd r = Eigen::MatrixXd(covariance.llt().matrixL()).inverse() * e;
+    const Eigen::VectorXd r = inverseOf(rootOf(covariance)) * e;
     all.insert(all.end(), r.data(), r.data() + r.size());
   };
   for (std::size_t k = 0; k < graph.steps.size(); ++k)

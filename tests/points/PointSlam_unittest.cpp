@@ -121,7 +121,7 @@ TEST(PointSlam, ObjectsAndPosesKnowHowWrongTheyAre)
     for (const auto& object : found.objects)
     {
       const Eigen::Vector2d e = object.position - world.objects[*object.instance];
-      sum += e.dot(object.covariance.inverse() * e);
+      sum += squaredError(e, object.covariance);
       n += 2;
     }
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../geometry/Algebra.h"
 #include "quadmap/points/PointSlam.h"
 
 namespace quadmap
@@ -238,7 +239,7 @@ PointPose<D> alignment(const std::vector<PointPose<D>>& from, const std::vector<
     a.col(static_cast<Eigen::Index>(k)) = from[k].t;
     b.col(static_cast<Eigen::Index>(k)) = to[k].t;
   }
-  const Eigen::MatrixXd T = Eigen::umeyama(a, b, false);
+  const Eigen::MatrixXd T = rigidAlignment(a, b);
   return {T.topLeftCorner(D, D), T.topRightCorner(D, 1)};
 }
 

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "../../geometry/Algebra.h"
+
 using namespace quadmap;
 using mrpt::poses::CPose3D;
 
@@ -12,7 +14,7 @@ namespace
 Vector6 sample(const Matrix6& covariance, std::mt19937& random)
 {
   std::normal_distribution<double> normal;
-  const Matrix6 root = covariance.llt().matrixL();
+  const Matrix6 root = rootOf(covariance);
   return root * Vector6::NullaryExpr([&](auto) { return normal(random); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Sparse>
 
+#include "../../geometry/Algebra.h"
 #include "../../graph/GraphWorld.h"
 #include "SparseInverse.h"
 
@@ -173,7 +174,7 @@ TEST(SparseInverse, IsTheDenseInverseWhereItIsKnown)
   {
     const Eigen::SparseMatrix<double> H = chainWithObjects(poses, objects);
     const SparseInverse inverse(Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>{H});
-    const Eigen::MatrixXd dense = Eigen::MatrixXd(H).inverse();
+    const Eigen::MatrixXd dense = inverseOf(H);
     const double rounding = 1e-11 * dense.norm();
     for (int k = 0; k < poses; ++k)
       EXPECT_LT((inverse.block(6 * k, 6) - dense.block(6 * k, 6 * k, 6, 6)).norm(), rounding);
@@ -205,7 +206,7 @@ TEST_P(PoseMarginalsOfADrive, AgreeWithTheDenseInverse)
           drive.costAt(a + b) - drive.costAt(a - b) - drive.costAt(b - a) + drive.costAt(-a - b);
       H(i, j) = H(j, i) = crossed / (4 * kStep * kStep);
     }
-  const Eigen::MatrixXd expected = H.inverse();
+  const Eigen::MatrixXd expected = inverseOf(H);
   FactorGraph graph = drive.graph;
   const auto marginals = graph.poseMarginals();
   ASSERT_EQ(marginals.size(), drive.world.truth.size());
@@ -237,10 +238,10 @@ TEST(PoseMarginals, AreHonestAllAlongADrive)
     // The other one knows of each object beforehand where it is, to 2 m.
     const Matrix6 more = marginals.back() - graph.marginals(0, false).lastPose;
     ASSERT_LT(more.norm(), 0.01 * marginals.back().norm());
-    const double least = Eigen::SelfAdjointEigenSolver<Matrix6>(more).eigenvalues()[0];
+    const double least = eigenvaluesOf(more)[0];
     ASSERT_GT(least, -1e-9 * marginals.back().norm()) << "knowing more cannot make less sure";
     const Vector6 e = stepBetween(world.truth[12], graph.pose(12));
-    middle += e.dot(marginals[12].llt().solve(e)) / kWorlds;
+    middle += squaredError(e, marginals[12]) / kWorlds;
   }
   EXPECT_NEAR(middle, 6, 1.0) << "six degrees of freedom; standard error sqrt(2 * 6 / 120) = 0.32";
 }

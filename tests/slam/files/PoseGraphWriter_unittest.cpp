@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "../../geometry/Algebra.h"
 #include "../SyntheticRoom.h"
 #include "quadmap/odometry/GraphOdometry.h"
 #include "run/ObjectSlam.h"
@@ -135,7 +136,7 @@ TEST_F(PoseGraphWriter, SurvivesThatMrptForgetsHowAnglesCorrelate)
                      1e-8 * Eigen::Matrix<double, 6, 6>::Identity();
   write(folder_.path("x.graph"), result);
   graph_.loadFromTextFile(folder_.path("x.graph"));
-  const Eigen::Matrix<double, 6, 6> covariance = graph_.getEdge(2, 3).cov_inv.asEigen().inverse();
+  const Eigen::Matrix<double, 6, 6> covariance = inverseOf(graph_.getEdge(2, 3).cov_inv.asEigen());
   EXPECT_GT(covariance.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
   const double rounding = 1e-4 * stated(0, 0);  // ten digits, of a matrix that is almost singular
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(covariance(i, i), stated(i, i), rounding) << i;
