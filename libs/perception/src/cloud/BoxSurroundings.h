@@ -6,12 +6,12 @@
 
 namespace quadmap
 {
-/** Width of what is looked at around a box [px]: an eighth of its longer side, where boxes of
+/** Width of what is looked at around a box [px]: 15 % of its longer side, where boxes of
  * detectors end beside their objects and what is near the object in the image is mostly near it in
  * the room; at least some pixels, because tight boxes of small things show nothing around them. */
 inline double surroundingWidth(const ImageBox& box)
 {
-  return std::max(8.0, 0.125 * std::max(box.width(), box.height()));
+  return std::max(8.0, 0.15 * std::max(box.width(), box.height()));
 }
 
 /** The box with its surroundings [px]. */

@@ -43,7 +43,7 @@ struct RingPoint
   bool beside = true;  //!< No farther from the object than such a thing is large
 };
 
-/** The surroundings of a box: a ring of an eighth of its size, some hundred points. */
+/** The surroundings of a box: a ring around it, some hundred points. */
 std::vector<RingPoint> ringAround(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
