@@ -37,6 +37,7 @@ class SmallRecording
   {
     folder_.write(name, text);
     const FrameFolder dataset = openFrameFolder("tum", folder_.folder().string());
+    if (!dataset.posesProblem().empty()) throw std::runtime_error(dataset.posesProblem());
     for (std::size_t i = 0; i < dataset.frames().size(); ++i)
     {
       dataset.boxes(i);
