@@ -168,8 +168,8 @@ TEST_F(StoppedPrograms, AnImportThatASignalEndsChangesNothing)
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
   {
     const auto before = bytesIn(folder_.folder());
-    const auto program = start(
-        "quadmap-import", {"tum", recording.folder(), "-o", folder_.path("x.rawlog"), "--force"});
+    const auto program =
+        start("quadmap-import", {"tum", recording.folder(), "-o", folder_.path("x.rawlog")});
     waitUntil([&] { return bytesIn(folder_.folder()) > before; });
     program.send(signal);
     EXPECT_EQ(program.wait(), 128 + signal) << log();
