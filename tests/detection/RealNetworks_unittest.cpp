@@ -7,7 +7,7 @@
 #include <set>
 
 #include "../obs/TemporaryFolder.h"
-#include "../obs/TestData.h"
+#include "KitchenModels.h"
 #include "quadmap/detection/Detector.h"
 #include "quadmap/geometry/ImageBox.h"
 #include "quadmap/obs/LabelTable.h"
@@ -53,18 +53,9 @@ std::size_t agreeing(
   return count;
 }
 
-class RealNetworks : public testing::Test
+class RealNetworks : public KitchenModels
 {
  protected:
-  void SetUp() override
-  {
-    kitchen_ = testData("kitchen_a");
-    models_ = testData("detector");
-    if (kitchen_.empty() || models_.empty()) GTEST_SKIP() << "recording or networks are not there";
-    ::setenv("QUADMAP_MODELS", models_.c_str(), 1);
-  }
-  void TearDown() override { ::unsetenv("QUADMAP_MODELS"); }
-
   /** Every n-th image of the recording that has a file of boxes. */
   std::vector<std::string> imagesWithBoxes(const std::string& folder, std::size_t every) const
   {
@@ -122,8 +113,6 @@ class RealNetworks : public testing::Test
     RecordProperty("confirmed", static_cast<int>(confirmed));
     return static_cast<double>(confirmed) / static_cast<double>(count);
   }
-
-  std::string kitchen_, models_;
 };
 }  // namespace
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "../obs/TemporaryFolder.h"
-#include "../obs/TestData.h"
+#include "KitchenModels.h"
 #include "PlainDecoders.h"
 #include "quadmap/detection/Detector.h"
 #include "quadmap/folders/ClassNames.h"
@@ -21,18 +21,14 @@ namespace
 constexpr double kMinScore = 0.25, kMaxOverlap = 0.45;  // of all three models
 constexpr double kUnsure = 1e-3;                        // so near to kMinScore rounding decides
 
-class RealOutputs : public testing::Test
+class RealOutputs : public KitchenModels
 {
  protected:
   void SetUp() override
   {
-    kitchen_ = testData("kitchen_a");
-    models_ = testData("detector");
-    if (kitchen_.empty() || models_.empty()) GTEST_SKIP() << "recording or networks are not there";
-    ::setenv("QUADMAP_MODELS", models_.c_str(), 1);
-    names_ = readClassNames(models_ + "/coco.names");
+    KitchenModels::SetUp();
+    if (!IsSkipped()) names_ = readClassNames(models_ + "/coco.names");
   }
-  void TearDown() override { ::unsetenv("QUADMAP_MODELS"); }
 
   std::string nameOf(const PlainBox& box) const
   {
@@ -85,7 +81,6 @@ class RealOutputs : public testing::Test
     compared_ += sure;
   }
 
-  std::string kitchen_, models_;
   std::vector<std::string> names_;
   LabelTable labels_ = LabelTable::installed();
   std::size_t compared_ = 0;  //!< Boxes in all images
