@@ -397,6 +397,20 @@ TEST(SupportChoice, TellsATableFromWhatItCarries)
   EXPECT_SUPPORT(chosen[2], 0.74, "the vase on it");
 }
 
+TEST(SupportChoice, PutsTheBackOfAChairOnNoTable)
+{
+  // The floor is out of sight, and the back rises a little above the table, right behind its edge.
+  for (const auto& view : kViewpoints)
+  {
+    SyntheticFrame frame = frameFrom(view.y, view.height, view.pitch);
+    frame.hasFloor = false;
+    frame.add(1.9, 0.0, 0.0, 0.0, {0.8, 1.6, 0.74});
+    const std::size_t back = frame.boxes.size();
+    frame.add(2.31, 0.1, 0.5, 0.0, {0.04, 0.42, 0.42});
+    EXPECT_FALSE(chosenFor(frame, back, "chair").height) << view.text();
+  }
+}
+
 TEST(SupportChoice, GivesTheSameAnswerTwice)
 {
   SyntheticFrame frame = frameFrom(0.2, 1.3, 0.4);

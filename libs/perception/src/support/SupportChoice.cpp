@@ -27,18 +27,21 @@ constexpr double kUsual = 4.0;      // it is where such objects usually stand
 constexpr double kUnusual = -1.5;
 constexpr double kTooTall = -2.0;  // for its kind, from the surface up, at most
 constexpr double kTooLow = -0.5;   // its top may be hidden or cut off
+constexpr double kTooLowForFurniture =
+    -4.0;                          // what stands on floors does not show its top on a table
 constexpr double kAnything = 2.0;  // it stands on something out of sight; a support must exceed it
 constexpr double kOnWall = 3.0;    // the wall shows around the object
 constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs on it
 
-/** The log-odds that the height of an object above a surface adds, equation (6.2); <= 0. \param
- * height Of the object's top above the surface [m]. */
-double heightPenalty(double height, const LabelProperties& label)
+/** The log-odds that the height of an object above a surface adds, equation (6.2); <= 0.
+ * \param height Of the object's top above the surface [m]. \param tooLow Most of what too low a top
+ *  adds. */
+double heightPenalty(double height, const LabelProperties& label, double tooLow)
 {
   constexpr double kMinSpread = 0.3, kMinHeight = 0.01;
   const double ratio = std::log(std::max(kMinHeight, height) / label.typicalSize.z());
   const double deviation = ratio / std::max(kMinSpread, label.sizeSpread);
-  return (ratio > 0 ? kTooTall : kTooLow) * std::min(1.0, 0.25 * deviation * deviation);
+  return (ratio > 0 ? kTooTall : tooLow) * std::min(1.0, 0.25 * deviation * deviation);
 }
 
 /** The detections whose tops are planes of the scene, by the index of the plane. */
@@ -130,6 +133,12 @@ class SupportJudge
     }
   }
 
+  /** The back of a chair rises a little above the table that the chair was pushed under. */
+  double tooLow(int i) const
+  {
+    return label_.support == UsualSupport::Floor && !isFloor(i) ? kTooLowForFurniture : kTooLow;
+  }
+
   /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
   double standingScore(int i) const
   {
@@ -155,7 +164,7 @@ class SupportJudge
     return kCovered * e.covered + kBelow * std::max(0.0, e.below - kAllowedBelow) +
            kGap * (1 - std::exp(-e.gap / kGapScale)) +
            kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
-           usual(i) + heightPenalty(e.top, label_);
+           usual(i) + heightPenalty(e.top, label_, tooLow(i));
   }
 
   /** The log-odds that an object lies on a plane so flat that its points are the plane's. */
