@@ -69,12 +69,7 @@ LookCounts ExistenceLooks::independent(const Visit& visit, const ExistenceOption
 LookCounts ExistenceLooks::independent(const ExistenceOptions& options) const
 {
   LookCounts sum = before_.counts;
-  for (const Visit& visit : visits_)
-  {
-    const LookCounts counts = independent(visit, options);
-    sum.seen += counts.seen;
-    sum.missed += counts.missed;
-  }
+  for (const Visit& visit : visits_) sum += independent(visit, options);
   return sum;
 }
 
@@ -87,8 +82,7 @@ void ExistenceLooks::take(
   known.logOdds = std::clamp(
       known.logOdds + counts.seen * evidence.detection() + counts.missed * evidence.miss(),
       -options.maxLogOdds, options.maxLogOdds);
-  known.counts.seen += counts.seen;
-  known.counts.missed += counts.missed;
+  known.counts += counts;
 }
 
 double ExistenceLooks::logOdds(double labelProbability, const ExistenceOptions& options) const

@@ -30,34 +30,33 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
   return missed;
 }
 
-/** Detection probability of each label, (13.3). An object's looks count by the probability that it
- * exists. */
-std::map<std::string, double> CQuadricObjectMap::detectionProbabilities() const
+/** An object's independent looks, times the probability that it exists. */
+LookCounts CQuadricObjectMap::likelyLooks(const Entry& object) const
 {
-  const auto& existence = insertionOptions.existence;
+  const LookCounts looks = object.looks.independent(insertionOptions.existence);
+  return {object.existence() * looks.seen, object.existence() * looks.missed};
+}
+
+std::map<std::string, LookCounts> CQuadricObjectMap::likelyLooksByLabel() const
+{
   std::map<std::string, LookCounts> counts;
-  for (const auto& [id, object] : objects_)
-  {
-    const LookCounts looks = object.looks.independent(existence);
-    LookCounts& sum = counts[object.label()];
-    sum.seen += object.existence() * looks.seen;
-    sum.missed += object.existence() * looks.missed;
-  }
-  std::map<std::string, double> probabilities;
-  for (const auto& [label, sum] : counts)
-    probabilities[label] = detectionProbability(sum, existence.detectionProbability, existence);
-  return probabilities;
+  for (const auto& [id, object] : objects_) counts[object.label()] += likelyLooks(object);
+  return counts;
 }
 
 /** Takes stock of the objects that a frame looked at. */
 void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
 {
-  const auto probabilities = detectionProbabilities();
+  const auto& existence = insertionOptions.existence;
+  const auto ofLabels = likelyLooksByLabel();
   for (const ObjectId id : looked)
   {
     Entry& object = require(id);
-    object.existenceLogOdds =
-        object.looks.logOdds(probabilities.at(object.label()), insertionOptions.existence);
+    // What the others of its kind tell, (13.3): its own looks count in logOdds() already.
+    LookCounts others = ofLabels.at(object.label());
+    others -= likelyLooks(object);
+    object.existenceLogOdds = object.looks.logOdds(
+        detectionProbability(others, existence.detectionProbability, existence), existence);
     object.confirmed = isConfirmed(object);
   }
 }

@@ -11,6 +11,19 @@ namespace quadmap
 struct LookCounts
 {
   double seen = 0, missed = 0;
+
+  LookCounts& operator+=(const LookCounts& other)
+  {
+    seen += other.seen;
+    missed += other.missed;
+    return *this;
+  }
+  LookCounts& operator-=(const LookCounts& other)
+  {
+    seen -= other.seen;
+    missed -= other.missed;
+    return *this;
+  }
 };
 
 /** Probability p_D that a look sees an object, (13.3) of doc/mathematics.md: the counts on top of a

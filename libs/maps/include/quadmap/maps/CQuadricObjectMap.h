@@ -318,7 +318,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
   void addView(Entry& object, const WaitingList::Entry& entry);
   std::set<ObjectId> countMisses(const Frame& frame, const std::set<ObjectId>& touched);
-  std::map<std::string, double> detectionProbabilities() const;  // of the labels, learnt so far
+  LookCounts likelyLooks(const Entry& object) const;
+  std::map<std::string, LookCounts> likelyLooksByLabel() const;
   void judge(const std::set<ObjectId>& looked);
   /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
   bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;
