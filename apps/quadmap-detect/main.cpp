@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "DetectRun.h"
 #include "quadmap/detection/KnownDetectors.h"
@@ -76,6 +77,7 @@ void run(Cli& cli)
   DetectRequest request;
   request.rawlog = cli.rawlog.getValue();
   request.output = cli.output.isSet() ? cli.output.getValue() : objectsFileOf(request.rawlog);
+  cli::requireOtherFile(request.output, request.rawlog);
   request.pictures = cli.draw.getValue();
   request.sensorLabel = cli.sensor.getValue();
   request.keepGoing = cli.keepGoing.getValue();

@@ -3,6 +3,7 @@
 
 #include "../common/CameraArguments.h"
 #include "../common/CommandLine.h"
+#include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "CameraImport.h"
 #include "FloorUp.h"
@@ -273,6 +274,7 @@ int run(Cli& cli)
   if (!(cli.maxSpeed.getValue() > 0)) throw cli::UsageError("--max-speed: must be > 0 m/s");
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
+  cli::requireOtherFile(cli.output.getValue(), cli.source.getValue());
   std::string kind = cli.kind.getValue();
   if (kind == kAuto && isRawlog(cli.source.getValue())) kind = kRawlog;
   if (kind != kRawlog && cli.trajectory.isSet())

@@ -152,6 +152,20 @@ TEST_F(QuadmapDetect, NamesWhatIsWrongInOneLine)
   expectError(run(rawlog), "tiny.weights: is empty");
 }
 
+TEST_F(QuadmapDetect, NeverReplacesTheRecordingByItsBoxes)
+{
+  const auto rawlog = writeRecording();
+  const auto before = readFile(rawlog);
+  std::filesystem::create_symlink(rawlog, folder_.path("link.rawlog"));
+  for (const auto& output : {rawlog, folder_.path("link.rawlog")})
+  {
+    const auto result = run(rawlog + " -o " + output);
+    EXPECT_EQ(result.status, 2) << output;
+    EXPECT_NE(result.err.find("is the recording itself"), kNotFound) << result.err;
+    EXPECT_TRUE(readFile(rawlog) == before) << output;
+  }
+}
+
 TEST_F(QuadmapDetect, TellsOfImagesWithoutColour)
 {
   auto scans = redCornerScans(3);

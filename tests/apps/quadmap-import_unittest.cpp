@@ -259,6 +259,16 @@ TEST_F(QuadmapImport, TruePosesOfARawlogStay)
   }
 }
 
+TEST_F(QuadmapImport, NeverReplacesTheRecordingThatItReads)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog").status, 0);
+  const auto before = readFile(out_.path("x.rawlog"));
+  const auto result = run("rawlog OUT/x.rawlog -o OUT/x.rawlog --every 2");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("is the recording itself"), kNotFound) << result.err;
+  EXPECT_TRUE(readFile(out_.path("x.rawlog")) == before);
+}
+
 TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
 {
   ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
