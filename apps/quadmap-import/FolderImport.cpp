@@ -107,7 +107,8 @@ FolderImportReport importFolder(
       writer.write(*scan, jpeg);
     report.copiedImages += jpeg.empty() ? 0 : 1;
     ++report.frames;
-    if (!loaded->boxes && !folder.boxesFile(i).empty()) ++report.withoutDetections;
+    if (!loaded->boxes && folder.hasDetections() && report.withoutDetections++ == 0)
+      report.firstWithoutDetections = folder.boxesFile(i);
     if (!loaded->boxes) continue;
     writer.write(*loaded->boxes);
     report.boxes += loaded->boxes->objects.size();

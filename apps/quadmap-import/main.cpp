@@ -141,13 +141,13 @@ void reportBoxesOfOtherImages(const FrameFolder& folder, bool keepGoing)
 
 /** Images without a file of boxes were not seen by the detector, or the files have other names.
  *  \exception std::runtime_error If no image has one, unless the import is to go on. */
-void reportMissingDetections(
-    const FrameFolder& folder, const FolderImportReport& report, bool keepGoing)
+void reportMissingDetections(const FolderImportReport& report, bool keepGoing)
 {
   if (report.withoutDetections == 0) return;
   const std::string text = std::to_string(report.withoutDetections) + " of " +
-                           std::to_string(report.frames) + " images have no file of boxes, as " +
-                           folder.boxesFile(0) + " is the one of the first";
+                           std::to_string(report.frames) +
+                           " images have no result of the detector; that of the first would be " +
+                           report.firstWithoutDetections;
   if (report.withoutDetections == report.frames && !keepGoing) throw std::runtime_error(text);
   std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
 }
@@ -194,7 +194,7 @@ void import(const FrameFolder& folder, Cli& cli)
   tellDropped(report);
   if (report.frames == 0)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
-  reportMissingDetections(folder, report, options.keepGoing);
+  reportMissingDetections(report, options.keepGoing);
   if (options.posesAs != PosesAs::None && !folder.poses().empty())
     reportMissingPoses(folder.poses(), report);
   writer.finish();

@@ -302,13 +302,15 @@ TEST_F(QuadmapImport, TellsWhichImagesHaveNoFileOfBoxes)
   const std::string arguments =
       "tum IN -o OUT/x.rawlog --detections " + detections.folder().string();
   detections.write("other.txt", "41 cup 0.5 1 1 9 9\n");
-  expectFailure(run(arguments), "6 of 6 images have no file of boxes");
+  expectFailure(run(arguments), "6 of 6 images have no result of the detector");
   EXPECT_EQ(out_.fileCount(), 0u);
   EXPECT_EQ(run(arguments + " --keep-going").status, 0);
-  detections.write("f4.txt", "41 cup 0.5 1 1 9 9\n");
+  detections.write("f0.txt", "41 cup 0.5 1 1 9 9\n");
   const auto result = run(arguments);
   EXPECT_EQ(result.status, 0);
   EXPECT_NE(result.err.find("warning: 5 of 6 images"), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("that of the first would be " + detections.path("f1.txt")), kNotFound)
+      << result.err;
 }
 
 TEST_F(QuadmapImport, WritesExternalImages)

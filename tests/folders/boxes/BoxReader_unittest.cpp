@@ -144,6 +144,10 @@ TEST_F(BoxFiles, CocoDataSetsHaveTheirOwnNames)
   expectBox(boxes->at(1), "wine glass", 0.5, {1, 2, 4, 6});
   EXPECT_TRUE(read("b.png", "x.json")->empty()) << "listed, without a box";
   EXPECT_FALSE(read("c.png", "x.json")) << "not listed";
+  FolderFrame frame;
+  frame.color = "/recording/rgb/c.png";
+  EXPECT_EQ(
+      openBoxes(files_.path("x.json"), "")->fileOf(frame), files_.path("x.json") + ": image c");
 }
 
 TEST_F(BoxFiles, CocoResultsHaveNumbersOfImagesAndClasses)

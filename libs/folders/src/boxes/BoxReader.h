@@ -25,8 +25,9 @@ class BoxReader
    * file per image this is not known, as boxes() tells which file is missing. */
   virtual bool isOfOtherImages(const std::vector<FolderFrame>& /*frames*/) const { return false; }
 
-  virtual std::string fileOf(const FolderFrame& frame) const = 0;  //!< That has or should have them
-  virtual std::string description() const = 0;                     //!< Form and place, for messages
+  /** The file that has or should have the boxes of an image, and where in it, for messages. */
+  virtual std::string fileOf(const FolderFrame& frame) const = 0;
+  virtual std::string description() const = 0;  //!< Form and place, for messages
 };
 
 /** The names that boxes of an image may go by: that of its file without the extension, and in

@@ -130,7 +130,10 @@ class CocoBoxes : public BoxReader
                                     [this](const auto& frame) { return find(frame) != nullptr; });
   }
 
-  std::string fileOf(const FolderFrame&) const override { return file_; }
+  std::string fileOf(const FolderFrame& frame) const override
+  {
+    return file_ + ": image " + namesOf(frame).front();
+  }
   std::string description() const override { return file_ + " (COCO's JSON)"; }
 
  private:

@@ -108,6 +108,7 @@ class FrameFolder
    *  look at the frame. \exception std::runtime_error For a malformed file. The message names file
    *  and line. */
   CObservationObjects::Ptr boxes(std::size_t frame) const;
+  /** The file that has or should have the boxes of a frame, and where in it, for messages. */
   std::string boxesFile(std::size_t frame) const;
   /** Whether there are boxes in one file for all images, and none of them is of a frame. */
   bool boxesAreOfOtherImages() const;
