@@ -33,6 +33,7 @@ TEST(CameraPreset, IsChosenByTheWordsInAFoldersName)
   EXPECT_EQ(presetOfFolder("/a/rgbd_dataset_freiburg2_desk/"), "fr2");
   EXPECT_EQ(presetOfFolder("/a/FR3-office/rgbd"), "fr3") << "or of the folder above";
   EXPECT_EQ(presetOfFolder("/a/7scenes/seq-01"), "7scenes");
+  EXPECT_EQ(presetOfFolder("/a/living_room_traj0_frei_png"), "icl") << "as downloaded";
   EXPECT_EQ(presetOfFolder("/fr1/a/b"), std::nullopt);
   EXPECT_EQ(presetOfFolder("/a/freiburg12"), std::nullopt) << "another word";
 }
