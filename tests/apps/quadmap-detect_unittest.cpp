@@ -113,7 +113,9 @@ TEST_F(QuadmapDetect, DrawsPictures)
 TEST_F(QuadmapDetect, ListsTheModels)
 {
   ::setenv("QUADMAP_MODELS", folder_.folder().c_str(), 1);
-  folder_.write("nanodet.onnx", "x");
+  folder_.write("nanodet.onnx", "an error page");
+  folder_.write("own.ini", "[detector]\nweights = own.onnx\n");
+  folder_.write("own.onnx", "x");
   const auto result = runProgram("quadmap-detect", "--list");
   ::unsetenv("QUADMAP_MODELS");
   EXPECT_EQ(result.status, 0) << result.err;
@@ -122,8 +124,8 @@ TEST_F(QuadmapDetect, ListsTheModels)
   int curl = 0;
   for (std::string line; std::getline(lines, line);)
   {
-    const bool isInstalled = line.find("installed  Apache-2.0") != kNotFound;
-    EXPECT_EQ(isInstalled, line.find("nanodet-m ") == 0) << line;
+    EXPECT_EQ(line.find(" installed ") != kNotFound, line.find("own ") == 0) << line;
+    EXPECT_EQ(line.find(" wrong ") != kNotFound, line.find("nanodet-m ") == 0) << line;
     curl += line.find("    mkdir -p '" + folder_.folder().string() + "' && curl -fL ") == 0;
     EXPECT_EQ(line.find("ultralytics"), kNotFound);
   }

@@ -5,7 +5,6 @@
 
 #include "DnnDetector.h"
 #include "model/ModelFolder.h"
-#include "quadmap/base/Sha256.h"
 #include "quadmap/detection/KnownDetectors.h"
 
 namespace quadmap
@@ -24,12 +23,7 @@ std::string requirePart(const std::string& modelFile, const std::string& name)
 std::string requireChecked(const std::string& modelFile, const ModelPart& part)
 {
   const std::string path = requirePart(modelFile, part.file);
-  if (part.sha256.empty()) return path;
-  const std::string sum = sha256OfFile(path);
-  if (sum != part.sha256)
-    throw std::runtime_error(
-        path + ": is damaged or another file: its SHA-256 is " + sum + ", that in " + modelFile +
-        " is " + part.sha256);
+  if (const auto damage = damageOf(path, part, modelFile)) throw std::runtime_error(*damage);
   return path;
 }
 

@@ -46,7 +46,12 @@ KnownDetector knownFrom(const std::string& file)
     known.licence = model.licence;
     std::vector<ModelPart> missing;
     for (const ModelPart& part : model.parts())
-      if (!findModelPart(file, part.file)) missing.push_back(part);
+    {
+      const auto path = findModelPart(file, part.file);
+      const auto damage = path ? damageOf(*path, part, file) : std::nullopt;
+      if (damage) known.problem = *damage;
+      if (!path || damage) missing.push_back(part);
+    }
     known.installed = missing.empty();
     if (!known.installed) known.howToGet = commandFor(missing);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "quadmap/base/Sha256.h"
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/detection/KnownDetectors.h"
 
@@ -86,6 +87,16 @@ std::optional<std::string> findModelPart(const std::string& modelFile, const std
        {fs::path(modelFile).parent_path(), fs::path(detectorFolder()), sharedFolder()})
     if (const fs::path path = folder / name; isFile(path)) return path.string();
   return std::nullopt;
+}
+
+std::optional<std::string> damageOf(
+    const std::string& path, const ModelPart& part, const std::string& modelFile)
+{
+  if (part.sha256.empty()) return std::nullopt;
+  const std::string sum = sha256OfFile(path);
+  if (sum == part.sha256) return std::nullopt;
+  return path + ": is damaged or another file: its SHA-256 is " + sum + ", that in " + modelFile +
+         " is " + part.sha256;
 }
 
 }  // namespace quadmap

@@ -10,9 +10,9 @@ struct KnownDetector
 {
   std::string name;        //!< Of the model file, without .ini
   std::string licence;     //!< Of its weights
-  bool installed = false;  //!< All its files are there
+  bool installed = false;  //!< All its files are there and have the checksums that it states
   std::string howToGet;    //!< A command for a shell, or a sentence for models that have no source
-  std::string problem;     //!< What is wrong with its model file; empty when nothing is
+  std::string problem;  //!< What is wrong with its model file or another one; empty when nothing is
 };
 
 /** The models of share/quadmap/detectors and those of the user's folder, by name. */
