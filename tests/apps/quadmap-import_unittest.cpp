@@ -149,10 +149,12 @@ TEST_F(QuadmapImport, TellsOfPosesThatCannotBeReadAndOfTheRest)
 TEST_F(QuadmapImport, RefusesResultsOfOtherImages)
 {
   const std::string file = recording_.files.write(
-      "r.json", R"([{"image_id": "other", "category_id": 62, "bbox": [1, 2, 3, 4]}])");
+      "r.json", R"([{"image_id": "other", "category_id": 0, "bbox": [1, 2, 3, 4]}])");
+  const std::string boxes =
+      " --detections " + file + " --labels " + recording_.files.write("my.names", "tv\n");
   const std::string what = "none of its boxes is of an image of ";
-  expectFailure(run("tum IN -o OUT/x.rawlog --detections " + file), what);
-  const auto kept = run("tum IN -o OUT/x.rawlog --keep-going --detections " + file);
+  expectFailure(run("tum IN -o OUT/x.rawlog" + boxes), what);
+  const auto kept = run("tum IN -o OUT/x.rawlog --keep-going" + boxes);
   EXPECT_EQ(kept.status, 0);
   EXPECT_NE(kept.err.find("warning: "), kNotFound) << kept.err;
 }

@@ -113,6 +113,24 @@ TEST_F(BoxFiles, YoloNamesAreTakenFromAFile)
   EXPECT_EQ(read("a.png", "labels")->at(0).label, "a b") << "the file in the folder above";
 }
 
+TEST_F(BoxFiles, SaysWhenNumbersAreTakenForClassesOfCoco)
+{
+  files_.write("a.txt", "1 0.5 0.5 0.5 0.5\n");
+  const auto results = files_.write("r.json", "[]");
+  const auto dataset =
+      files_.write("d.json", R"({"images": [], "categories": [], "annotations": []})");
+  const auto own = files_.write("my.names", "shelf\noffice chair\n");
+  const std::string folder = files_.folder().string();
+  for (const auto& place : {folder, results})
+  {
+    expectIn(openBoxes(place, "")->note(), place + ": no file names the classes");
+    EXPECT_EQ(openBoxes(place, own)->note(), "") << place;
+  }
+  EXPECT_EQ(openBoxes(dataset, "")->note(), "");
+  files_.write("classes.txt", "shelf\noffice chair\n");
+  EXPECT_EQ(openBoxes(folder, "")->note(), "");
+}
+
 TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
 {
   files_.write("a.txt", "0 0.5 0.5 0.5 0.5\n");

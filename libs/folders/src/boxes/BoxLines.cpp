@@ -132,13 +132,21 @@ class NamedBoxes : public BoxLines
 class YoloBoxes : public BoxLines
 {
  public:
-  YoloBoxes(const std::string& folder, std::string namesFile) :
-      BoxLines(folder), namesFile_(std::move(namesFile)), names_(readClassNames(namesFile_))
+  /** \param namesFile The names of the classes, those of COCO when there is none. */
+  YoloBoxes(const std::string& folder, const std::optional<std::string>& namesFile) :
+      BoxLines(folder),
+      hasOwnNames_(namesFile.has_value()),
+      namesFile_(hasOwnNames_ ? *namesFile : findShareFile("detectors/coco.names")),
+      names_(readClassNames(namesFile_))
   {
   }
   std::string description() const override
   {
     return folder_ + " (YOLO's save_txt, names of " + namesFile_ + ")";
+  }
+  std::string note() const override
+  {
+    return hasOwnNames_ ? std::string() : noteOfUnnamedClasses(folder_);
   }
 
  private:
@@ -170,19 +178,26 @@ class YoloBoxes : public BoxLines
     return object;
   }
 
+  bool hasOwnNames_;
   std::string namesFile_;
   std::vector<std::string> names_;
 };
 
-std::string findNames(const std::string& folder, const std::string& labels)
+/** The file with the names of the classes of a folder's boxes, if there is one. */
+std::optional<std::string> findNames(const std::string& folder, const std::string& labels)
 {
   if (!labels.empty()) return labels;
   for (const fs::path& place : {fs::path(folder), fs::path(folder) / ".."})
     for (const auto& name : kNameFiles)
       if (fs::is_regular_file(place / name)) return (place / name).lexically_normal().string();
-  return findShareFile("detectors/coco.names");
+  return std::nullopt;
 }
 }  // namespace
+
+std::string noteOfUnnamedClasses(const std::string& place)
+{
+  return place + ": no file names the classes, whose numbers are taken for COCO's (--labels FILE)";
+}
 
 void requireFewBoxes(std::size_t boxes, const std::string& place)
 {

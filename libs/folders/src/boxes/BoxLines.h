@@ -30,6 +30,9 @@ bool hasYoloBoxes(const std::string& folder);
  * in this form. */
 std::unique_ptr<const BoxReader> openCocoBoxes(const std::string& file, const std::string& labels);
 
+/** The note of boxes whose classes are numbers that no file names. */
+std::string noteOfUnnamedClasses(const std::string& place);
+
 /** \exception std::runtime_error If there are more than a record can have; names the place. */
 void requireFewBoxes(std::size_t boxes, const std::string& place);
 

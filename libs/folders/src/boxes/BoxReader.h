@@ -28,6 +28,8 @@ class BoxReader
   /** The file that has or should have the boxes of an image, and where in it, for messages. */
   virtual std::string fileOf(const FolderFrame& frame) const = 0;
   virtual std::string description() const = 0;  //!< Form and place, for messages
+  /** What is taken for granted and may be wrong; empty when nothing is. */
+  virtual std::string note() const { return {}; }
 };
 
 /** The names that boxes of an image may go by: that of its file without the extension, and in

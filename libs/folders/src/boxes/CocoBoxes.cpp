@@ -103,7 +103,8 @@ class ResultNames
 class CocoBoxes : public BoxReader
 {
  public:
-  CocoBoxes(std::string file, const std::string& labels) : file_(std::move(file))
+  CocoBoxes(std::string file, const std::string& labels) :
+      file_(std::move(file)), hasOwnNames_(!labels.empty())
   {
     const Json json = readJson(file_);
     if (json.is_array())
@@ -135,6 +136,10 @@ class CocoBoxes : public BoxReader
     return file_ + ": image " + namesOf(frame).front();
   }
   std::string description() const override { return file_ + " (COCO's JSON)"; }
+  std::string note() const override
+  {
+    return isResults_ && !hasOwnNames_ ? noteOfUnnamedClasses(file_) : std::string();
+  }
 
  private:
   /** The boxes that the file has of an image, or null. */
@@ -205,6 +210,7 @@ class CocoBoxes : public BoxReader
   }
 
   std::string file_;
+  bool hasOwnNames_;  // of results, as a data set has names in any case
   bool isResults_ = false;
   std::map<std::string, std::vector<DetectedObject>> boxesOf_;  // by the names of images
 };

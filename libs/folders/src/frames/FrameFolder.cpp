@@ -51,6 +51,7 @@ FrameFolder::FrameFolder(FolderContent content, const FrameFolderOptions& option
     content_.notes.push_back(
         content_.folder + ": colour, depth and boxes are rectified, as the lens of " +
         camera.origin + " distorts");
+  if (boxes_ && !boxes_->note().empty()) content_.notes.push_back(boxes_->note());
   if (!boxes_)
     content_.notes.push_back(
         content_.folder + ": no detections, hence no boxes (quadmap-slam --detector finds some)");
