@@ -88,6 +88,8 @@ TEST(Vocabulary, OffersWordsThatAreSpeltAlike)
   const Vocabulary words(room);
   EXPECT_EQ(words.similarTo("cuup", {}).front(), "cup");
   EXPECT_EQ(words.similarTo("sofaa", {}).front(), "sofa") << "a synonym";
+  EXPECT_EQ(words.similarTo("dinning", {}).front(), "dining table") << "one word of a label";
+  EXPECT_EQ(words.similarTo("potted", {}).front(), "potted plant") << "half of a label";
   EXPECT_EQ(words.similarTo("nearset", {"nearest"}).front(), "nearest");
   EXPECT_TRUE(words.similarTo("xyzzyx", {"on"}).empty());
   EXPECT_LE(words.similarTo("cap", {}).size(), 3u);

@@ -131,7 +131,7 @@ std::vector<std::string> Vocabulary::similarTo(
 {
   constexpr std::size_t kMost = 3;
   const std::size_t farthest = std::max<std::size_t>(1, word.size() / 3);
-  // Distance, then labels of the objects before other words, then the alphabet.
+  // Distance; labels of the objects, other words, labels of which one word is alike; the alphabet.
   std::set<std::tuple<std::size_t, int, std::string>> ranked;
   const auto offer = [&](const std::string& spelling, int rank, const std::string& shown)
   {
@@ -141,6 +141,8 @@ std::vector<std::string> Vocabulary::similarTo(
   for (const std::string& label : objectLabels_) offer(joined(wordsOf(label), ""), 0, label);
   for (const auto& [spelling, name] : table_.spellings())
     offer(spelling, 1, joined(wordsOf(name), "") == spelling ? name : spelling);
+  for (const auto& [words, key] : keyByWords_)
+    for (const std::string& part : words) offer(part, 2, joined(words, " "));
   for (const std::string& known : grammar) offer(known, 1, known);
 
   std::vector<std::string> best;

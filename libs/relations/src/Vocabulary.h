@@ -32,7 +32,8 @@ class Vocabulary
   std::set<std::string> labelsMeantBy(const std::vector<std::string>& noun) const;
 
   /** The known words that are spelt most like one that is not: labels of the objects, spellings of
-   * the label table, words of questions; at most three, best first.
+   * the label table, words of questions, labels of which one word is spelt so; at most three, best
+   * first.
    * \param grammar The words of questions. */
   std::vector<std::string> similarTo(
       const std::string& word, const std::set<std::string>& grammar) const;
