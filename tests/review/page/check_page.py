@@ -100,6 +100,9 @@ def check_phone_and_themes(path):
         before = page.evaluate("Page.themeColor('--back')")
         page.click_on("#theme")
         require(page.evaluate("Page.themeColor('--back')") != before, "the theme changes")
+        schemes = [page.evaluate(f"(document.documentElement.dataset.theme = '{theme}', getComputedStyle(document.body).colorScheme)")
+                   for theme in ("dark", "light")]
+        require(schemes == ["dark", "light"], f"scroll bars and fields follow the theme: {schemes}")
 
 
 def type_into(page, selector, text):
