@@ -40,7 +40,7 @@ Page.details = (function () {
     row(table, "uncertainty", sigmaText(object));
     row(table, "exists", object.existence === null ? "not known" : object.existence.toFixed(3) + (object.confirmed ? "" : ", not confirmed"));
     row(table, "views", object.views === null ? "not known" : object.views + " used, " + object.misses + " that should have shown it and did not");
-    if (object.first !== null) row(table, "seen", Page.dateText(object.first) + " to " + Page.dateText(object.last));
+    if (object.first !== null) row(table, "seen", [object.first, object.last].map((t) => Page.dateText(t) || Page.timeText(t)).join(" to "));
     if (object.verdict) row(table, "compared", object.verdict);
     const buttons = Page.element("div", facts, null, "row");
     Page.button(buttons, "Look at it", () => Page.lookAt(object.id));

@@ -27,8 +27,9 @@ Page.keyframes = (function () {
     drawBoxes(keyframe);
   }
   function describe(keyframe) {
+    const date = Page.dateText(keyframe.time);
     Page.byId("frame-text").textContent = "Image " + (Page.keyframe + 1) + " of " + list.length + ", " +
-      keyframe.sensor + ", " + Page.timeText(keyframe.time) + " (" + Page.dateText(keyframe.time) + ")";
+      keyframe.sensor + ", " + Page.timeText(keyframe.time) + (date ? " (" + date + ")" : "");
     boxes.textContent = "";
     for (const item of keyframe.boxes) {
       const row = Page.element("li", boxes);

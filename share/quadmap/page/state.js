@@ -45,10 +45,14 @@ const Page = {
   // [s since 1970] as seconds after the first keyframe, or as a date.
   timeText(time) {
     if (time === null) return "";
-    const start = this.data.keyframes.length ? this.data.keyframes[0].time : null;
-    return start === null ? this.dateText(time) : (time - start).toFixed(1) + " s";
+    const first = this.data.keyframes[0];
+    return (!first && this.dateText(time)) || (time - (first ? first.time : 0)).toFixed(1) + " s";
   },
-  dateText(time) { return new Date(1000 * time).toISOString().replace("T", " "); },
+  // Empty when the clock of the recording began at zero, or is beyond the calendar.
+  dateText(time) {
+    const date = new Date(1000 * time);
+    return isNaN(date) || date.getUTCFullYear() < 1980 ? "" : date.toISOString().replace("T", " ");
+  },
 
   // Distance of a centre from the truth that one would expect [m]; null when nothing is known.
   centreSigma(object) { return object.sigma && Math.hypot(object.sigma[0], object.sigma[1], object.sigma[2]); },

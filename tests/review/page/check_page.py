@@ -55,6 +55,11 @@ def check_keyframes(path):
         text = page.evaluate("document.getElementById('boxes').textContent")
         for part in ("complete", "the cuboid fits", "rejected", "too few points", "object 2", "no object"):
             require(part in text, f"the list of boxes lacks '{part}': {text}")
+        when = page.evaluate("document.getElementById('frame-text').textContent")
+        require("1.0 s" in when and "1970" not in when, f"a clock that began at zero tells no date: {when}")
+        page.evaluate("Page.keyframe = -1, Page.data.keyframes[1].time = 1600000000, Page.keyframes.show(1)")
+        when = page.evaluate("document.getElementById('frame-text').textContent")
+        require("(2020-09-13 12:26:40.000Z)" in when, f"others tell it: {when}")
         page.click_on("#boxes button")
         require(page.evaluate("Page.selected") == "2", "a box's button selects its object")
         page.click_on("#after")
