@@ -7,15 +7,24 @@ Page.keyframes = (function () {
   const bitmap = new Image();
   slider.max = Math.max(0, list.length - 1);
 
+  // A text whose lower left corner is at a place of the image, on a dark ground and never cut.
+  function write(text, x, y, color) {
+    const height = canvas.width / 26, width = pen.measureText(text).width + 6;
+    const left = Math.max(0, Math.min(x, canvas.width - width)), bottom = Math.max(y, height);
+    pen.fillStyle = "rgba(0, 0, 0, 0.65)";
+    pen.fillRect(left, bottom - height, width, height);
+    pen.fillStyle = color;
+    pen.fillText(text, left + 3, bottom - height / 4);
+  }
   function drawBoxes(keyframe) {
     pen.lineWidth = Math.max(1.5, canvas.width / 300);
     pen.font = "bold " + Math.round(canvas.width / 32) + "px system-ui, sans-serif";
     for (const item of keyframe.boxes) {
       const [x1, y1, x2, y2] = item.box;
       const own = item.object !== null && item.object === Page.selected;
-      pen.strokeStyle = pen.fillStyle = own ? "#4da3ff" : colors[item.kind] || colors.none;
+      pen.strokeStyle = own ? "#4da3ff" : colors[item.kind] || colors.none;
       pen.strokeRect(x1, y1, x2 - x1, y2 - y1);
-      pen.fillText(item.label + (item.object === null ? "" : " " + item.object), x1 + 3, Math.max(y1 - 4, canvas.width / 28));
+      write(item.label + (item.object === null ? "" : " " + item.object), x1, y1, pen.strokeStyle);
     }
   }
   function draw() {

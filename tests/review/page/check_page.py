@@ -60,6 +60,8 @@ def check_keyframes(path):
         page.evaluate("Page.keyframe = -1, Page.data.keyframes[1].time = 1600000000, Page.keyframes.show(1)")
         when = page.evaluate("document.getElementById('frame-text').textContent")
         require("(2020-09-13 12:26:40.000Z)" in when, f"others tell it: {when}")
+        ground = page.evaluate("Array.from(document.getElementById('image').getContext('2d').getImageData(11, 9, 1, 1).data)")
+        require(max(ground[:3]) < 110, f"the name of a box stands on a dark ground: {ground}")
         page.click_on("#boxes button")
         require(page.evaluate("Page.selected") == "2", "a box's button selects its object")
         page.click_on("#after")
