@@ -90,6 +90,31 @@ TEST(PictureAnnotation, MarksPhantomsAndWhatWasMissed)
   EXPECT_GT(countAll(annotated(content, camera), ink), before + 50);
 }
 
+TEST(PictureAnnotation, TiesANameToItsObjectWhenItHadToGiveWay)
+{
+  SceneContent content = sampleContent();
+  content.truth.clear();
+  const RenderCamera camera = cameraFromAbove(content, 1.6);
+  content.objects.clear();
+  const auto add = [&](const char* label, double x, double y)  // [px] right and up of the middle
+  {
+    const double metresPerPixel =
+        2 * std::tan(0.5 * camera.verticalFov) * camera.distance / kHeight;
+    const Eigen::Vector3d top =
+        camera.target + metresPerPixel * camera.axes() * Eigen::Vector3d(x, y, 0);
+    constexpr double kHalf = 0.01;  // [m]
+    content.objects.push_back(recordOf(
+        std::to_string(content.objects.size()), label, {top.x(), top.y(), top.z() - kHalf, 0, 0, 0},
+        {kHalf, kHalf, kHalf}));
+  };
+  // Plates are 30 px high: those of the two chairs leave no place at the vase.
+  add("chair", -30, 33);
+  add("chair", 0, -28);
+  add("vase", 0, 5);
+  EXPECT_GT(count(annotated(content, camera), labelColor("vase"), {640, 385}, {4, 6}), 8)
+      << "between its object and the plate above";
+}
+
 TEST(PictureAnnotation, DrawsABarOfARoundLength)
 {
   SceneContent content = sampleContent();

@@ -137,16 +137,29 @@ cv::Rect freePlace(
   return at(anchor.y - size.height);
 }
 
+/** A line from a plate to what it names, where the two are so far apart that one may wonder. */
+void tie(const cv::Rect& place, const cv::Point2d& anchor, const cv::Scalar& color, Sheet& sheet)
+{
+  const cv::Point2d edge(
+      std::clamp(anchor.x, double(place.x), double(place.br().x)),
+      std::clamp(anchor.y, double(place.y), double(place.br().y)));
+  if (cv::norm(anchor - edge) > 0.5 * place.height) sheet.line(edge, anchor, color);
+}
+
+/** The lines come first, so that they pass behind all plates. */
 void writeLabels(const SceneContent& content, Sheet& sheet, std::vector<cv::Rect> taken)
 {
+  std::vector<std::pair<Label, cv::Rect>> placed;
   for (const Label& label : labelsOf(content))
   {
     const auto anchor = sheet.pixelOf(label.top);
     if (!anchor) continue;
     const cv::Size size(sheet.plateWidth(label.text), sheet.plateHeight());
     taken.push_back(freePlace(*anchor, size, sheet, taken));
-    sheet.plate(taken.back(), label.text, label.color);
+    tie(taken.back(), *anchor, label.color, sheet);
+    placed.emplace_back(label, taken.back());
   }
+  for (const auto& [label, place] : placed) sheet.plate(place, label.text, label.color);
 }
 
 /** In the upper left corner. \return Where it is. */
