@@ -26,10 +26,11 @@ std::vector<mrpt::poses::CPose3D> posesOf(const fs::path& path)
   return poses;
 }
 
-/** The true objects in the frame of the map. */
-std::vector<ObjectRecord> readTruth(const ExportInput& input)
+/** The true objects in the frame of the map, with labels as the map spells them. */
+std::vector<ObjectRecord> readTruth(const ExportInput& input, const LabelTable& labels)
 {
   std::vector<ObjectRecord> truth = readObjectsJson(*input.truthPath);
+  for (ObjectRecord& record : truth) record.label = labels.canonical(record.label);
   if (input.inPlace) return truth;
   if (!fs::is_directory(input.path))
     throw std::runtime_error(
@@ -56,7 +57,7 @@ SceneContent readScene(
   content.objects = map.toRecords();
   if (input.truthPath)
   {
-    content.truth = readTruth(input);
+    content.truth = readTruth(input, map.labels());
     const ObjectEvaluation comparison = evaluateObjects(content.truth, content.objects, {});
     for (const ObjectRecord& record : comparison.spurious) content.phantoms.insert(record.id);
     for (const ObjectRecord& record : comparison.missed) content.missed.insert(record.id);

@@ -136,6 +136,21 @@ TEST_F(QuadmapExport, ShowsASingleMapAndTheTruth)
   EXPECT_EQ(childrenOf(scene, "labels"), 3u);
 }
 
+TEST_F(QuadmapExport, NamesTrueObjectsAsTheMapDoes)
+{
+  if (!std::filesystem::exists("/usr/share/javascript/three/three.min.js"))
+    GTEST_SKIP() << "libjs-three is not installed";
+  std::vector<ObjectRecord> records = sampleMap().toRecords();
+  for (ObjectRecord& record : records)
+    if (record.label == "couch") record.label = "Sofa_1";
+  writeObjectsJson(folder_.path("gt.json"), records);
+  const auto result =
+      run("DIR/objects.quadmap --html DIR/m.html --truth DIR/gt.json --in-place --no-cloud");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(readFile(folder_.path("m.html")).find("Sofa_1"), kNotFound)
+      << "another spelling of the label is no difference";
+}
+
 TEST_F(QuadmapExport, CarriesTheTruthIntoTheMapByTheTrajectories)
 {
   // The true world is the map turned by a quarter and shifted.
