@@ -27,11 +27,11 @@ std::vector<std::string> spellings(const HelpEntry& entry)
   return words;
 }
 
-/** Sets what the call may go on with: $options, $words for arguments without names, and $values or
- * $file for the value of the option before. */
+/** Sets what the call may go on with: $options, $words for arguments without names, and for the
+ * value of the option before $values, $file, or $other when nobody can tell. */
 std::string settings(const HelpTable& table, const std::string& indent)
 {
-  std::vector<std::string> options, words, files;
+  std::vector<std::string> options, words, files, others;
   std::string cases;
   for (const auto& entry : table.entries)
   {
@@ -46,9 +46,13 @@ std::string settings(const HelpTable& table, const std::string& indent)
     if (!choices.empty())
       cases += indent + "  " + joined(names, "|") + ") values='" + joined(choices, " ") + "' ;;\n";
     else if (!entry.label.empty())
-      files.insert(files.end(), names.begin(), names.end());
+    {
+      auto& list = entry.takesPath() ? files : others;
+      list.insert(list.end(), names.begin(), names.end());
+    }
   }
   if (!files.empty()) cases += indent + "  " + joined(files, "|") + ") file=yes ;;\n";
+  if (!others.empty()) cases += indent + "  " + joined(others, "|") + ") other=yes ;;\n";
   return indent + "options='" + joined(options, " ") + "' words='" + joined(words, " ") + "'\n" +
          (cases.empty() ? "" : indent + "case $before in\n" + cases + indent + "esac\n");
 }
@@ -57,7 +61,7 @@ std::string head(const std::string& program)
 {
   return "# Completion of " + program + " for bash.\n" + functionOf(program) +
          "()\n{\n  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
-         "  local options= words= values= file=\n";
+         "  local options= words= values= file= other=\n";
 }
 }  // namespace
 
@@ -80,7 +84,8 @@ std::string completionSection(const HelpTable& command, const std::string& name)
 std::string completionTail(const std::string& program, bool afterCommands)
 {
   return std::string(afterCommands ? "  esac\n" : "") +
-         "  if [[ -n $values ]]; then\n"
+         "  if [[ -n $other ]]; then\n    COMPREPLY=()\n"
+         "  elif [[ -n $values ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$values\" -- \"$current\")\n"
          "  elif [[ -z $file && $current == -* ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$current\")\n"

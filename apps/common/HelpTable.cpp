@@ -73,6 +73,12 @@ std::vector<std::string> HelpEntry::choices() const
   return words;
 }
 
+bool HelpEntry::takesPath() const
+{
+  const auto has = [&](const char* word) { return label.find(word) != std::string::npos; };
+  return has("FILE") || has("DIR") || has("MAP") || has(".");
+}
+
 std::string HelpEntry::sentences() const
 {
   if (preset.empty() || what.find("default") != std::string::npos) return what;

@@ -23,6 +23,8 @@ struct HelpEntry
   std::string call() const;
   /** The words of "a|b|graph:FILE" that are typed as they stand: a and b. */
   std::vector<std::string> choices() const;
+  /** Whether the value may be the path of a file or folder: "FILE", "OUTDIR|MAP", "OUT.json". */
+  bool takesPath() const;
   /** The description, with the preset when it does not speak of it. */
   std::string sentences() const;
 };

@@ -109,7 +109,7 @@ struct Cli
       "of pixels in the range scans, named by classes or instances.",
       false,
       "boxes",
-      "KIND",
+      "boxes|masks|classes|instances",
       line.args()};
   TCLAP::SwitchArg instanceIds{
       "", "instance-ids", "The boxes say which object they show; false alarms do not.",

@@ -63,5 +63,7 @@ completions quadmap-import "" | grep -x tum >/dev/null || wrong "no formats of q
 folder=$(mktemp -d)
 touch "$folder/a room.rawlog"
 (cd "$folder" && completions quadmap-slam "a") | grep -x 'a room.rawlog' >/dev/null || wrong "no files"
+[[ -z $(cd "$folder" && completions quadmap-slam --every "") ]] || wrong "files where a number is expected"
+(cd "$folder" && completions quadmap-slam --objects "") | grep -x 'a room.rawlog' >/dev/null || wrong "no files of an option"
 rm -r "$folder"
 exit $failed
