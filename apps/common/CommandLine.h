@@ -85,12 +85,41 @@ class StrictOutput : public TCLAP::StdOutput
   {
     const std::string missing = missingArguments(line);
     if (e.argId() == " " && !missing.empty()) throw UsageError("missing argument: " + missing);
-    throw UsageError(e.argId() == " " ? e.error() : e.error() + " - " + e.argId());
+    const std::string name = nameOf(e);
+    throw UsageError((name.empty() ? "" : name + ": ") + plainly(e.error()));
   }
 
   HelpTable help;  //!< What usage() shows
 
  private:
+  /** "--method", or "COMMAND" for an argument that is told by its place. TCLAP calls the first one
+   * "Argument: -m (--method)", a word that is no argument "Argument: WORD", and none " ". */
+  std::string nameOf(const TCLAP::ArgException& e) const
+  {
+    const std::string id = e.argId();
+    for (const HelpEntry& entry : help.entries)
+      if (id.find("(--" + entry.name + ")") != std::string::npos)
+        return (entry.isPositional ? "" : "--") + entry.name;
+    return id == " " ? "" : id.substr(id.find(' ') + 1);
+  }
+
+  /** What TCLAP complains about, as our own complaints have it. */
+  static std::string plainly(const std::string& error)
+  {
+    const std::string value = "Value ", constraint = " does not meet constraint: ";
+    const auto at = error.find(constraint);
+    if (at != std::string::npos)
+      return "expected " + error.substr(at + constraint.size()) + ", got " +
+             error.substr(value.size(), at - value.size());
+    const std::string unreadable = "Couldn't read argument value from string ";
+    if (error.rfind(unreadable, 0) == 0)
+      return "expected a number, got " + error.substr(unreadable.size());
+    if (error.rfind("Missing a value", 0) == 0) return "a value is missing";
+    if (error.rfind("Argument already set", 0) == 0) return "is given twice";
+    if (error.rfind("Couldn't find match", 0) == 0) return "is one argument too many";
+    return error;
+  }
+
   static std::string missingArguments(TCLAP::CmdLineInterface& line)
   {
     std::string names;

@@ -336,6 +336,25 @@ TEST_F(QuadmapMap, AnswersWrongUsageWithStatus2AndOneLine)
   }
 }
 
+TEST_F(QuadmapMap, NamesTheWrongArgumentFirst)
+{
+  const std::pair<const char*, const char*> complaints[] = {
+      {                  "dance", "COMMAND: expected apply|info|merge|query|relabel|remove, got 'dance'"},
+      {     "info MAP -v loudly",            "--verbosity: expected debug|info|warn|error, got 'loudly'"},
+      {     "query MAP --id one",                                   "--id: expected a number, got 'one'"},
+      {      "query MAP --label",                                          "--label: a value is missing"},
+      {"query MAP --id 1 --id 2",                                                 "--id: is given twice"},
+      {    "info MAP DIR/second",                                     "second: is one argument too many"}
+  };
+  for (const auto& [arguments, complaint] : complaints)
+  {
+    const auto result = run(arguments);
+    EXPECT_NE(result.err.find(complaint), kNotFound) << arguments << "\n" << result.err;
+  }
+  const std::string number = runProgram("quadmap-slam", "x -o y --threads many").err;
+  EXPECT_NE(number.find("--threads: expected a number, got 'many'"), kNotFound) << number;
+}
+
 TEST_F(QuadmapMap, ShowsHelpAndVersion)
 {
   for (const char* arguments :
