@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <map>
 #include <regex>
 
 using namespace quadmap;
@@ -103,6 +104,29 @@ TEST(SvgPlot, BarsStandOnTheAxis)
   EXPECT_NEAR(std::stod(frame[1]) + std::stod(frame[2]), high[0].y(), 0.11);
   EXPECT_EQ(countOf(svg, ">rgbd<"), 1u) << "once in the legend";
   EXPECT_EQ(countOf(svg, ">chair<"), 1u);
+}
+
+TEST(SvgPlot, TextsDoNotLieOverEachOther)
+{
+  SvgPlot plot({"map", "x", "y"});
+  plot.addLine(
+      {
+          {0, 0},
+          {1, 1}
+  },
+      {}, "");
+  for (const char* name : {"table 1", "vase 2", "cup 3"}) plot.addText({0.5, 0.5}, name);
+  plot.addText({0.1, 0.5}, "book 4");
+  const std::string svg = plot.toSvg();
+  std::map<std::string, double> heights;
+  const std::regex text("<text x=\"[0-9.]+\" y=\"([0-9.]+)\"[^>]*>([a-z]+ [0-9])<");
+  for (std::sregex_iterator i(svg.begin(), svg.end(), text), end; i != end; ++i)
+    heights[(*i)[2]] = std::stod((*i)[1]);
+  ASSERT_EQ(heights.size(), 4u);
+  constexpr double kRow = 12;  // [px]
+  EXPECT_NEAR(std::abs(heights["table 1"] - heights["vase 2"]), kRow, 0.11);
+  EXPECT_NEAR(std::abs(heights["vase 2"] - heights["cup 3"]), 2 * kRow, 0.11);
+  EXPECT_EQ(heights["table 1"], heights["book 4"]) << "far beside, it stays where it belongs";
 }
 
 TEST(SvgPlot, EscapesTextAndStaysWellFormed)

@@ -40,6 +40,28 @@ std::string textAt(
          turn + ">" + escaped(text) + "</text>\n";
 }
 
+/** Where a text is clear of those before [px]: around p, or as little above or below as can be; p
+ * itself when there is no place. */
+Eigen::Vector2d clearPlace(
+    const Eigen::Vector2d& p, const std::string& text, std::vector<Eigen::AlignedBox2d>& taken)
+{
+  constexpr double kRow = 12;
+  constexpr int kPlaces = 24;
+  const Eigen::Vector2d half(0.5 * kLegendLetter * static_cast<double>(text.size()), 0.5 * kRow);
+  for (int i = 0; i < kPlaces; ++i)
+  {
+    const int step = (i + 1) / 2 * (i % 2 == 1 ? 1 : -1);
+    const Eigen::Vector2d at = p + Eigen::Vector2d(0, 0.5 * step * kRow);
+    const Eigen::AlignedBox2d box(at - half, at + half);
+    const auto overlaps = [&](const Eigen::AlignedBox2d& other)
+    { return box.intersection(other).sizes().minCoeff() > 0; };
+    if (std::any_of(taken.begin(), taken.end(), overlaps)) continue;
+    taken.push_back(box);
+    return at;
+  }
+  return p;
+}
+
 std::string lineBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const char* color)
 {
   return mrpt::format(
@@ -252,7 +274,9 @@ std::string SvgPlot::toSvg() const
     for (const auto& p : shape.points) out += mrpt::format("%.1f,%.1f ", v(p).x(), v(p).y());
     out += "\" " + strokeOf(shape.style) + "/>\n";
   }
-  for (const auto& text : texts_) out += textAt(v(text.center), text.text, "middle");
+  std::vector<Eigen::AlignedBox2d> taken;
+  for (const auto& text : texts_)
+    out += textAt(clearPlace(v(text.center), text.text, taken), text.text, "middle");
   return out + legend() + "</svg>\n";
 }
 

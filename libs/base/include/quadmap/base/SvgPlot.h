@@ -36,6 +36,7 @@ class SvgPlot
       const std::vector<Eigen::Vector2d>& corners, const Style& style, const std::string& legend);
   /** Adds a bar from 0 to `height` with its middle at `x`. */
   void addBar(double x, double width, double height, const Style& style, const std::string& legend);
+  /** Adds a text, which gives way upwards or downwards to those added before. */
   void addText(const Eigen::Vector2d& center, const std::string& text);
 
   /** Sets names in place of numbers along x. The i-th name is at x = i. */
