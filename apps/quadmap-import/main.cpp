@@ -174,6 +174,11 @@ void tellDropped(const FolderImportReport& report)
     std::cerr << "quadmap-import: dropped: " << oneLine(what) << "\n";
 }
 
+void tellNotes(const std::vector<std::string>& notes)
+{
+  for (const auto& note : notes) std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";
+}
+
 void tellWritten(const FolderImportReport& report, Cli& cli)
 {
   std::cout << cli.output.getValue() << ": " << report.frames << " frames, " << report.poses
@@ -289,13 +294,15 @@ int run(Cli& cli)
   reading.labels = cli.labels.getValue();
   reading.camera = cli.cameraName.getValue();
   FrameFolder folder = openFrameFolder(kind, source, reading);
-  for (const auto& note : folder.notes())
-    std::cerr << "quadmap-import: note: " << oneLine(note) << "\n";
   const std::string up = turnUpright(folder);
-  if (checking) return checkOnly(folder, up, cli);
-  if (folder.posesCount() > 0 && !folder.camera().worldUp)
-    std::cerr << "quadmap-import: note: " << oneLine(source + ": up: " + up) << "\n";
-  import(folder, cli);
+  if (checking)
+  {
+    tellNotes(folder.notes());
+    return checkOnly(folder, up, cli);
+  }
+  import(folder, cli);  // tells in one line why it fails, hence the notes come when it did not
+  tellNotes(folder.notes());
+  if (folder.posesCount() > 0 && !folder.camera().worldUp) tellNotes({source + ": up: " + up});
   return 0;
 }
 }  // namespace
