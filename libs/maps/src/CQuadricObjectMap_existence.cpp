@@ -37,6 +37,7 @@ LookCounts CQuadricObjectMap::likelyLooks(const Entry& object) const
   return {object.existence() * looks.seen, object.existence() * looks.missed};
 }
 
+/** The sums of all objects of a label, from which its detection probability is learnt, (13.3). */
 std::map<std::string, LookCounts> CQuadricObjectMap::likelyLooksByLabel() const
 {
   std::map<std::string, LookCounts> counts;

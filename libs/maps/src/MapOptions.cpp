@@ -131,7 +131,7 @@ void describeConfirmation(InsertionOptions& o, OptionList& list)
 {
   list.number(
       "confirmLogOdds", o.existence.confirmLogOdds, {-1000, 1000}, "ln",
-      "Objects are reported above these log-odds of their existence: nine to one.");
+      "Objects are reported above these log-odds of their existence. 2.2 is nine to one.");
   list.integer(
       "minComplete", o.existence.minComplete, {1, 1000000}, "",
       "Objects are reported with this many complete measurements.");

@@ -27,7 +27,7 @@ struct ExistenceOptions
   double independentViewTime = 10;    //!< ... or has been away for so long [s], > 0
   double repeatedViewWeight = 0.25;   //!< Share of a repeated look that is independent, in (0, 1]
   double maxLogOdds = 10;             //!< Bound, so that evidence can turn, > 0
-  double confirmLogOdds = 2.2;        //!< Reported above this: nine to one
+  double confirmLogOdds = 2.2;        //!< Reported above this; 2.2 is nine to one
   int minComplete = 1;                //!< Reported with this many complete measurements, >= 1
   int minPartial = 8;                 //!< ... or with this many measurements of any kind, >= 1
   double maxCenterSigma = 0.2;        //!< Reported below this uncertainty per axis [m], > 0
