@@ -39,6 +39,18 @@ TEST(RotationVector, RoundTripsAlsoForTheOtherSignOfTheQuaternion)
   }
 }
 
+TEST(RotationVector, TurnsDirectionsToZTheShortestWay)
+{
+  for (const auto& v : kVectors)
+  {
+    if (v.norm() == 0) continue;
+    const Eigen::Vector3d direction = v.normalized();
+    const Eigen::Quaterniond turn = turnToZ(v);
+    EXPECT_LT((turn * direction - Eigen::Vector3d::UnitZ()).norm(), 1e-12) << v.transpose();
+    EXPECT_NEAR(rotationVectorOf(turn).norm(), std::acos(direction.z()), 1e-7) << v.transpose();
+  }
+}
+
 TEST(RotationVector, CrossMatrixIsTheCrossProduct)
 {
   const Eigen::Vector3d v(1, -2, 3), w(0.5, 4, -1);

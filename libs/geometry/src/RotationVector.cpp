@@ -21,6 +21,11 @@ Eigen::Quaterniond rotationOf(const Eigen::Vector3d& v)
   return {std::cos(0.5 * angle), axis.x(), axis.y(), axis.z()};
 }
 
+Eigen::Quaterniond turnToZ(const Eigen::Vector3d& direction)
+{
+  return Eigen::Quaterniond::FromTwoVectors(direction, Eigen::Vector3d::UnitZ());
+}
+
 Eigen::Matrix3d inverseLeftJacobian(const Eigen::Vector3d& v)
 {
   const double angle = v.norm();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "quadmap/geometry/PosePosition.h"
+#include "quadmap/geometry/RotationVector.h"
 
 namespace quadmap
 {
@@ -22,8 +23,7 @@ void FloorLevel::look(const FrameSurfaces& seen, const CPose3D& T_level_sensor)
       [](const SurfacePatch& patch) { return patch.kind == SurfaceKind::Floor; });
   if (floor == seen.seen.end()) return;
   const Eigen::Vector3d up = floor->plane.transformed(T_level_sensor).n;
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
-  R_level_odom_ = Eigen::Quaterniond::Identity().slerp(share_, turn) * R_level_odom_;
+  R_level_odom_ = Eigen::Quaterniond::Identity().slerp(share_, turnToZ(up)) * R_level_odom_;
 }
 
 }  // namespace quadmap

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "quadmap/geometry/RotationVector.h"
+
 namespace quadmap
 {
 using mrpt::poses::CPose3D;
@@ -16,8 +18,7 @@ CPose3D uprightStart(const Eigen::Vector3d& up_robot)
   Eigen::Quaterniond roll = Eigen::Quaterniond::Identity();
   if (up_robot.z() < 0) roll = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX());
   const Eigen::Vector3d up = roll * up_robot;
-  const Eigen::Matrix3d R =
-      (Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()) * roll).toRotationMatrix();
+  const Eigen::Matrix3d R = (turnToZ(up) * roll).toRotationMatrix();
   return CPose3D::FromRotationAndTranslation(R, Eigen::Vector3d(Eigen::Vector3d::Zero()));
 }
 

@@ -9,6 +9,7 @@
 #include "quadmap/estimation/Existence.h"
 #include "quadmap/estimation/ObjectRules.h"
 #include "quadmap/estimation/ViewRedundancy.h"
+#include "quadmap/geometry/RotationVector.h"
 #include "quadmap/geometry/ViewAngles.h"
 
 namespace quadmap
@@ -79,8 +80,7 @@ QuadricCovariance renamed(
 Ellipsoid upright(const Ellipsoid& named)
 {
   const Eigen::Matrix3d R = named.rotation();
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), z = R.col(2);
-  const Eigen::Vector3d x = Eigen::Quaterniond::FromTwoVectors(z, up) * R.col(0);
+  const Eigen::Vector3d x = turnToZ(R.col(2)) * R.col(0);
   const Eigen::Vector3d c = named.center();
   return {CPose3D(c.x(), c.y(), c.z(), std::atan2(x.y(), x.x()), 0, 0), named.semiAxes()};
 }

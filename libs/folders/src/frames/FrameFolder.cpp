@@ -11,6 +11,7 @@
 #include "frames/FrameRectification.h"
 #include "frames/RightHanded.h"
 #include "quadmap/geometry/PinholeCamera.h"
+#include "quadmap/geometry/RotationVector.h"
 #include "quadmap/sensors/RgbdScan.h"
 
 namespace quadmap
@@ -22,9 +23,8 @@ namespace fs = std::filesystem;
 /** The smallest rotation that takes `up` to +z. */
 mrpt::poses::CPose3D uprightRotation(const Eigen::Vector3d& up)
 {
-  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
-  if ((up - z).norm() < 1e-6) return {};
-  const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(up, z).toRotationMatrix();
+  if ((up - Eigen::Vector3d::UnitZ()).norm() < 1e-6) return {};
+  const Eigen::Matrix3d R = turnToZ(up).toRotationMatrix();
   return mrpt::poses::CPose3D::FromRotationAndTranslation(R, Eigen::Vector3d::Zero().eval());
 }
 

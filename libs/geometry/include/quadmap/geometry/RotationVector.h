@@ -11,6 +11,9 @@ Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v);
 /** exp(v): the rotation by |v| about v [rad]. */
 Eigen::Quaterniond rotationOf(const Eigen::Vector3d& v);
 
+/** The smallest rotation that takes a direction to +z. */
+Eigen::Quaterniond turnToZ(const Eigen::Vector3d& direction);
+
 /** log(q): the rotation vector of q, the shorter way round, so that |v| <= pi [rad].
  * \tparam T double or an automatic-differentiation scalar. */
 template <typename T>
