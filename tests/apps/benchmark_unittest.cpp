@@ -11,9 +11,7 @@ using namespace quadmap;
 // stand-ins that note each call and leave files of the right form.
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
-class BenchmarkScripts : public testing::Test
+class BenchmarkScripts : public ::testing::Test
 {
  protected:
   BenchmarkScripts()

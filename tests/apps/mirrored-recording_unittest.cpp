@@ -87,7 +87,6 @@ std::pair<json, json> mapped(const TemporaryFolder& folder, const std::string& n
   EXPECT_EQ(slam.status, 0) << slam.err;
   return {json::parse(readFile(out + "/report.json")), evaluated(folder, name, name)};
 }
-
 }  // namespace
 
 TEST(MirroredRecording, VisualOdometryMapsItAsTheOriginal)

@@ -10,9 +10,7 @@ using namespace quadmap;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
-class ImportOpenNi2 : public testing::Test
+class ImportOpenNi2 : public ::testing::Test
 {
  protected:
   ProgramResult import(const TestCamera& camera, const std::string& arguments) const

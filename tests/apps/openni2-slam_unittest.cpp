@@ -12,10 +12,8 @@ using nlohmann::json;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 /** A camera that sees the bundled room. */
-class SlamOpenNi2 : public testing::Test
+class SlamOpenNi2 : public ::testing::Test
 {
  protected:
   static void SetUpTestSuite()

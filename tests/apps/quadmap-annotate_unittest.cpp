@@ -10,13 +10,6 @@ using namespace quadmap;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
-
 /** Whether each face of a cuboid is within 2 cm of the true one, along the truth's axes, and its
  * shape is the true one to 0.85. Of round things any heading will do. */
 bool isNearTruth(const ObjectRecord& truth, const ObjectRecord& proposal)

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "RedCorner.h"
 #include "RunProgram.h"
 #include "quadmap/obs/FrameAgreement.h"
@@ -10,9 +8,7 @@ using namespace quadmap;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
-class QuadmapDetect : public testing::Test
+class QuadmapDetect : public ::testing::Test
 {
  protected:
   /** Runs the program with the model of TinyDetector. */
@@ -29,11 +25,6 @@ class QuadmapDetect : public testing::Test
   TinyDetector tiny_;
   TemporaryFolder folder_;
 };
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
 }  // namespace
 
 TEST_F(QuadmapDetect, WritesBoxesWhereTheOtherProgramsLook)

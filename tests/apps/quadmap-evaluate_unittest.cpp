@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "MappedRoom.h"
@@ -12,10 +11,8 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 /** A folder as quadmap-slam writes it, and its truth. All is perfect except one missed object. */
-class QuadmapEvaluate : public testing::Test
+class QuadmapEvaluate : public ::testing::Test
 {
  protected:
   QuadmapEvaluate()
@@ -37,20 +34,13 @@ class QuadmapEvaluate : public testing::Test
   }
 
   /** Arguments with DIR for the folder. */
-  ProgramResult run(std::string arguments)
+  ProgramResult run(const std::string& arguments)
   {
-    for (auto at = arguments.find("DIR"); at != kNotFound; at = arguments.find("DIR"))
-      arguments.replace(at, 3, folder_.folder().string());
-    return runProgram("quadmap-evaluate", arguments);
+    return runProgram("quadmap-evaluate", replaced(arguments, "DIR", folder_.folder().string()));
   }
 
   TemporaryFolder folder_;
 };
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
 }  // namespace
 
 TEST_F(QuadmapEvaluate, PrintsATableAndWritesJson)

@@ -17,8 +17,6 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 /** A folder as quadmap-slam writes it, with the files that the program reads. */
 class QuadmapExport : public ::testing::Test
 {
@@ -41,23 +39,16 @@ class QuadmapExport : public ::testing::Test
   }
 
   /** Arguments with DIR for the folder. No display. */
-  ProgramResult run(std::string arguments) const
+  ProgramResult run(const std::string& arguments) const
   {
-    for (auto at = arguments.find("DIR"); at != kNotFound; at = arguments.find("DIR"))
-      arguments.replace(at, 3, folder_.folder().string());
     ::unsetenv("DISPLAY");
-    return runProgram("quadmap-export", arguments);
+    return runProgram("quadmap-export", replaced(arguments, "DIR", folder_.folder().string()));
   }
 
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path(name)); }
 
   TemporaryFolder folder_;
 };
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
 
 /** Share of the pixels that are neither white nor grey. */
 double colouredShare(const mrpt::img::CImage& picture)

@@ -2,7 +2,6 @@
 #include <mrpt/core/bits_math.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
@@ -15,33 +14,21 @@ using namespace quadmap;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 /** A good recording to spoil, and a folder for what is written. */
-class QuadmapImport : public testing::Test
+class QuadmapImport : public ::testing::Test
 {
  protected:
   /** Arguments with IN for the recording and OUT for the output folder. */
-  ProgramResult run(std::string arguments)
+  ProgramResult run(const std::string& arguments)
   {
-    const auto replace = [&](const std::string& word, const std::string& value)
-    {
-      for (auto at = arguments.find(word); at != kNotFound; at = arguments.find(word))
-        arguments.replace(at, word.size(), value);
-    };
-    replace("IN", recording_.folder());
-    replace("OUT", out_.folder().string());
-    return runProgram("quadmap-import", arguments);
+    return runProgram(
+        "quadmap-import",
+        replaced(replaced(arguments, "IN", recording_.folder()), "OUT", out_.folder().string()));
   }
 
   SampleRecording recording_;
   TemporaryFolder out_;
 };
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
 
 void expectFailure(const ProgramResult& result, const std::string& part)
 {

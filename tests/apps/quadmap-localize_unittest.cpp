@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace
 {
-class Localize : public testing::Test
+class Localize : public ::testing::Test
 {
  protected:
   static void SetUpTestSuite()
@@ -45,7 +45,6 @@ class Localize : public testing::Test
   static TemporaryFolder* folder_;
 };
 TemporaryFolder* Localize::folder_ = nullptr;
-
 }  // namespace
 
 TEST_F(Localize, FindsTheRobotFromAnywhereInTheMap)

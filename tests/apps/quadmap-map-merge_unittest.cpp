@@ -12,7 +12,6 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
 const CPose3D kOther(1.5, -0.7, 0.1, 2.1, 0, 0);  // T_own_other
 
 /** The sample and `more` as another robot maps them: in its own frame, 1,000 s later. Views of
@@ -49,11 +48,9 @@ class QuadmapMapMerge : public ::testing::Test
   }
 
   /** Arguments in which @ stands for the folder. */
-  ProgramResult run(std::string arguments) const
+  ProgramResult run(const std::string& arguments) const
   {
-    for (auto at = arguments.find('@'); at != kNotFound; at = arguments.find('@'))
-      arguments.replace(at, 1, folder_.folder().string() + "/");
-    return runProgram("quadmap-map", "merge " + arguments);
+    return runProgram("quadmap-map", "merge " + replaced(arguments, "@", folder_.path("")));
   }
 
   nlohmann::json report(const std::string& name) const
@@ -63,11 +60,6 @@ class QuadmapMapMerge : public ::testing::Test
 
   TemporaryFolder folder_;
 };
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
 }  // namespace
 
 TEST_F(QuadmapMapMerge, MakesOneMapOfTwoAndSaysWhereItCameFrom)

@@ -11,24 +11,18 @@ using namespace quadmap;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 class QuadmapMap : public ::testing::Test
 {
  protected:
   QuadmapMap() : map_(sampleMap()) { map_.saveToFile(folder_.path("objects.quadmap")); }
 
   /** Arguments with MAP for the file of the map and DIR for its folder. */
-  ProgramResult run(std::string arguments) const
+  ProgramResult run(const std::string& arguments) const
   {
-    const std::pair<std::string, std::string> words[] = {
-        {"MAP", folder_.path("objects.quadmap")},
-        {"DIR",       folder_.folder().string()}
-    };
-    for (const auto& [word, path] : words)
-      for (auto at = arguments.find(word); at != kNotFound; at = arguments.find(word))
-        arguments.replace(at, word.size(), path);
-    return runProgram("quadmap-map", arguments);
+    return runProgram(
+        "quadmap-map",
+        replaced(
+            replaced(arguments, "MAP", "DIR/objects.quadmap"), "DIR", folder_.folder().string()));
   }
 
   ObjectId idOf(const std::string& label) const
@@ -58,11 +52,6 @@ class QuadmapMap : public ::testing::Test
 };
 
 using Labels = std::vector<std::string>;
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
 }  // namespace
 
 TEST_F(QuadmapMap, InfoListsTheObjects)

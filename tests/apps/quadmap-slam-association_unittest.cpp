@@ -12,7 +12,7 @@ using nlohmann::json;
 namespace
 {
 /** A short way through the home, with boxes that may say which object they show. */
-class QuadmapSlamAssociation : public testing::Test
+class QuadmapSlamAssociation : public ::testing::Test
 {
  protected:
   void simulate(const std::string& options) const

@@ -11,13 +11,12 @@ using nlohmann::json;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-constexpr int kFrames = 12;
+constexpr int kSeenFrames = 12;
 
-class SlamWithDetector : public testing::Test
+class SlamWithDetector : public ::testing::Test
 {
  protected:
-  SlamWithDetector() : rawlog_(write("x.rawlog", redCornerScans(kFrames))) {}
+  SlamWithDetector() : rawlog_(write("x.rawlog", redCornerScans(kSeenFrames))) {}
 
   /** Writes scans with odometry of a robot that goes forward. */
   std::string write(
@@ -57,12 +56,12 @@ TEST_F(SlamWithDetector, FindsTheBoxesOfTheKeyframes)
   const auto result = run("out", detector());
   ASSERT_EQ(result.status, 0) << result.err;
   const json r = report("out");
-  EXPECT_EQ(r["input"]["keyframes"], kFrames);
+  EXPECT_EQ(r["input"]["keyframes"], kSeenFrames);
   EXPECT_EQ(r["input"]["keyframes_without_boxes"], 0);
-  EXPECT_EQ(r["input"]["boxes"], kFrames);
+  EXPECT_EQ(r["input"]["boxes"], kSeenFrames);
   EXPECT_TRUE(r["boxes"]["by_label"].contains("chair"));
   EXPECT_EQ(r["configuration"]["slam"]["detector"], tiny_.model());
-  EXPECT_EQ(r["timing"]["modules"]["detection"]["calls"], kFrames);
+  EXPECT_EQ(r["timing"]["modules"]["detection"]["calls"], kSeenFrames);
 }
 
 TEST_F(SlamWithDetector, GivesTheSameWithAnyNumberOfThreads)
@@ -94,7 +93,7 @@ TEST_F(SlamWithDetector, IgnoresTheBoxesOfTheInput)
 
 TEST_F(SlamWithDetector, NeedsColour)
 {
-  auto scans = redCornerScans(kFrames);
+  auto scans = redCornerScans(kSeenFrames);
   for (std::size_t i = 0; i < 5; ++i) scans[i]->hasIntensityImage = false;
   rawlog_ = write("x.rawlog", scans);
   ASSERT_EQ(run("out", detector()).status, 0);

@@ -62,7 +62,7 @@ std::string otherWay()
   return text;
 }
 
-class EarlierMap : public testing::Test
+class EarlierMap : public ::testing::Test
 {
  protected:
   static void expectSuccess(const std::string& program, const std::string& arguments)
@@ -132,7 +132,6 @@ class EarlierMap : public testing::Test
 
   const TemporaryFolder folder_;
 };
-
 }  // namespace
 
 TEST_F(EarlierMap, LaterRunFindsItselfAndWhatChanged)

@@ -16,7 +16,6 @@ using nlohmann::json;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
 constexpr double kText = 1e-5;  // [m], [rad]; of the decimals in trajectories
 
 /** A simulated recording, with odometry that drifts in the plane. */
@@ -52,7 +51,7 @@ std::vector<CPose3D> motionOf(const std::vector<CPose3D>& poses)
   return motion;
 }
 
-class EveryOdometry : public testing::Test
+class EveryOdometry : public ::testing::Test
 {
  protected:
   static void SetUpTestSuite()

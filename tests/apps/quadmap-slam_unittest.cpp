@@ -4,7 +4,6 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -19,30 +18,18 @@ using nlohmann::json;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
-bool isOneLine(const std::string& text)
-{
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
-
 /** A good recording to spoil, and a folder for what is written. */
-class QuadmapSlam : public testing::Test
+class QuadmapSlam : public ::testing::Test
 {
  protected:
   using Records = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
   /** Arguments with IN for the rawlog and DIR for the folder. */
-  ProgramResult run(std::string arguments) const
+  ProgramResult run(const std::string& arguments) const
   {
-    const auto replace = [&](const std::string& word, const std::string& value)
-    {
-      for (auto at = arguments.find(word); at != kNotFound; at = arguments.find(word))
-        arguments.replace(at, word.size(), value);
-    };
-    replace("IN", "DIR/x.rawlog");
-    replace("DIR", folder_.folder().string());
-    return runProgram("quadmap-slam", arguments);
+    return runProgram(
+        "quadmap-slam",
+        replaced(replaced(arguments, "IN", "DIR/x.rawlog"), "DIR", folder_.folder().string()));
   }
 
   Records records() const { return recordsOf({}, {}); }
@@ -362,11 +349,13 @@ TEST_F(QuadmapSlam, MemoryDoesNotGrowWithTheRecording)
 
 class QuadmapSlamStopped :
     public QuadmapSlam,
-    public testing::WithParamInterface<std::pair<int, int>>
+    public ::testing::WithParamInterface<std::pair<int, int>>
 {
 };
 INSTANTIATE_TEST_SUITE_P(
-    Signals, QuadmapSlamStopped, testing::Values(std::pair(SIGINT, 130), std::pair(SIGTERM, 143)));
+    Signals,
+    QuadmapSlamStopped,
+    ::testing::Values(std::pair(SIGINT, 130), std::pair(SIGTERM, 143)));
 
 TEST_P(QuadmapSlamStopped, LeavesValidFilesOfWhatWasDone)
 {

@@ -55,7 +55,7 @@ waypoint02 = 1.1 0.3
 )";
 
 /** The drive as the recordings have it: see the top of this file. */
-class RobotAtHome : public testing::Test
+class RobotAtHome : public ::testing::Test
 {
  protected:
   void SetUp() override

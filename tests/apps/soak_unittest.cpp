@@ -28,7 +28,6 @@ std::vector<Sample> samplesOf(const std::string& table)
   }
   return samples;
 }
-
 }  // namespace
 
 TEST(Soak, MemoryStaysFlatAndKilledRunsLeaveWholeResults)

@@ -70,7 +70,7 @@ std::uintmax_t bytesIn(const fs::path& folder)
   return bytes;
 }
 
-class StoppedPrograms : public testing::Test
+class StoppedPrograms : public ::testing::Test
 {
  protected:
   static void SetUpTestSuite()
@@ -126,7 +126,6 @@ class StoppedPrograms : public testing::Test
   static TemporaryFolder* recordings_;
 };
 TemporaryFolder* StoppedPrograms::recordings_ = nullptr;
-
 }  // namespace
 
 TEST_F(StoppedPrograms, DetectLeavesTheBoxesThatThereWere)

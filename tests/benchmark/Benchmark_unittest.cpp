@@ -14,8 +14,6 @@ using namespace quadmap;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 BenchmarkPlan smallPlan()
 {
   return {
@@ -28,7 +26,7 @@ BenchmarkPlan smallPlan()
 }
 
 /** A folder of results that is made by hand. */
-class Results : public testing::Test
+class Results : public ::testing::Test
 {
  protected:
   void add(const std::string& line, const std::map<std::string, std::string>& files)
@@ -71,7 +69,7 @@ class Results : public testing::Test
 
 bool contains(const std::string& text, const std::string& part)
 {
-  return text.find(part) != kNotFound;
+  return text.find(part) != std::string::npos;
 }
 }  // namespace
 

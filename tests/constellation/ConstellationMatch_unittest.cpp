@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "../obs/InstalledLabels.h"
 #include "PlaceGuesses.h"
 
 using namespace quadmap;
@@ -15,12 +16,6 @@ using mrpt::poses::CPose3D;
 namespace
 {
 using Room = std::vector<MapObject>;
-
-const LabelTable& labels()
-{
-  static const LabelTable table = LabelTable::installed();
-  return table;
-}
 
 MapObject objectAt(ObjectId id, const std::string& label, const CPose3D& pose, bool oriented = true)
 {

@@ -9,7 +9,8 @@ using namespace quadmap;
 
 namespace
 {
-constexpr int kCells = 32 + 8 + 2;  // of an input of 64x32, at distances of 8, 16 and 32 pixels
+constexpr int kCellsOfInput =
+    32 + 8 + 2;  // of an input of 64x32, at distances of 8, 16 and 32 pixels
 
 std::vector<RawBox> rawBoxes(
     HeadKind expected,
@@ -42,7 +43,7 @@ void expectBox(const ImageBox& box, double x1, double y1, double x2, double y2)
 
 TEST(YoloxOutputs, CountInCells)
 {
-  HandMadeTensor table({kCells, 5 + 3});
+  HandMadeTensor table({kCellsOfInput, 5 + 3});
   const int anchor = 32 + 5;  // stride 16, column 1, row 1
   table.at(anchor, 0) = 0.25f;
   table.at(anchor, 1) = -0.5f;
@@ -67,7 +68,7 @@ TEST(YoloxOutputs, ReachIntoEachGrid)
               {41, 32,  0}
   })
   {
-    HandMadeTensor table({kCells, 5 + 1});
+    HandMadeTensor table({kCellsOfInput, 5 + 1});
     table.at(anchor, 4) = table.at(anchor, 5) = 1;
     const auto found = rawBoxes(HeadKind::Yolox, {table}, 1, 0.5f);
     ASSERT_EQ(found.size(), 1u) << anchor;
@@ -78,7 +79,7 @@ TEST(YoloxOutputs, ReachIntoEachGrid)
 
 TEST(Yolov5Outputs, CountInPixels)
 {
-  HandMadeTensor table({3 * kCells, 5 + 2});
+  HandMadeTensor table({3 * kCellsOfInput, 5 + 2});
   const float row[] = {30, 20, 10, 8, 0.9f, 0.1f, 0.8f};
   std::copy(std::begin(row), std::end(row), &table.at(100, 0));
   const auto found = rawBoxes(HeadKind::Yolov5, {table}, 2, 0.5f);
@@ -90,7 +91,7 @@ TEST(Yolov5Outputs, CountInPixels)
 
 TEST(Yolov8Outputs, HaveABoxInEachColumn)
 {
-  HandMadeTensor table({4 + 3, kCells});
+  HandMadeTensor table({4 + 3, kCellsOfInput});
   const float column[] = {30, 20, 10, 8, 0.2f, 0.6f, 0.5f};
   for (int i = 0; i < 7; ++i) table.at(i, 17) = column[i];
   const auto found = rawBoxes(HeadKind::Yolov8, {table}, 3, 0.25f);
@@ -103,7 +104,7 @@ TEST(Yolov8Outputs, HaveABoxInEachColumn)
 
 TEST(Yolov8Outputs, HaveCoefficientsOfMasks)
 {
-  HandMadeTensor table({4 + 3 + 2, kCells}), prototypes({2, 8, 16});
+  HandMadeTensor table({4 + 3 + 2, kCellsOfInput}), prototypes({2, 8, 16});
   table.at(4, 1) = 0.9f;
   table.at(7, 1) = -3;
   table.at(8, 1) = 5;
@@ -133,9 +134,9 @@ TEST(DarknetOutputs, AreSharesOfTheInput)
 
 TEST(DenseOutputs, OfNoNumberGiveNoBox)
 {
-  HandMadeTensor table({4 + 1, kCells}, std::numeric_limits<float>::quiet_NaN());
+  HandMadeTensor table({4 + 1, kCellsOfInput}, std::numeric_limits<float>::quiet_NaN());
   EXPECT_TRUE(rawBoxes(HeadKind::Yolov8, {table}, 1, 0.25f).empty());
-  HandMadeTensor rows({kCells, 5 + 1}, std::numeric_limits<float>::quiet_NaN());
+  HandMadeTensor rows({kCellsOfInput, 5 + 1}, std::numeric_limits<float>::quiet_NaN());
   EXPECT_TRUE(rawBoxes(HeadKind::Yolox, {rows}, 1, 0.25f).empty());
   EXPECT_TRUE(rawBoxes(HeadKind::Darknet, {rows}, 1, 0.25f, HeadKind::Darknet).empty());
 }

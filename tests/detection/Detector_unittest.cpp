@@ -14,7 +14,7 @@ namespace
 mrpt::img::CImage imageOf(const cv::Mat& image) { return {image, mrpt::img::DEEP_COPY}; }
 
 /** Why a model cannot be loaded. */
-std::string messageFor(const std::string& model)
+std::string loadingError(const std::string& model)
 {
   try
   {
@@ -106,27 +106,28 @@ TEST(Detector, IsRefusedWithTheFileThatIsWrong)
   const TinyDetector tiny;
   const auto& folder = tiny.folder;
   const std::string weights = folder.path("tiny.weights"), whole = readFile(weights);
-  EXPECT_EQ(messageFor(tiny.model()), "no error");
+  EXPECT_EQ(loadingError(tiny.model()), "no error");
 
   folder.write("tiny.weights", whole.substr(0, whole.size() - 4));
   EXPECT_EQ(
-      messageFor(tiny.model()),
+      loadingError(tiny.model()),
       weights + ": has 5420 bytes, but " + folder.path("tiny.cfg") + " takes 5424");
   folder.write("tiny.weights", "");
-  EXPECT_EQ(messageFor(tiny.model()), weights + ": is empty");
+  EXPECT_EQ(loadingError(tiny.model()), weights + ": is empty");
   std::filesystem::remove(weights);
-  EXPECT_TRUE(has(messageFor(tiny.model()), "its file tiny.weights is neither beside it nor in "));
+  EXPECT_TRUE(
+      has(loadingError(tiny.model()), "its file tiny.weights is neither beside it nor in "));
   folder.write("tiny.weights", whole);
 
   folder.write("tiny.names", "chair\n\ncup\nbook\n");
   EXPECT_EQ(
-      messageFor(tiny.model()),
+      loadingError(tiny.model()),
       weights + ": its outputs (64x7) have 2 classes, but there are 3 labels (" +
           folder.path("tiny.names") + ")");
   folder.write("tiny.names", "chair\ncup\n");
   folder.write("tiny.cfg", "[net]\nnonsense\n");
   EXPECT_TRUE(
-      has(messageFor(tiny.model()),
+      has(loadingError(tiny.model()),
           weights + ": OpenCV cannot load it with " + folder.path("tiny.cfg") + ": "));
 }
 
@@ -137,13 +138,13 @@ TEST(Detector, IsRefusedWhenItIsNoNetwork)
   for (const char* content : {"", "no network", "\x08\x07"})
   {
     folder.write("m.onnx", content);
-    const std::string message = messageFor(folder.path("m.ini"));
+    const std::string message = loadingError(folder.path("m.ini"));
     EXPECT_EQ(message.find(folder.path("m.onnx") + ": "), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
-  EXPECT_TRUE(has(messageFor(folder.path("n.ini")), "n.ini: there is no such model file"));
-  EXPECT_TRUE(has(messageFor("nosuch"), "nosuch: is no known model"));
-  EXPECT_TRUE(has(messageFor("nosuch"), "nanodet-m"));
+  EXPECT_TRUE(has(loadingError(folder.path("n.ini")), "n.ini: there is no such model file"));
+  EXPECT_TRUE(has(loadingError("nosuch"), "nosuch: is no known model"));
+  EXPECT_TRUE(has(loadingError("nosuch"), "nanodet-m"));
 }
 
 TEST(Detector, IsRefusedWhenItsChecksumIsAnother)
@@ -151,9 +152,9 @@ TEST(Detector, IsRefusedWhenItsChecksumIsAnother)
   const TinyDetector tiny;
   const std::string weights = tiny.folder.path("tiny.weights");
   tiny.folder.write("tiny.ini", tiny.ini() + "weightsSha256 = " + sha256OfFile(weights) + "\n");
-  EXPECT_EQ(messageFor(tiny.model()), "no error");
+  EXPECT_EQ(loadingError(tiny.model()), "no error");
   std::string damaged = readFile(weights);
   damaged[100] ^= 1;
   tiny.folder.write("tiny.weights", damaged);
-  EXPECT_TRUE(has(messageFor(tiny.model()), weights + ": is damaged or another file"));
+  EXPECT_TRUE(has(loadingError(tiny.model()), weights + ": is damaged or another file"));
 }

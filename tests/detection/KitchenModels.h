@@ -10,7 +10,7 @@
 namespace quadmap
 {
 /** The real networks and the recording of a kitchen; the tests are skipped where they are not. */
-class KitchenModels : public testing::Test
+class KitchenModels : public ::testing::Test
 {
  protected:
   void SetUp() override

@@ -14,7 +14,7 @@ namespace
 constexpr int kLabels = 7, kCoefficients = 3;
 constexpr int kCells = 96 * 64 / 64 + 96 * 64 / 256 + 96 * 64 / 1024;  // of kInput
 const cv::Size kInput(96, 64);
-constexpr float kMinScore = 0.4F;
+constexpr float kMinMadeScore = 0.4F;
 
 /** A table of random numbers between `low` and `high`. */
 HandMadeTensor randomTensor(const Shape& shape, std::mt19937& random, double low, double high)
@@ -42,7 +42,7 @@ std::vector<RawBox> decoded(
   }
   const auto [chosen, head] = chooseHead(request);
   EXPECT_EQ(chosen, kind);
-  return head->rawBoxes(tensors, kMinScore);
+  return head->rawBoxes(tensors, kMinMadeScore);
 }
 
 void expectEqual(const std::vector<RawBox>& found, const std::vector<PlainBox>& wanted)
@@ -64,7 +64,7 @@ void expectEqual(const std::vector<RawBox>& found, const std::vector<PlainBox>& 
   }
 }
 
-class MadeOutputs : public testing::TestWithParam<unsigned>
+class MadeOutputs : public ::testing::TestWithParam<unsigned>
 {
  protected:
   std::mt19937 random_{GetParam()};
@@ -75,13 +75,15 @@ TEST_P(MadeOutputs, OfYoloxAreDecodedByItsFormulas)
 {
   const auto table = randomTensor({kCells, 5 + kLabels}, random_, 0, 1);
   expectEqual(
-      decoded(HeadKind::Yolox, {table}), plain::yolox(tableOf(table), kInput, double(kMinScore)));
+      decoded(HeadKind::Yolox, {table}),
+      plain::yolox(tableOf(table), kInput, double(kMinMadeScore)));
 }
 
 TEST_P(MadeOutputs, OfYolov5AreDecodedByItsFormulas)
 {
   const auto table = randomTensor({3 * kCells, 5 + kLabels}, random_, 0, 1);
-  expectEqual(decoded(HeadKind::Yolov5, {table}), plain::yolov5(tableOf(table), double(kMinScore)));
+  expectEqual(
+      decoded(HeadKind::Yolov5, {table}), plain::yolov5(tableOf(table), double(kMinMadeScore)));
 }
 
 TEST_P(MadeOutputs, OfYolov8WithMasksAreDecodedByItsFormulas)
@@ -89,7 +91,7 @@ TEST_P(MadeOutputs, OfYolov8WithMasksAreDecodedByItsFormulas)
   const auto table = randomTensor({4 + kLabels + kCoefficients, kCells}, random_, -1, 0.5);
   expectEqual(
       decoded(HeadKind::Yolov8, {table, HandMadeTensor({kCoefficients, 16, 24})}),
-      plain::yolov8(tableOf(table), kCoefficients, double(kMinScore)));
+      plain::yolov8(tableOf(table), kCoefficients, double(kMinMadeScore)));
 }
 
 TEST_P(MadeOutputs, OfNanoDetAreDecodedByItsFormulas)
@@ -103,7 +105,7 @@ TEST_P(MadeOutputs, OfNanoDetAreDecodedByItsFormulas)
     outputs.push_back(randomTensor({cells, 4 * 8}, random_, -4, 4));
     const auto boxes = plain::nanoDet(
         tableOf(outputs[outputs.size() - 2]), tableOf(outputs.back()), kInput, stride,
-        double(kMinScore));
+        double(kMinMadeScore));
     wanted.insert(wanted.end(), boxes.begin(), boxes.end());
   }
   expectEqual(decoded(HeadKind::NanoDet, outputs), wanted);
@@ -113,10 +115,10 @@ TEST_P(MadeOutputs, OfDarknetAreDecodedByItsFormulas)
 {
   const auto coarse = randomTensor({18, 5 + kLabels}, random_, 0, 1);
   const auto fine = randomTensor({72, 5 + kLabels}, random_, 0, 1);
-  auto wanted = plain::darknetTable(tableOf(coarse), kInput, double(kMinScore));
-  const auto more = plain::darknetTable(tableOf(fine), kInput, double(kMinScore));
+  auto wanted = plain::darknetTable(tableOf(coarse), kInput, double(kMinMadeScore));
+  const auto more = plain::darknetTable(tableOf(fine), kInput, double(kMinMadeScore));
   wanted.insert(wanted.end(), more.begin(), more.end());
   expectEqual(decoded(HeadKind::Darknet, {coarse, fine}, HeadKind::Darknet), wanted);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, MadeOutputs, testing::Values(1u, 2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Seeds, MadeOutputs, ::testing::Values(1u, 2u, 3u));

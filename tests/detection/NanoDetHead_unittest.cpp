@@ -7,10 +7,10 @@ using namespace quadmap;
 
 namespace
 {
-constexpr int kLabels = 5, kBins = 8;
+constexpr int kNanoDetLabels = 5, kBins = 8;
 
 /** Outputs for an input of 64x32, in an order as no network has it. */
-class NanoDetOutputs : public testing::Test
+class NanoDetOutputs : public ::testing::Test
 {
  protected:
   NanoDetOutputs()
@@ -18,11 +18,11 @@ class NanoDetOutputs : public testing::Test
     for (const int cells : {8, 2, 32})
     {
       outputs_.emplace_back(Shape{cells, 4 * kBins});
-      outputs_.emplace_back(Shape{cells, kLabels});
+      outputs_.emplace_back(Shape{cells, kNanoDetLabels});
     }
     request_.width = 64;
     request_.height = 32;
-    request_.labels = kLabels;
+    request_.labels = kNanoDetLabels;
     for (const auto& output : outputs_) request_.shapes.push_back(output.shape);
   }
   /** Of the grid with 32 cells. */

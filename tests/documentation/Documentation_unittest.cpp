@@ -50,11 +50,11 @@ bool needsHome(const std::vector<CommandBlock>& blocks)
   return false;
 }
 
-class Documentation : public testing::TestWithParam<std::string>
+class Documentation : public ::testing::TestWithParam<std::string>
 {
 };
 
-std::string testNameOf(const testing::TestParamInfo<std::string>& page)
+std::string testNameOf(const ::testing::TestParamInfo<std::string>& page)
 {
   std::string name = page.param;
   std::replace_if(
@@ -86,7 +86,7 @@ TEST_P(Documentation, CommandsRun)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Pages, Documentation, testing::ValuesIn(pages()), testNameOf);
+INSTANTIATE_TEST_SUITE_P(Pages, Documentation, ::testing::ValuesIn(pages()), testNameOf);
 
 TEST(DocumentedConversion, OfColmapGivesThePosesOfItsModel)
 {

@@ -17,7 +17,7 @@ namespace
 /** A run whose map is displaced from the true world, with known errors. At the corners of a square,
  * the poses of the trajectory are alternately 0.1 m too high and too low, and those of the odometry
  * 0.2 m. */
-class EvaluatedRun : public testing::Test
+class EvaluatedRun : public ::testing::Test
 {
  protected:
   EvaluatedRun()

@@ -2,18 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include "NotFinite.h"
 #include "RandomGeometry.h"
 
 using namespace quadmap;
 using namespace quadmap::test;
-
-namespace
-{
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-}  // namespace
 
 TEST(Ellipsoid, IsAUnitSphereByDefault)
 {

@@ -4,17 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <stdexcept>
 
-using namespace quadmap;
+#include "NotFinite.h"
 
-namespace
-{
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-}  // namespace
+using namespace quadmap;
 
 TEST(Quantile, InterpolatesBetweenOrderStatistics)
 {

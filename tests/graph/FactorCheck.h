@@ -12,6 +12,8 @@
 
 namespace quadmap::testing
 {
+constexpr double kQuadratic = 1e9;  // Huber threshold that never acts [sigmas]
+
 /** One parameter block of a factor under test. */
 struct Block
 {

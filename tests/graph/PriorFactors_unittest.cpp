@@ -13,7 +13,6 @@ namespace
 {
 const CPose3D kFrom(1, -2, 0.5, 2.5, 0.1, -0.2), kTo(1.1, -1.8, 0.4, 2.2, 0.2, -0.1);
 const Ellipsoid kObject(CPose3D(1, 2, 0.8, -2.0, 0.3, 0.2), {0.3, 0.2, 0.9});
-constexpr double kQuadratic = 1e9;
 
 /** A full covariance of (x, y, z, yaw, pitch, roll). */
 CPose3DPDFGaussian stepWithCovariance(const CPose3D& T_from_to, double scale)

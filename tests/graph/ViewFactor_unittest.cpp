@@ -62,8 +62,6 @@ Ellipsoid guess(ObjectFreedom freedom)
   };
 }
 
-constexpr double kQuadratic = 1e9;  // Huber threshold that never acts [sigmas]
-
 }  // namespace
 
 TEST(ViewFactor, DerivativesAreThoseOfTheResiduals)

@@ -7,9 +7,9 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
+#include "../obs/TemporaryFolder.h"
 #include "ObjectMapFixture.h"
 
 using namespace quadmap;
@@ -37,16 +37,6 @@ void expectSame(const CQuadricObjectMap& a, const CQuadricObjectMap& b)
     EXPECT_EQ(x.firstSeen, y->firstSeen);
     EXPECT_EQ(x.lastSeen, y->lastSeen);
   }
-}
-
-std::filesystem::path temporaryFolder()
-{
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder =
-      std::filesystem::path(::testing::TempDir()) / (std::string("quadmap_maps_") + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
 }
 
 mrpt::maps::CMultiMetricMap multiMapFrom(const std::string& ini)
@@ -101,7 +91,8 @@ TEST(MapArchive, RoundTripsThroughGzInsideAMultiMetricMap)
   auto maps = multiMapFrom("[map]\nCQuadricObjectMap_count=1\n");
   auto& map = dynamic_cast<CQuadricObjectMap&>(*maps.maps.at(0));
   map = smallMap();
-  const std::string file = (temporaryFolder() / "maps.gz").string();
+  const TemporaryFolder folder;
+  const std::string file = folder.path("maps.gz");
   {
     mrpt::io::CFileGZOutputStream out(file);
     archiveFrom(out) << maps;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "../obs/TemporaryFolder.h"
 #include "ObjectMapFixture.h"
 
 using namespace quadmap;
@@ -17,16 +18,6 @@ using namespace quadmap::testing;
 
 namespace
 {
-std::filesystem::path temporaryFolder()
-{
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder =
-      std::filesystem::path(::testing::TempDir()) / (std::string("quadmap_maps_") + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 /** Shows one thing fifty times. \return How many of the insertions moved it. */
 int estimatesOfFifty(CQuadricObjectMap& map)
 {
@@ -339,7 +330,8 @@ TEST(MapDrawing, UnconfirmedObjectsOnRequest)
 TEST(MapFiles, RepresentationReadsBack)
 {
   const CQuadricObjectMap map = smallMap();
-  const std::string prefix = (temporaryFolder() / "map").string();
+  const TemporaryFolder folder;
+  const std::string prefix = folder.path("map");
   map.saveMetricMapRepresentationToFile(prefix);
   const auto records = readObjectsJson(prefix + ".json");
   ASSERT_EQ(records.size(), 2u);

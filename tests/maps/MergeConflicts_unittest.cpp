@@ -16,7 +16,7 @@ namespace
 {
 using World = std::vector<TrueObject>;
 
-const CPose3D kOther(1.5, -0.7, 0.1, 2.1, 0, 0);  // T_own_other
+const CPose3D kOtherSession(1.5, -0.7, 0.1, 2.1, 0, 0);  // T_own_other
 
 /** A walk around a room: the map and the frames it was made of. */
 struct Session
@@ -84,7 +84,8 @@ TEST(MergeConflicts, WhatMovedFarIsWhereTheNewerMapHasIt)
   for (const bool otherIsNewer : {true, false})
   {
     const Session own = sessionIn(staysAnd(kChair), {}, 1, otherIsNewer ? 0 : 1000);
-    const Session other = sessionIn(staysAnd(kMovedChair), kOther, 2, otherIsNewer ? 1000 : 0);
+    const Session other =
+        sessionIn(staysAnd(kMovedChair), kOtherSession, 2, otherIsNewer ? 1000 : 0);
     CQuadricObjectMap both = own.map;
     const auto merge = both.mergeMap(other.map, {}, own.replay(), other.replay());
     ASSERT_TRUE(merge);
@@ -107,7 +108,7 @@ TEST(MergeConflicts, WhatMovedFarIsWhereTheNewerMapHasIt)
 TEST(MergeConflicts, OnlyTheImagesOfTheOlderMapTellWhatIsNew)
 {
   const Session own = sessionIn(stays(), {}, 1, 0);
-  const Session other = sessionIn(staysAnd(kChair), kOther, 2, 1000);
+  const Session other = sessionIn(staysAnd(kChair), kOtherSession, 2, 1000);
   CQuadricObjectMap both = own.map, blind = own.map;
   const auto merge = both.mergeMap(other.map, {}, own.replay(), other.replay());
   const auto without = blind.mergeMap(other.map, {}, {}, other.replay());
@@ -130,10 +131,10 @@ TEST(MergeConflicts, WhatNoImageOfTheOlderMapCouldShowIsNotNew)
   // High above the room, which the first session looks down on.
   const TrueObject above = cuboid("suitcase", {0.0, 0.0, 4.5}, {0.3, 0.5, 0.7}, 0.2);
   const Session own = sessionIn(stays(), {}, 1, 0);
-  Session other = sessionIn(stays(), kOther, 2, 1000);
+  Session other = sessionIn(stays(), kOtherSession, 2, 1000);
   MapObject found = *other.map.withLabel("tv").front();
   found.id = 0;
-  found.object = above.object.transformed(-kOther);
+  found.object = above.object.transformed(-kOtherSession);
   found.labelCounts = {
       {"suitcase", 20}
   };

@@ -41,7 +41,7 @@ CPose3DPDFGaussian gaussianOf(const CPose3D& T, const PoseNoise& error)
   return pdf;
 }
 
-void expectSame(const CQuadricObjectMap& a, const CQuadricObjectMap& b)
+void expectSameObject(const CQuadricObjectMap& a, const CQuadricObjectMap& b)
 {
   ASSERT_EQ(a.objects().size(), 1u);
   ASSERT_EQ(b.objects().size(), 1u);
@@ -93,7 +93,7 @@ TEST(UncertainPose, AddsToTheOptionsWhenItIsInserted)
       });
   const auto plain =
       mapBy([](auto& map, const auto& obs, const CPose3D& T) { map.insertObservation(obs, T); });
-  expectSame(given, byOption);
+  expectSameObject(given, byOption);
   EXPECT_EQ(given.insertionOptions.poseNoise.position, InsertionOptions().poseNoise.position);
   EXPECT_GT(given.objects().at(1).covariance(0, 0), 1.5 * plain.objects().at(1).covariance(0, 0));
 }
@@ -138,13 +138,13 @@ TEST(UncertainPose, WaitsWithItsBoxesForTheScan)
   EXPECT_TRUE(boxesFirst.insertObservation(*scan, T));
   EXPECT_FALSE(scanFirst.insertObservation(*scan, T));
   EXPECT_TRUE(scanFirst.insertObservation(*boxes, UncertainPose(T, kError)));
-  expectSame(boxesFirst, scanFirst);
+  expectSameObject(boxesFirst, scanFirst);
   byOption.insertionOptions.poseNoise = combined(InsertionOptions().poseNoise, kError);
   for (CQuadricObjectMap* map : {&byOption, &plain})
   {
     map->insertObservation(*scan, T);
     map->insertObservation(*boxes, T);
   }
-  expectSame(boxesFirst, byOption);
+  expectSameObject(boxesFirst, byOption);
   EXPECT_NE(boxesFirst.objects().at(1).covariance, plain.objects().at(1).covariance);
 }

@@ -9,7 +9,7 @@ using namespace quadmap;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
+constexpr double kPerDegree = M_PI / 180;
 
 /** Adds poses around a yaw, at places of less than a cell. */
 void addPoses(
@@ -33,11 +33,11 @@ TEST(FullestPlace, PosesOnBothSidesOfHalfATurnAreTogether)
   for (const double yaw : {180.0, -100.0, 0.0, 60.0})
   {
     std::vector<LevelPose> poses;
-    addPoses(poses, 600, {1, 2, 0}, yaw * kDegree, 8 * kDegree);
-    addPoses(poses, 400, {-3, 0, 0}, 20 * kDegree, 8 * kDegree);  // in one cell
+    addPoses(poses, 600, {1, 2, 0}, yaw * kPerDegree, 8 * kPerDegree);
+    addPoses(poses, 400, {-3, 0, 0}, 20 * kPerDegree, 8 * kPerDegree);  // in one cell
     const LevelPose found = fullestPlace(poses, std::vector<double>(poses.size(), 1.0), 0.5, 0.35);
     EXPECT_NEAR(found.position.x(), 1, 0.05) << yaw;
-    EXPECT_NEAR(std::remainder(found.yaw - yaw * kDegree, 2 * M_PI), 0, 2 * kDegree) << yaw;
+    EXPECT_NEAR(std::remainder(found.yaw - yaw * kPerDegree, 2 * M_PI), 0, 2 * kPerDegree) << yaw;
   }
 }
 

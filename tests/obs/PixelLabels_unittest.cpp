@@ -33,7 +33,7 @@ CObservation3DRangeScan labelledScan(
   return scan;
 }
 
-class PixelLabels : public testing::Test
+class PixelLabels : public ::testing::Test
 {
  protected:
   CObservationObjects::Ptr boxesOf(const CObservation3DRangeScan& scan, int minPixels = 1)

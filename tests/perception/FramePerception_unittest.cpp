@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../obs/InstalledLabels.h"
 #include "../surfaces/SyntheticFrame.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RotationDistance.h"
@@ -14,12 +15,6 @@ namespace quadmap
 {
 namespace
 {
-const LabelTable& labels()
-{
-  static const LabelTable table = LabelTable::installed();
-  return table;
-}
-
 /** Measures one box of a frame. */
 ObjectMeasurement measured(
     const SyntheticFrame& frame,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../obs/InstalledLabels.h"
 #include "BoxScene.h"
 
 using namespace quadmap;
@@ -10,12 +11,6 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-const LabelTable& labels()
-{
-  static const LabelTable table = LabelTable::installed();
-  return table;
-}
-
 /** Two chairs and a cup on the floor between them, watched from a circle. */
 class QuadricObjectsTest : public ::testing::Test
 {

@@ -41,7 +41,7 @@ class FramePicture : public ::testing::Test
   FramePictureContent content_;
 };
 
-const Rgb kWall{200, 30, 20}, kGreen{60, 220, 60}, kGrey{150, 150, 150};
+const Rgb kWall{200, 30, 20}, kBoxGreen{60, 220, 60}, kGrey{150, 150, 150};
 }  // namespace
 
 TEST_F(FramePicture, HasTheImageMagnified)
@@ -81,8 +81,8 @@ TEST_F(FramePicture, ShowsWhichEdgesAreUsable)
   (*measurement().edges)[3].state = EdgeState::NearImageBorder;
   const auto picture = draw();
   EXPECT_EQ(at(picture, 30, 60), kGrey) << "left";
-  EXPECT_EQ(at(picture, 80, 20), kGreen) << "top";
-  EXPECT_EQ(at(picture, 90, 60), kGreen) << "right";
+  EXPECT_EQ(at(picture, 80, 20), kBoxGreen) << "top";
+  EXPECT_EQ(at(picture, 90, 60), kBoxGreen) << "right";
   EXPECT_EQ(at(picture, 40, 70), kGrey) << "bottom";
 }
 

@@ -19,8 +19,6 @@ using quadmap::testing::samplePage;
 
 namespace
 {
-constexpr auto kNotFound = std::string::npos;
-
 bool hasThree() { return std::filesystem::exists(std::string(kThreeFolder) + "/three.min.js"); }
 
 /** A page in a browser; skipped where there is none. */

@@ -7,6 +7,7 @@
 
 #include "../obs/TemporaryFolder.h"
 #include "quadmap/simulator/RayCaster.h"
+#include "quadmap/simulator/SimulatorOptions.h"
 
 namespace quadmap::simulator
 {
@@ -95,4 +96,11 @@ inline Moments momentsOf(const std::vector<double>& values)
   return {mean, std::sqrt(squares / (n - 1))};
 }
 
+/** A detector without errors. */
+inline DetectorOptions faultless()
+{
+  SimulatorOptions options;
+  options.scaleNoise(0);
+  return options.detector;
+}
 }  // namespace quadmap::simulator

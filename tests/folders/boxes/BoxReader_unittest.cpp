@@ -11,7 +11,7 @@ using namespace quadmap;
 namespace
 {
 /** Files of boxes for images of 640 x 480 pixels. */
-class BoxFiles : public testing::Test
+class BoxFiles : public ::testing::Test
 {
  protected:
   BoxFiles() { camera_.ncols = 640, camera_.nrows = 480; }

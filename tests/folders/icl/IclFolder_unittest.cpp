@@ -16,7 +16,7 @@ namespace
 {
 /** A recording in the layout of ICL-NUIM: depth before colour, times that count images, and poses
  * that begin with the second image. */
-class IclFolder : public testing::Test
+class IclFolder : public ::testing::Test
 {
  protected:
   IclFolder()

@@ -43,7 +43,7 @@ std::string packed(const std::string& plain)
 }
 
 /** Clouds of a slanted wall, of which a corner is not measured, in each way of writing them. */
-class PcdFolder : public testing::Test
+class PcdFolder : public ::testing::Test
 {
  protected:
   static float depthAt(int u, int v)

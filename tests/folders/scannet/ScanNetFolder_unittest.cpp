@@ -15,7 +15,7 @@ namespace
 constexpr const char* kIdentity = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
 
 /** A scene in the layout of ScanNet: large colour images, small depth images of a wall at 2 m. */
-class ScanNetFolder : public testing::Test
+class ScanNetFolder : public ::testing::Test
 {
  protected:
   ScanNetFolder()

@@ -14,7 +14,7 @@ using namespace quadmap;
 namespace
 {
 /** A sequence in the layout of 7-Scenes: a wall at 2 m, part of which is not measured. */
-class SevenScenes : public testing::Test
+class SevenScenes : public ::testing::Test
 {
  protected:
   SevenScenes()

@@ -16,7 +16,7 @@ constexpr double kBegin = 1305031100.0;  // [s]
 
 /** A recording as the TUM RGB-D benchmark offers it: images at 30 Hz with depth 12 ms after colour,
  * poses at 100 Hz that begin later, and the accelerometer. The camera moves along x at 0.5 m/s. */
-class TumDownload : public testing::Test
+class TumDownload : public ::testing::Test
 {
  protected:
   static constexpr int kImages = 6;

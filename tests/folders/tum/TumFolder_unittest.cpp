@@ -27,7 +27,7 @@ std::string errorOfOpening(const SampleRecording& recording)
   return errorOf([&] { openFrameFolder("tum", recording.folder()); });
 }
 
-void expectIn(const std::string& text, const std::string& part)
+void expectInOneLine(const std::string& text, const std::string& part)
 {
   EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
   EXPECT_EQ(text.find('\n'), std::string::npos) << text;
@@ -113,8 +113,8 @@ TEST(TumFolder, SaysWhatIsMissing)
   std::filesystem::remove_all(recording.files.path("detections"));
   const FrameFolder blind = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(blind.notes().size(), 2u);
-  expectIn(blind.notes()[0], "no groundtruth.txt");
-  expectIn(blind.notes()[1], "no detections");
+  expectInOneLine(blind.notes()[0], "no groundtruth.txt");
+  expectInOneLine(blind.notes()[1], "no detections");
   EXPECT_EQ(blind.posesCount(), 0u);
   EXPECT_FALSE(blind.T_world_robot(0));
   EXPECT_FALSE(blind.boxes(0));
@@ -164,7 +164,8 @@ TEST(TumFolder, MakesAWorldOfNegativeFyRightHanded)
   const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   EXPECT_DOUBLE_EQ(dataset.scan(0)->cameraParams.fy(), 62.0);
   ASSERT_EQ(dataset.notes().size(), 1u);
-  expectIn(dataset.notes()[0], "fy of calibration.yaml is negative: the world of the recording is");
+  expectInOneLine(
+      dataset.notes()[0], "fy of calibration.yaml is negative: the world of the recording is");
 }
 
 TEST(TumFolder, TakesTheDistortionOutOfImagesAndBoxes)
@@ -173,7 +174,7 @@ TEST(TumFolder, TakesTheDistortionOutOfImagesAndBoxes)
   recording.writeCalibration("k1: 0.1\n" + std::string(SampleRecording::kCalibration));
   const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   ASSERT_EQ(dataset.notes().size(), 1u);
-  expectIn(dataset.notes()[0], "rectified, as the lens of calibration.yaml distorts");
+  expectInOneLine(dataset.notes()[0], "rectified, as the lens of calibration.yaml distorts");
   const auto scan = dataset.scan(0);
   EXPECT_EQ(scan->cameraParams.distortion, mrpt::img::DistortionModel::none);
   EXPECT_DOUBLE_EQ(scan->cameraParams.dist[0], 0);
@@ -189,16 +190,18 @@ TEST(TumFolder, NamesTheCamerasWhenNothingTellsWhichItIs)
 {
   const SampleRecording recording;
   std::filesystem::remove(recording.files.path("calibration.yaml"));
-  expectIn(errorOfOpening(recording), "--camera gives one: 7scenes, fr1, fr2, fr3, icl, kinect");
+  expectInOneLine(
+      errorOfOpening(recording), "--camera gives one: 7scenes, fr1, fr2, fr3, icl, kinect");
   FrameFolderOptions options;
   options.camera = "fr9";
-  expectIn(
+  expectInOneLine(
       errorOf([&] { openFrameFolder("tum", recording.folder(), options); }),
       "fr9: no such camera; known are 7scenes, fr1");
   options.camera = "kinect";
   const FrameFolder dataset = openFrameFolder("tum", recording.folder(), options);
   EXPECT_DOUBLE_EQ(dataset.camera().depthFactor, 5000) << "as usual in this layout";
-  expectIn(errorOf([&] { dataset.scan(0); }), "rgb/f0.png: is 64x48, camera kinect is for 640x480");
+  expectInOneLine(
+      errorOf([&] { dataset.scan(0); }), "rgb/f0.png: is 64x48, camera kinect is for 640x480");
 }
 
 TEST(TumFolder, PairsDepthFirstAssociations)
@@ -217,7 +220,7 @@ TEST(TumFolder, RejectsBadCalibrations)
   {
     const SampleRecording recording;
     recording.writeCalibration(calibration);
-    expectIn(errorOfOpening(recording), "calibration.yaml: " + what);
+    expectInOneLine(errorOfOpening(recording), "calibration.yaml: " + what);
   };
   for (const std::string key : {"fx", "fy", "cx", "cy", "width", "height", "depth_factor"})
   {
@@ -252,7 +255,7 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
       recording.files.write(file, content);
     else
       std::filesystem::remove(recording.files.path(file));
-    expectIn(errorOfOpening(recording), what);
+    expectInOneLine(errorOfOpening(recording), what);
   };
   expect("calibration.yaml", nullptr, "calibration.yaml: no such file");
   expect("associations.txt", nullptr, "neither associations.txt nor rgb.txt and depth.txt");
@@ -266,7 +269,7 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
   const SampleRecording recording;
   FrameFolderOptions options;
   options.detections = "/no/such";
-  expectIn(
+  expectInOneLine(
       errorOf([&] { openFrameFolder("tum", recording.folder(), options); }),
       "/no/such: no such folder");
 }
@@ -278,7 +281,7 @@ TEST(TumFolder, TellsWhyItsPosesCannotBeUsed)
   {
     recording.files.write("groundtruth.txt", poses);
     const FrameFolder dataset = openFrameFolder("tum", recording.folder());
-    expectIn(dataset.posesProblem(), what);
+    expectInOneLine(dataset.posesProblem(), what);
     EXPECT_EQ(dataset.posesCount(), 0u);
     EXPECT_EQ(dataset.frames().size(), std::size_t{SampleRecording::kFrames});
   };
@@ -296,7 +299,7 @@ TEST(TumFolder, RejectsBadImages)
     const SampleRecording recording;
     spoil(recording);
     const FrameFolder dataset = openFrameFolder("tum", recording.folder());
-    expectIn(errorOf([&] { dataset.scan(1); }), what);
+    expectInOneLine(errorOf([&] { dataset.scan(1); }), what);
     EXPECT_TRUE(dataset.scan(2)) << "the others can be read";
   };
   using R = SampleRecording;
@@ -325,7 +328,7 @@ TEST(TumFolder, RejectsMalformedDetections)
     const SampleRecording recording;
     recording.files.write(SampleRecording::boxesFile(1), text);
     const FrameFolder dataset = openFrameFolder("tum", recording.folder());
-    expectIn(errorOf([&] { dataset.boxes(1); }), what);
+    expectInOneLine(errorOf([&] { dataset.boxes(1); }), what);
   };
   expect("56 chair 0.8 1 2 3\n", "detections/f1.txt:1: expected 7 columns, got 6");
   expect("56 chair 0.8 1 2 3 x4\n", "detections/f1.txt:1: 'x4' is not a number");

@@ -11,7 +11,7 @@ namespace quadmap
 namespace
 {
 constexpr double kHeight = 0.73;
-const Eigen::Vector3d kSize(0.9, 1.3, kHeight);
+const Eigen::Vector3d kTableSize(0.9, 1.3, kHeight);
 
 /** A table of a thin top, box 0, on legs, seen from above. Its own pixels make its box.
  * \param yaw [rad] \param y To the left [m]. */
@@ -20,7 +20,7 @@ SyntheticFrame table(double yaw, double y)
   SyntheticFrame frame(1.6, 0.6);
   frame.noise = 0.0015;
   constexpr double kThick = 0.03, kLeg = 0.06, kX = 1.9;
-  frame.add(kX, y, kHeight - kThick, yaw, {kSize.x(), kSize.y(), kThick});
+  frame.add(kX, y, kHeight - kThick, yaw, {kTableSize.x(), kTableSize.y(), kThick});
   for (const double along : {-0.4, 0.4})
     for (const double across : {-0.6, 0.6})
       frame.add(
@@ -52,7 +52,8 @@ void forEachSide(
   {
     const auto axis = static_cast<Eigen::Index>(f / 2);
     const Eigen::Vector2d n = (f % 2 == 0 ? 1.0 : -1.0) * world.rotation().col(axis).head<2>();
-    const double half = 0.5 * (std::abs(n.dot(x)) > std::abs(n.dot(y)) ? kSize.x() : kSize.y());
+    const double half =
+        0.5 * (std::abs(n.dot(x)) > std::abs(n.dot(y)) ? kTableSize.x() : kTableSize.y());
     const double reach = n.dot((world.center() - center).head<2>()) + world.semiAxes()[axis];
     visit(m.faces[f], n, reach - half);
   }

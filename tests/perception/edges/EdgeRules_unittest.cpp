@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "../../obs/InstalledLabels.h"
 #include "../../surfaces/SyntheticFrame.h"
 #include "quadmap/perception/FramePerception.h"
 
@@ -11,19 +12,13 @@ namespace
 {
 using mrpt::obs::CObservation3DRangeScan;
 
-const LabelTable& labels()
-{
-  static const LabelTable table = LabelTable::installed();
-  return table;
-}
-
-const Eigen::Vector3d kSize(0.45, 0.5, 0.6);  // [m]
+const Eigen::Vector3d kSuitcaseSize(0.45, 0.5, 0.6);  // [m]
 
 /** A suitcase on the floor, 2.2 m ahead. */
 SyntheticFrame frameWithSuitcase()
 {
   SyntheticFrame frame;
-  frame.add(2.2, 0.0, 0.0, 0.4, kSize);
+  frame.add(2.2, 0.0, 0.0, 0.4, kSuitcaseSize);
   return frame;
 }
 
@@ -194,7 +189,7 @@ TEST(EdgeRules, TheMarginAtTheBorderScalesWithTheImage)
 TEST(EdgeRules, AnObjectThatIsSeenToEndBeforeTheBorderHasItsEdge)
 {
   SyntheticFrame frame;
-  frame.add(2.2, 0.92, 0.0, 0.0, kSize);
+  frame.add(2.2, 0.92, 0.0, 0.0, kSuitcaseSize);
   frame.add(3.4, 1.0, 0.0, 0.0, {0.1, 5.0, 2.5});  // a wall
   const auto detection = frame.detect(0, "suitcase");
   ASSERT_GT(detection.box.x1, 10);
@@ -202,8 +197,8 @@ TEST(EdgeRules, AnObjectThatIsSeenToEndBeforeTheBorderHasItsEdge)
   EXPECT_EQ(edgesOf(measured(frame, {detection}))[0], 'u');
 
   SyntheticFrame nearer = frame;
-  nearer.boxes[0].cuboid =
-      Ellipsoid({2.2, 1.15, kSize.z() / 2, 0, 0, 0}, kSize / 2);  // goes on beyond the image
+  nearer.boxes[0].cuboid = Ellipsoid(
+      {2.2, 1.15, kSuitcaseSize.z() / 2, 0, 0, 0}, kSuitcaseSize / 2);  // goes on beyond the image
   EXPECT_EQ(edgesOf(measured(nearer, {nearer.detect(0, "suitcase")}))[0], 'b');
 }
 
@@ -244,7 +239,7 @@ TEST(EdgeRules, EitherRuleCanBeSwitchedOff)
   EXPECT_EQ(edgesOf(measured(frame, {frame.detect(0, "suitcase")}, options)), "uuuu");
 
   SyntheticFrame cut;
-  cut.add(2.2, 1.15, 0.0, 0.0, kSize);
+  cut.add(2.2, 1.15, 0.0, 0.0, kSuitcaseSize);
   EXPECT_EQ(edgesOf(measured(cut, {cut.detect(0, "suitcase")}, options))[0], 'b');
   options.borderMargin = 0;
   EXPECT_EQ(edgesOf(measured(cut, {cut.detect(0, "suitcase")}, options))[0], 'u');

@@ -6,7 +6,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr ObjectSide kSides[] = {ObjectSide::Top, ObjectSide::Bottom, ObjectSide::Lateral};
+constexpr ObjectSide kEachSide[] = {ObjectSide::Top, ObjectSide::Bottom, ObjectSide::Lateral};
 
 /** Of a thing 100 px high and wide, whose cuboid fits its box. */
 HiddenEvidence nothingHidden()
@@ -19,14 +19,14 @@ HiddenEvidence nothingHidden()
 
 TEST(HiddenPart, NothingSpeaksAgainstAFreeEdge)
 {
-  for (const auto side : kSides) EXPECT_LT(hiddenProbability(side, nothingHidden()), 0.02);
+  for (const auto side : kEachSide) EXPECT_LT(hiddenProbability(side, nothingHidden()), 0.02);
 }
 
 TEST(HiddenPart, ACuboidThatReachesBeyondTheEdgeSpeaksAgainstIt)
 {
   HiddenEvidence e = nothingHidden();
   e.cuboidBeyond_px = 30;
-  for (const auto side : kSides)
+  for (const auto side : kEachSide)
     EXPECT_GT(hiddenProbability(side, e), hiddenProbability(side, nothingHidden()));
 }
 
@@ -37,7 +37,7 @@ TEST(HiddenPart, ACuboidThatIsNotTheObjectsTellsNothing)
   HiddenEvidence e = none;
   e.cuboidBeyond_px = 60;
   e.noDepth = 1;
-  for (const auto side : kSides)
+  for (const auto side : kEachSide)
     EXPECT_EQ(hiddenProbability(side, e), hiddenProbability(side, none));
 }
 
@@ -47,7 +47,7 @@ TEST(HiddenPart, ACloudThatGoesOnOutsideExplainsItsCuboid)
   e.cuboidBeyond_px = 30;
   HiddenEvidence leaking = e;
   leaking.cloudShort_px = -30;
-  for (const auto side : kSides)
+  for (const auto side : kEachSide)
   {
     EXPECT_LT(hiddenProbability(side, leaking), hiddenProbability(side, e));
     EXPECT_DOUBLE_EQ(hiddenProbability(side, leaking), hiddenProbability(side, nothingHidden()));

@@ -4,18 +4,13 @@
 
 #include <cmath>
 
+#include "../../obs/InstalledLabels.h"
 #include "../../surfaces/SyntheticFrame.h"
 
 namespace quadmap
 {
 namespace
 {
-const LabelTable& labels()
-{
-  static const LabelTable table = LabelTable::installed();
-  return table;
-}
-
 /** A support in the words of the tests. */
 struct Chosen
 {

@@ -273,9 +273,9 @@ TEST(RawlogErrors, UnreadableExternalImages)
   folder.write(color, "no image here");
   expectProblem(file, {where, color + " cannot be read"}, 1);
   folder.write(color, goodColor.substr(0, goodColor.size() / 2));
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   expectProblem(file, {where, color + " cannot be read", "cannot be read as an image"}, 1);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "libjpeg prints nothing itself";
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "libjpeg prints nothing itself";
   folder.write(color, goodColor);
   EXPECT_EQ(readAll(file).size(), 2u);
 }

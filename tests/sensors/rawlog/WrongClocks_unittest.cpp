@@ -10,7 +10,7 @@ using Objects = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
 namespace
 {
-constexpr int kFrames = 120;
+constexpr int kDriveFrames = 120;
 
 double timeOf(int frame) { return kStart + 0.1 * frame; }
 
@@ -20,16 +20,16 @@ template <typename More>
 Objects drive(const More& more)
 {
   Objects records;
-  for (int i = 0; i <= kFrames; ++i)
+  for (int i = 0; i <= kDriveFrames; ++i)
   {
     records.push_back(samplePose(timeOf(i), CPose3D(0.1 * i, 0, 0, 0, 0, 0)));
-    if (i < kFrames) records.push_back(sampleScan(timeOf(i) + 0.03));
+    if (i < kDriveFrames) records.push_back(sampleScan(timeOf(i) + 0.03));
     for (const auto& record : more(i)) records.push_back(record);
   }
   return records;
 }
 
-void expectAllPoses(const Objects& records, std::size_t expectedFrames = kFrames)
+void expectAllPoses(const Objects& records, std::size_t expectedFrames = kDriveFrames)
 {
   const TemporaryFolder folder;
   RawlogSource source(writeObjects(folder.path("x.rawlog"), records), {});
@@ -83,15 +83,15 @@ TEST(WrongClocks, AnotherCameraAheadKeepsItsImagesToItself)
     EXPECT_EQ(frame.T_odom_robot.has_value(), frame.scan->sensorLabel == "camera");
     posed += frame.T_odom_robot ? 1 : 0;
   }
-  EXPECT_EQ(posed, std::size_t{kFrames});
+  EXPECT_EQ(posed, std::size_t{kDriveFrames});
 }
 
 TEST(WrongClocks, OdometryMayBeWrittenTwoSecondsLate)
 {
   Objects records;
-  for (int i = 0; i < kFrames + 20; ++i)
+  for (int i = 0; i < kDriveFrames + 20; ++i)
   {
-    if (i < kFrames) records.push_back(sampleScan(timeOf(i)));
+    if (i < kDriveFrames) records.push_back(sampleScan(timeOf(i)));
     if (i >= 20)
       records.push_back(samplePose(timeOf(i - 20), CPose3D(0.1 * (i - 20), 0, 0, 0, 0, 0)));
     if (i == 0) records.push_back(samplePose(timeOf(-1), CPose3D(-0.1, 0, 0, 0, 0, 0)));

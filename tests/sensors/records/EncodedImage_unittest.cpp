@@ -9,13 +9,13 @@ using namespace quadmap;
 
 namespace
 {
-constexpr int kColumns = 40, kRows = 30;
+constexpr int kWidth = 40, kHeight = 30;
 
 /** \param format The end of a file's name. */
 std::vector<std::uint8_t> encoded(const char* format)
 {
   std::vector<std::uint8_t> bytes;
-  cv::imencode(format, cv::Mat(kRows, kColumns, CV_8UC3, cv::Scalar(10, 200, 30)), bytes);
+  cv::imencode(format, cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(10, 200, 30)), bytes);
   return bytes;
 }
 
@@ -23,7 +23,7 @@ bool isRead(const std::vector<std::uint8_t>& bytes, std::uint64_t mostPixels)
 {
   try
   {
-    return decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, mostPixels).cols == kColumns;
+    return decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, mostPixels).cols == kWidth;
   }
   catch (const std::runtime_error&)
   {
@@ -34,7 +34,7 @@ bool isRead(const std::vector<std::uint8_t>& bytes, std::uint64_t mostPixels)
 
 TEST(EncodedImage, NoFormatEscapesTheLimitOfPixels)
 {
-  constexpr std::uint64_t kEnough = kColumns * kRows;
+  constexpr std::uint64_t kEnough = kWidth * kHeight;
   for (const char* format : {".jpg", ".png"})
     EXPECT_TRUE(isRead(encoded(format), kEnough)) << format;
   for (const char* format : {".jpg", ".png", ".bmp", ".ppm"})
@@ -43,7 +43,7 @@ TEST(EncodedImage, NoFormatEscapesTheLimitOfPixels)
 
 TEST(EncodedImage, JpegHasThePixelsThatOpenCVGives)
 {
-  cv::Mat noise(kRows, kColumns, CV_8UC3);
+  cv::Mat noise(kHeight, kWidth, CV_8UC3);
   cv::theRNG().state = 7;
   cv::randu(noise, 0, 256);
   cv::Mat grey;
@@ -60,12 +60,12 @@ TEST(EncodedImage, JpegHasThePixelsThatOpenCVGives)
 
 TEST(EncodedImage, JpegInColourHasASizeWhenItIsWhole)
 {
-  constexpr std::uint64_t kEnough = kColumns * kRows;
+  constexpr std::uint64_t kEnough = kWidth * kHeight;
   const auto bytes = encoded(".jpg");
   const auto size = sizeOfColorJpeg(bytes, kEnough);
   ASSERT_TRUE(size);
-  EXPECT_EQ(size->width, unsigned{kColumns});
-  EXPECT_EQ(size->height, unsigned{kRows});
+  EXPECT_EQ(size->width, unsigned{kWidth});
+  EXPECT_EQ(size->height, unsigned{kHeight});
   EXPECT_THROW(sizeOfColorJpeg(bytes, kEnough - 1), std::runtime_error);
   for (std::size_t end = bytes.size() - 2; end > bytes.size() / 2; end -= 7)
     EXPECT_THROW(
@@ -74,7 +74,7 @@ TEST(EncodedImage, JpegInColourHasASizeWhenItIsWhole)
         << end;
   EXPECT_FALSE(sizeOfColorJpeg(encoded(".png"), kEnough));
   std::vector<std::uint8_t> grey;
-  cv::imencode(".jpg", cv::Mat(kRows, kColumns, CV_8UC1, cv::Scalar(9)), grey);
+  cv::imencode(".jpg", cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9)), grey);
   EXPECT_FALSE(sizeOfColorJpeg(grey, kEnough)) << "has no colour";
 }
 
@@ -95,16 +95,16 @@ TEST(EncodedImage, DamageOfAJpegIsTold)
 
 TEST(EncodedImage, JpegOfFourInksIsReadAllTheSame)
 {
-  const std::vector<std::uint8_t> ink(4 * kRows * kColumns, 120);
+  const std::vector<std::uint8_t> ink(4 * kHeight * kWidth, 120);
   unsigned char* made = nullptr;
   unsigned long size = 0;
   const tjhandle encoder = tjInitCompress();
   ASSERT_EQ(
       tjCompress2(
-          encoder, ink.data(), kColumns, 0, kRows, TJPF_CMYK, &made, &size, TJSAMP_444, 90, 0),
+          encoder, ink.data(), kWidth, 0, kHeight, TJPF_CMYK, &made, &size, TJSAMP_444, 90, 0),
       0);
   const cv::Mat ours = decodeImage(made, size, cv::IMREAD_COLOR, 1 << 20);
-  EXPECT_EQ(ours.size(), cv::Size(kColumns, kRows));
+  EXPECT_EQ(ours.size(), cv::Size(kWidth, kHeight));
   EXPECT_FALSE(sizeOfColorJpeg({made, made + size}, 1 << 20)) << "it is no plain colour";
   EXPECT_THROW(decodeImage(made, size / 2, cv::IMREAD_COLOR, 1 << 20), std::runtime_error);
   tjFree(made);

@@ -98,7 +98,7 @@ std::vector<Edge> edgesOf(const ImageBox& exact, const ImageBox& sampled)
   };
 }
 
-class SolidOutline : public testing::TestWithParam<Shape>
+class SolidOutline : public ::testing::TestWithParam<Shape>
 {
  protected:
   std::mt19937 random_{7};
@@ -175,7 +175,7 @@ TEST_P(SolidOutline, ReachesBehindTheCamera)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Shapes, SolidOutline, testing::Values(Shape::Box, Shape::Cylinder, Shape::Ellipsoid));
+    Shapes, SolidOutline, ::testing::Values(Shape::Box, Shape::Cylinder, Shape::Ellipsoid));
 
 /** Box of the pixels of an object alone in its room, in an image with `margin` more pixels on each
  * side. */

@@ -105,7 +105,7 @@ TEST(Simulator, GivesMasksWithBoxes)
 }
 
 /** A file with labels of pixels and without boxes, which is read again. */
-class PixelLabelFile : public testing::TestWithParam<DetectorOutput>
+class PixelLabelFile : public ::testing::TestWithParam<DetectorOutput>
 {
 };
 
@@ -146,7 +146,7 @@ TEST_P(PixelLabelFile, HoldsTheVisibleObjects)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Kinds, PixelLabelFile, testing::Values(DetectorOutput::Classes, DetectorOutput::Instances));
+    Kinds, PixelLabelFile, ::testing::Values(DetectorOutput::Classes, DetectorOutput::Instances));
 
 }  // namespace
 }  // namespace quadmap::simulator

@@ -19,13 +19,6 @@ const std::string kChairAndCups =
 
 PinholeCamera vga() { return CameraOptions().pinhole(); }
 
-DetectorOptions faultless()
-{
-  SimulatorOptions options;
-  options.scaleNoise(0);
-  return options.detector;
-}
-
 TEST(VisibleObjects, BoxesEncloseTheProjectedVisibleSurface)
 {
   const Scene scene = homeScene();
@@ -103,7 +96,7 @@ TEST(VisibleObjects, ShareIsWhatOcclusionAndTheImageLeave)
   EXPECT_GT(cut[0].visibleShare, 0.40) << "perspective makes the outer half the larger one";
 }
 
-class Detector : public testing::Test
+class Detector : public ::testing::Test
 {
  protected:
   const Scene scene = sceneFromText(kRoomText + kChairAndCups);

@@ -11,13 +11,6 @@ namespace quadmap::simulator
 {
 namespace
 {
-DetectorOptions faultless()
-{
-  SimulatorOptions options;
-  options.scaleNoise(0);
-  return options.detector;
-}
-
 /** The camera at a bearing from the object [deg], 2 m away unless said. */
 Eigen::Vector3d eyeAt(double bearing_deg, double distance = 2)
 {
@@ -79,7 +72,7 @@ TEST(ViewErrors, HappenInTheirShareOfViews)
   EXPECT_NEAR(0.4, mergers / kViews, tolerance);
 }
 
-class DetectorWithViews : public testing::Test
+class DetectorWithViews : public ::testing::Test
 {
  protected:
   std::vector<DetectedObject> boxesOf(

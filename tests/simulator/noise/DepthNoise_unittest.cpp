@@ -8,22 +8,13 @@
 #include <set>
 
 #include "../SceneFixture.h"
+#include "NoisyDepthFixture.h"
 #include "quadmap/simulator/Simulator.h"
 
 namespace quadmap::simulator
 {
 namespace
 {
-/** Options without errors, of which a test switches some on. */
-DepthNoiseOptions perfect()
-{
-  SimulatorOptions options;
-  options.scaleNoise(0);
-  options.depthNoise.shadow = false;
-  options.depthNoise.window = 0;
-  return options.depthNoise;
-}
-
 /** An image full of a wall that faces the camera. */
 RenderedFrame wallAt(double z)
 {
@@ -34,14 +25,6 @@ RenderedFrame wallAt(double z)
   frame.cosIncidence.assign(pixels, 1.0F);
   frame.returnsDepth.assign(pixels, 1);
   return frame;
-}
-
-std::vector<double> measured(
-    const RenderedFrame& frame, const DepthNoiseOptions& options, std::uint64_t seed = 1)
-{
-  RandomStream random(seed, Purpose::Depth, 0);
-  const auto depth = noisyDepth(frame, options, random);
-  return {depth.begin(), depth.end()};
 }
 
 TEST(DepthNoise, PerfectSensorReturnsTheDepth)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "../SceneFixture.h"
+#include "NoisyDepthFixture.h"
 #include "noise/DepthNoise.h"
 
 // Errors that a structured-light camera does not have by default.
@@ -9,15 +10,6 @@ namespace quadmap::simulator
 {
 namespace
 {
-DepthNoiseOptions perfect()
-{
-  SimulatorOptions options;
-  options.scaleNoise(0);
-  options.depthNoise.shadow = false;
-  options.depthNoise.window = 0;
-  return options.depthNoise;
-}
-
 /** A wall, all in one colour, with something nearer left of the middle. */
 RenderedFrame edgeAt(double left, double right, std::uint8_t brightness)
 {
@@ -30,13 +22,6 @@ RenderedFrame edgeAt(double left, double right, std::uint8_t brightness)
   frame.returnsDepth.assign(pixels, 1);
   frame.rgb.assign(3 * pixels, brightness);
   return frame;
-}
-
-std::vector<double> measured(const RenderedFrame& frame, const DepthNoiseOptions& options)
-{
-  RandomStream random(1, Purpose::Depth, 0);
-  const auto depth = noisyDepth(frame, options, random);
-  return {depth.begin(), depth.end()};
 }
 
 TEST(OtherSensors, BleedingWidensWhatIsNearWithinItsReach)

@@ -181,7 +181,7 @@ std::ostream& operator<<(std::ostream& out, const Recording& recording)
   return out << recording.name;
 }
 
-class RealDepth : public testing::TestWithParam<Recording>
+class RealDepth : public ::testing::TestWithParam<Recording>
 {
 };
 
@@ -224,7 +224,7 @@ TEST_P(RealDepth, SimulatedErrsAsMuchAndAsCorrelated)
 INSTANTIATE_TEST_SUITE_P(
     Recordings,
     RealDepth,
-    testing::Values(Recording{"tum_fr3_cabinet", 2, 3}, Recording{"kitchen_a", 10, 2}));
+    ::testing::Values(Recording{"tum_fr3_cabinet", 2, 3}, Recording{"kitchen_a", 10, 2}));
 
 }  // namespace
 }  // namespace quadmap::simulator

@@ -13,7 +13,7 @@ namespace quadmap::simulator
 {
 namespace
 {
-class InstalledScene : public testing::TestWithParam<const char*>
+class InstalledScene : public ::testing::TestWithParam<const char*>
 {
 };
 
@@ -38,7 +38,7 @@ TEST_P(InstalledScene, StandsInItsRoomWithLabelsADetectorKnows)
 INSTANTIATE_TEST_SUITE_P(
     All,
     InstalledScene,
-    testing::Values(
+    ::testing::Values(
         "home",
         "office",
         "robot-home",

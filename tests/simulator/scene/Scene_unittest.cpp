@@ -116,7 +116,7 @@ struct BadScene
   std::vector<std::string> expected;  // parts of the message
 };
 
-class BadSceneFile : public testing::TestWithParam<BadScene>
+class BadSceneFile : public ::testing::TestWithParam<BadScene>
 {
 };
 
@@ -140,7 +140,7 @@ const std::string kObject = "[object a]\nlabel = cup\nposition = 1 0 0\n";
 INSTANTIATE_TEST_SUITE_P(
     Table,
     BadSceneFile,
-    testing::Values(
+    ::testing::Values(
         BadScene{
             "size = 6 6 2.6\n", "", {"[room]", "size", "missing"}
 },

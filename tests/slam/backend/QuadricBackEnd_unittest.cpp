@@ -8,6 +8,7 @@
 #include <set>
 
 #include "../../graph/GraphWorld.h"
+#include "../../maps/ObjectMapFixture.h"
 #include "../../quadric/BoxScene.h"
 #include "quadmap/perception/BoxEdges.h"
 
@@ -17,8 +18,6 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-mrpt::math::TPoint3D pointOf(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
 /** A robot that drives twice around some ellipsoids, whose boxes it sees and nothing else. */
 class Drive
 {

@@ -15,7 +15,7 @@ using Graph = mrpt::graphs::CNetworkOfPoses3DInf;
 namespace
 {
 /** The pose graph that a run on the bundled rawlog writes, optimised by MRPT. */
-class PoseGraphOptimised : public testing::TestWithParam<PoseSource>
+class PoseGraphOptimised : public ::testing::TestWithParam<PoseSource>
 {
  protected:
   PoseGraphOptimised()
@@ -89,5 +89,5 @@ TEST_P(PoseGraphOptimised, AlsoFromFarAway)
 INSTANTIATE_TEST_SUITE_P(
     PosesFrom,
     PoseGraphOptimised,
-    testing::Values(PoseSource::Rawlog, PoseSource::GroundTruth),
+    ::testing::Values(PoseSource::Rawlog, PoseSource::GroundTruth),
     [](const auto& source) { return source.param == PoseSource::Rawlog ? "Odometry" : "Truth"; });

@@ -21,7 +21,7 @@ namespace
 constexpr double kUprightSigma = 0.035;  // of roll and pitch of an object in the graph [rad]
 
 /** A run of six keyframes of one cuboid, written as a graph and read by MRPT. */
-class PoseGraphWriter : public testing::Test
+class PoseGraphWriter : public ::testing::Test
 {
  protected:
   PoseGraphWriter() :

@@ -21,7 +21,7 @@ using mrpt::poses::CPose3DPDFGaussian;
 namespace
 {
 /** Three keyframes, of which no detector looked at the second. */
-class SimpleMapWriter : public testing::Test
+class SimpleMapWriter : public ::testing::Test
 {
  protected:
   SimpleMapWriter() : spool_(folder_.folder().string())

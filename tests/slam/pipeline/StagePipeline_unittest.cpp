@@ -271,5 +271,5 @@ namespace
 TEST(StagePipelineThreads, NoneLeftIsAnErrorAndNotTheEnd)
 {
   if (kSanitized) GTEST_SKIP() << "memory cannot be limited";
-  EXPECT_EXIT(startWithFewThreadsLeft(), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(startWithFewThreadsLeft(), ::testing::ExitedWithCode(0), "");
 }

@@ -13,7 +13,7 @@ using mrpt::poses::CPose3D;
 namespace
 {
 /** Low enough that the camera sees all tops. */
-std::vector<TrueObject> furniture()
+std::vector<TrueObject> lowFurniture()
 {
   return {
       cuboid("refrigerator", {-1.2, -1.0, 0.6}, {0.6, 0.65, 1.2}, 0.2),
@@ -104,7 +104,7 @@ constexpr double kCorrected = 0.03, kObject = 0.06;
 
 TEST(JointCorrection, KnownObjectsPullADriftedRunBack)
 {
-  const auto world = furniture();
+  const auto world = lowFurniture();
   const CQuadricObjectMap given = mapOf(world);
   ASSERT_NO_FATAL_FAILURE(expectMapOf(given, world, kObject));
   DriftingRun run(world, 2);
@@ -121,7 +121,7 @@ TEST(JointCorrection, KnownObjectsPullADriftedRunBack)
 
 TEST(JointCorrection, LetsGoOfAKnownObjectThatWasMoved)
 {
-  const auto now = furniture();
+  const auto now = lowFurniture();
   auto before = now;
   before[1] = cuboid("suitcase", {1.2, -1.5, 0.3}, {0.7, 0.4, 0.6}, 0.7);  // half a metre away
   const CQuadricObjectMap given = mapOf(before);

@@ -33,7 +33,7 @@ Matrix6 forwardInformation()
   return information;
 }
 
-class GraphOdometryFile : public testing::Test
+class GraphOdometryFile : public ::testing::Test
 {
  protected:
   GraphOdometry read(const std::string& text) const
@@ -159,11 +159,11 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
     EXPECT_EQ(error.find(folder_.path("x.graph")), 0u) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   const std::string nonsense = errorIn("\x1b[2J is none\nnor this\n");
   EXPECT_NE(nonsense.find("x.graph:1: '?[2J' is no entry of a pose graph"), std::string::npos)
       << nonsense;
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "MRPT prints nothing itself";
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "MRPT prints nothing itself";
   EXPECT_EQ(errorOf([] { GraphOdometry("/nowhere/x.graph"); }), "/nowhere/x.graph: cannot be read");
 }
 

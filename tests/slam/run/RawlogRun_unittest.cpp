@@ -21,7 +21,7 @@ const char* const kFiles[] = {"objects.quadmap",         "objects.json",  "traje
                               "trajectory_odometry.tum", "map.simplemap", "objects.simplemap",
                               "pose-graph.graph",        "report.json"};
 
-class RawlogRun : public testing::Test
+class RawlogRun : public ::testing::Test
 {
  protected:
   RawlogRunRequest requestFor(const std::string& rawlog, const std::string& out = "out") const

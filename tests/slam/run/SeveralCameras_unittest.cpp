@@ -68,7 +68,7 @@ Records drivePast(const std::vector<SyntheticRoom>& cameras)
   return records;
 }
 
-class SeveralCameras : public testing::Test
+class SeveralCameras : public ::testing::Test
 {
  protected:
   /** \param correct False leaves the poses exactly as the odometry has them. */

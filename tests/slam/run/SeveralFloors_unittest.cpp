@@ -14,7 +14,7 @@ namespace
 /** Maps an installed scene, with fewer and smaller images than it says, and compares with the
  * truth.
  */
-class SeveralFloors : public testing::TestWithParam<const char*>
+class SeveralFloors : public ::testing::TestWithParam<const char*>
 {
  protected:
   EvaluationReport map(const std::string& name, int frames) const
@@ -64,4 +64,4 @@ TEST_P(SeveralFloors, AreMappedAtTheirHeights)
   EXPECT_EQ(raised, 3U) << "chairs upstairs, or on the dais";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SeveralFloors, testing::Values("dais", "two-storeys"));
+INSTANTIATE_TEST_SUITE_P(Scenes, SeveralFloors, ::testing::Values("dais", "two-storeys"));

@@ -20,7 +20,7 @@ namespace
 constexpr int kThreads[] = {1, 2, 4};
 
 /** Compares the results of runs with different numbers of threads. */
-class SlamThreads : public testing::Test
+class SlamThreads : public ::testing::Test
 {
  protected:
   RawlogRunRequest requestFor(const std::string& rawlog, int threads) const
