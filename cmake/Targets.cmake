@@ -76,6 +76,16 @@ quadmap_precompile(quadmap_common_headers
     <vector>)
 set_target_properties(quadmap_common_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
+# quadmap_compile_together(<target>): some sources at a time, when asked for. Most of what is compiled are templates that
+# they have in common. Names in unnamed namespaces are unique within a target for it; those of functions still hide
+# them, and GCC takes them for those of a header.
+function(quadmap_compile_together target)
+  if(QUADMAP_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # quadmap_add_library(<name> SOURCES ... PUBLIC ... PRIVATE ... [PRECOMPILED] [SEPARATE]): target quadmap::<name>, file
 # libquadmap-<name>.so (shared: programs of MRPT load them as plug-ins), headers in
 # include/quadmap/<name>, component <name> of the package. Its sources are never compiled together when they are SEPARATE.
@@ -95,12 +105,8 @@ function(quadmap_add_library name)
     quadmap_reuse_precompiled(quadmap_${name} quadmap_common_headers)
   endif()
   quadmap_target_options(quadmap_${name})
-  if(QUADMAP_TOGETHER AND NOT arg_SEPARATE)
-    # Most of what is compiled are templates that sources have in common. Names in unnamed namespaces are unique within
-    # a library for it; those of functions still hide them, and GCC takes them for those of a header.
-    set_target_properties(quadmap_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
-    target_compile_options(quadmap_${name} PRIVATE -Wno-shadow
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  if(NOT arg_SEPARATE)
+    quadmap_compile_together(quadmap_${name})
   endif()
   # Otherwise templates that a test instantiates, too, would be those of the test, which is not optimised.
   target_link_options(quadmap_${name} PRIVATE -Wl,-Bsymbolic-functions)
@@ -159,6 +165,7 @@ function(quadmap_add_test name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/libs/${library}/src)
   endforeach()
   quadmap_target_options(${name})
+  quadmap_compile_together(${name})
   if(arg_LIGHT)
     quadmap_reuse_precompiled(${name} quadmap_light_test_headers)
     target_compile_options(${name} PRIVATE ${QUADMAP_LIGHT_TEST_OPTIONS})
