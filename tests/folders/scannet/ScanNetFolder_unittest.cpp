@@ -91,6 +91,45 @@ TEST_F(ScanNetFolder, FramesWithoutAKnownPoseHaveNone)
   EXPECT_FALSE(scene.T_world_robot(1));
 }
 
+TEST_F(ScanNetFolder, TakesAGivenCameraInsteadOfItsOwn)
+{
+  for (int i : {0, 1, 10}) writeColor(i, 640, 480);
+  FrameFolderOptions options;
+  options.camera = files_.write("my.ini", "[camera]\nfx = 500\nfy = 510\n");
+  for (const bool hasOwn : {true, false})
+  {
+    if (!hasOwn) std::filesystem::remove_all(files_.path("intrinsic"));
+    const FrameFolder scene = openFrameFolder("scannet", folder(), options);
+    const auto scan = scene.scan(2);
+    EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 500) << hasOwn;
+    EXPECT_DOUBLE_EQ(scan->cameraParams.fy(), 510) << hasOwn;
+    EXPECT_NEAR(static_cast<float>(scan->rangeImage(240, 320)) * scan->rangeUnits, 2.0, 1e-3)
+        << "millimetres, as the camera does not tell";
+    ASSERT_TRUE(scene.camera().worldUp) << "ScanNet's z is up with any camera";
+    EXPECT_NEAR(scene.T_world_robot(2)->x(), 10, 1e-9) << hasOwn;
+  }
+}
+
+TEST_F(ScanNetFolder, PosesAreOfTheDepthCameraOfAGivenCamera)
+{
+  for (int i : {0, 1, 10}) writeColor(i, 640, 480);
+  FrameFolderOptions options;
+  options.camera = files_.write(
+      "my.ini",
+      "[camera]\nfx = 500\nfy = 500\ndepthFx = 580\ndepthFy = 580\n"
+      "T_color_depth = 1 0 0 0.05 0 1 0 0 0 0 1 0\n");
+  const FrameFolder scene = openFrameFolder("scannet", folder(), options);
+  EXPECT_NEAR(scene.frames()[2].T_world_optical->x(), 10 - 0.05, 1e-9);
+}
+
+TEST_F(ScanNetFolder, SaysHowToGiveTheCameraThatItLacks)
+{
+  std::filesystem::remove_all(files_.path("intrinsic"));
+  EXPECT_EQ(
+      errorOf([&] { openFrameFolder("scannet", folder()); }),
+      folder() + ": has no intrinsic/, which tells the camera; --camera NAME|FILE gives one");
+}
+
 TEST_F(ScanNetFolder, RefusesWhatItCannotUse)
 {
   const auto expect = [&](const std::string& file, const std::string& text, const std::string& what)

@@ -60,12 +60,16 @@ void followScaling(FolderContent& content, Eigen::Matrix4d& K, cv::Size size)
       std::to_string(size.width) + "x" + std::to_string(size.height));
 }
 
+/** The camera of intrinsic/. */
 void readCamera(FolderContent& content, const FolderFrame& first)
 {
+  if (!fs::is_directory(fs::path(content.folder) / "intrinsic"))
+    throw std::runtime_error(
+        content.folder +
+        ": has no intrinsic/, which tells the camera; --camera NAME|FILE gives one");
   auto& camera = content.camera;
   camera.origin = "intrinsic/";
   camera.depthFactor = kScanNetDepthFactor;
-  camera.worldUp = Eigen::Vector3d::UnitZ();  // as ScanNet's scenes are turned
   const cv::Size colorSize = sizeOfImage(first.color), depthSize = sizeOfImage(first.depth);
   Eigen::Matrix4d K = matrixOf(content.folder, "intrinsic_color.txt");
   followScaling(content, K, colorSize);
@@ -78,7 +82,6 @@ void readCamera(FolderContent& content, const FolderFrame& first)
       extrinsicOf(content.folder, "extrinsic_color.txt").inverse() *
       extrinsicOf(content.folder, "extrinsic_depth.txt"));
   camera.depth = depth;
-  camera.posesAreOfDepth = true;
 }
 
 void readPoses(FolderContent& content)
@@ -111,6 +114,9 @@ FolderContent readScanNetFolder(const std::string& folder, const FrameFolderOpti
     readCamera(content, content.frames.front());
   else
     content.camera = cameraOfFolder(folder, options, "", kScanNetDepthFactor);
+  content.camera.posesAreOfDepth = content.camera.depth.has_value();
+  // As ScanNet's scenes are turned.
+  if (!content.camera.worldUp) content.camera.worldUp = Eigen::Vector3d::UnitZ();
   if (fs::is_directory(fs::path(folder) / "pose"))
     readPoses(content);
   else
