@@ -216,6 +216,14 @@ TEST_F(QuadmapImport, ReadsBoxesOfOtherForms)
   EXPECT_NEAR(object.box.x1, 16, 1e-6);
 }
 
+TEST_F(QuadmapImport, SaysThatNamesOfClassesAreNotUsed)
+{
+  const auto result = run("tum IN -o OUT/x.rawlog --labels my.names");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("hence --labels my.names is not used"), kNotFound) << result.err;
+}
+
 TEST_F(QuadmapImport, TakesPosesAsAsked)
 {
   ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);

@@ -131,6 +131,20 @@ TEST_F(BoxFiles, SaysWhenNumbersAreTakenForClassesOfCoco)
   EXPECT_EQ(openBoxes(folder, "")->note(), "");
 }
 
+TEST_F(BoxFiles, SaysThatNamesAreNotUsedWhereBoxesHaveTheirOwn)
+{
+  files_.write("a.txt", "41 cup 0.25 5 6 7 8\n");
+  const auto dataset =
+      files_.write("d.json", R"({"images": [], "categories": [], "annotations": []})");
+  for (const auto& place : {files_.folder().string(), dataset})
+  {
+    EXPECT_EQ(
+        openBoxes(place, "my.names")->note(),
+        place + ": has the names of the classes itself, hence --labels my.names is not used");
+    EXPECT_EQ(openBoxes(place, "")->note(), "") << place;
+  }
+}
+
 TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
 {
   files_.write("a.txt", "0 0.5 0.5 0.5 0.5\n");

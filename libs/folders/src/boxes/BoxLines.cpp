@@ -103,8 +103,12 @@ class BoxLines : public BoxReader
 class NamedBoxes : public BoxLines
 {
  public:
-  using BoxLines::BoxLines;
+  NamedBoxes(const std::string& folder, std::string labels) :
+      BoxLines(folder), labels_(std::move(labels))
+  {
+  }
   std::string description() const override { return folder_ + " (a line per box)"; }
+  std::string note() const override { return noteOfNamedClasses(folder_, labels_); }
 
  private:
   DetectedObject boxIn(const TextLine& line, const mrpt::img::TCamera&) const override
@@ -127,6 +131,8 @@ class NamedBoxes : public BoxLines
         numberIn(line, end + 4)};
     return object;
   }
+
+  std::string labels_;
 };
 
 class YoloBoxes : public BoxLines
@@ -199,6 +205,12 @@ std::string noteOfUnnamedClasses(const std::string& place)
   return place + ": no file names the classes, whose numbers are taken for COCO's (--labels FILE)";
 }
 
+std::string noteOfNamedClasses(const std::string& place, const std::string& labels)
+{
+  if (labels.empty()) return {};
+  return place + ": has the names of the classes itself, hence --labels " + labels + " is not used";
+}
+
 void requireFewBoxes(std::size_t boxes, const std::string& place)
 {
   if (boxes > CObservationObjects::kMostObjects)
@@ -226,9 +238,10 @@ bool hasYoloBoxes(const std::string& folder)
   return false;
 }
 
-std::unique_ptr<const BoxReader> openNamedBoxes(const std::string& folder)
+std::unique_ptr<const BoxReader> openNamedBoxes(
+    const std::string& folder, const std::string& labels)
 {
-  return std::make_unique<NamedBoxes>(folder);
+  return std::make_unique<NamedBoxes>(folder, labels);
 }
 
 std::unique_ptr<const BoxReader> openYoloBoxes(const std::string& folder, const std::string& labels)

@@ -8,8 +8,10 @@
 namespace quadmap
 {
 /** Files of boxes, NAME.txt of the image NAME, with lines of `class_id class_name score x1 y1 x2
- * y2` [px]. Names may have blanks. */
-std::unique_ptr<const BoxReader> openNamedBoxes(const std::string& folder);
+ * y2` [px]. Names may have blanks.
+ * \param labels File with names of classes, which is not needed: a note says so. May be empty. */
+std::unique_ptr<const BoxReader> openNamedBoxes(
+    const std::string& folder, const std::string& labels);
 
 /** Files of boxes as YOLO's save_txt writes them, NAME.txt of the image NAME, with lines of
  * `class_id centre_x centre_y width height`, in shares of the image, and perhaps the score.
@@ -32,6 +34,9 @@ std::unique_ptr<const BoxReader> openCocoBoxes(const std::string& file, const st
 
 /** The note of boxes whose classes are numbers that no file names. */
 std::string noteOfUnnamedClasses(const std::string& place);
+
+/** The note of boxes that have the names of their classes; empty when no other names are given. */
+std::string noteOfNamedClasses(const std::string& place, const std::string& labels);
 
 /** \exception std::runtime_error If there are more than a record can have; names the place. */
 void requireFewBoxes(std::size_t boxes, const std::string& place);

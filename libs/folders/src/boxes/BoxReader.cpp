@@ -21,7 +21,7 @@ std::unique_ptr<const BoxReader> openBoxes(const std::string& place, const std::
   if (!fs::is_directory(place))
     throw std::runtime_error(place + ": no such folder (of detections)");
   if (hasYoloBoxes(place)) return openYoloBoxes(place, labels);
-  return openNamedBoxes(place);
+  return openNamedBoxes(place, labels);
 }
 
 }  // namespace quadmap

@@ -103,12 +103,12 @@ class ResultNames
 class CocoBoxes : public BoxReader
 {
  public:
-  CocoBoxes(std::string file, const std::string& labels) :
-      file_(std::move(file)), hasOwnNames_(!labels.empty())
+  CocoBoxes(std::string file, std::string labels) :
+      file_(std::move(file)), labels_(std::move(labels))
   {
     const Json json = readJson(file_);
     if (json.is_array())
-      readResults(json, labels);
+      readResults(json);
     else if (json.is_object())
       readDataset(json);
     else
@@ -138,7 +138,8 @@ class CocoBoxes : public BoxReader
   std::string description() const override { return file_ + " (COCO's JSON)"; }
   std::string note() const override
   {
-    return isResults_ && !hasOwnNames_ ? noteOfUnnamedClasses(file_) : std::string();
+    if (!isResults_) return noteOfNamedClasses(file_, labels_);
+    return labels_.empty() ? noteOfUnnamedClasses(file_) : std::string();
   }
 
  private:
@@ -154,10 +155,10 @@ class CocoBoxes : public BoxReader
     return nullptr;
   }
 
-  void readResults(const Json& results, const std::string& labels)
+  void readResults(const Json& results)
   {
     isResults_ = true;
-    const ResultNames names(labels);
+    const ResultNames names(labels_);
     for (std::size_t i = 0; i < results.size(); ++i)
     {
       const std::string place = mrpt::format("%s: result %zu", file_.c_str(), i);
@@ -210,7 +211,7 @@ class CocoBoxes : public BoxReader
   }
 
   std::string file_;
-  bool hasOwnNames_;  // of results, as a data set has names in any case
+  std::string labels_;  // of results, as a data set has names in any case
   bool isResults_ = false;
   std::map<std::string, std::vector<DetectedObject>> boxesOf_;  // by the names of images
 };
