@@ -216,6 +216,39 @@ TEST_F(BoxFiles, CocoResultsMayBeOfOtherImages)
   EXPECT_FALSE(isOfOtherImages("none.json", "b.png")) << "a detector that found nothing";
 }
 
+TEST_F(BoxFiles, CocoImagesOfEqualNamesAreToldApartByTheirFolders)
+{
+  const auto boxesOf = [this](const std::string& image)
+  {
+    FolderFrame frame;
+    frame.color = image;
+    const auto boxes = openBoxes(files_.path("r.json"), "")->boxes(frame, camera_);
+    return boxes->empty() ? "none" : boxes->at(0).label;
+  };
+  files_.write("r.json", R"([{"image_id": "left/a.jpg", "category_id": 62, "bbox": [1, 2, 3, 4]},
+    {"image_id": "right/a.jpg", "category_id": 47, "bbox": [1, 2, 3, 4]},
+    {"image_id": "./hall/right/b.jpg", "category_id": 44, "bbox": [1, 2, 3, 4]}])");
+  EXPECT_EQ(boxesOf("/room/left/a.png"), "chair");
+  EXPECT_EQ(boxesOf("/room/right/a.png"), "cup");
+  EXPECT_EQ(boxesOf("/room/left/b.png"), "none") << "that of the right camera";
+  EXPECT_EQ(boxesOf("/hall/right/b.png"), "bottle") << "two folders of the path agree";
+  EXPECT_EQ(boxesOf("/room/rgb/b.png"), "bottle") << "the only image of this name";
+  EXPECT_EQ(
+      errorOf([&] { boxesOf("/room/rgb/a.png"); }),
+      files_.path("r.json") + ": image left/a and image right/a may both be /room/rgb/a.png");
+  EXPECT_FALSE(isOfOtherImages("r.json", "a.png")) << "one of them is, and reading them tells";
+}
+
+TEST_F(BoxFiles, CocoDataSetsHaveImagesOfEqualNames)
+{
+  files_.write(
+      "x.json",
+      R"({"images": [{"id": 7, "file_name": "rgb/a.jpg"}, {"id": 8, "file_name": "other/a.jpg"}],
+    "categories": [{"id": 3, "name": "vase"}],
+    "annotations": [{"id": 1, "image_id": 8, "category_id": 3, "bbox": [10, 20, 30, 40]}]})");
+  EXPECT_TRUE(read("a.jpg", "x.json")->empty()) << "the box is of the image in other/";
+}
+
 TEST_F(BoxFiles, TracksOfYoloAreNotTakenForNamedBoxes)
 {
   files_.write("a.txt", "56 0.5 0.25 0.1 0.2 0.9 3\n");

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "boxes/BoxLines.h"
+#include "boxes/CocoImages.h"
 #include "quadmap/base/Json.h"
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/folders/ClassNames.h"
@@ -17,8 +17,6 @@ namespace quadmap
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 /** The value of a key. \exception std::runtime_error If it is missing or of another type. */
 template <typename T>
 T valueOf(const Json& object, const char* key, const std::string& place)
@@ -33,22 +31,10 @@ T valueOf(const Json& object, const char* key, const std::string& place)
   }
 }
 
-/** The name of an image's file without folder and extension. Names that are times have a point
- * where no extension begins. */
-std::string withoutExtension(const std::string& file)
-{
-  const fs::path name = fs::path(file).filename();
-  std::string extension = name.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const char* known : {".png", ".jpg", ".jpeg", ".pcd"})
-    if (extension == known) return name.stem().string();
-  return name.string();
-}
-
-/** An image's name without its extension; of a number, its digits. */
+/** The name of an image; of a number, its digits. */
 std::string nameOf(const Json& imageId, const std::string& place)
 {
-  if (imageId.is_string()) return withoutExtension(imageId.get<std::string>());
+  if (imageId.is_string()) return imageId.get<std::string>();
   if (imageId.is_number_integer()) return std::to_string(imageId.get<long long>());
   throw std::runtime_error(place + ": 'image_id' must be a name or a whole number");
 }
@@ -104,7 +90,7 @@ class CocoBoxes : public BoxReader
 {
  public:
   CocoBoxes(std::string file, std::string labels) :
-      file_(std::move(file)), labels_(std::move(labels))
+      file_(std::move(file)), labels_(std::move(labels)), images_(file_)
   {
     const Json json = readJson(file_);
     if (json.is_array())
@@ -118,7 +104,7 @@ class CocoBoxes : public BoxReader
   std::optional<std::vector<DetectedObject>> boxes(
       const FolderFrame& frame, const mrpt::img::TCamera&) const override
   {
-    if (const auto* found = find(frame)) return *found;
+    if (const auto* found = images_.find(frame.color, namesFor(frame))) return *found;
     // Results do not say at which images the detector looked in vain.
     if (isResults_) return std::vector<DetectedObject>();
     return std::nullopt;
@@ -126,9 +112,9 @@ class CocoBoxes : public BoxReader
 
   bool isOfOtherImages(const std::vector<FolderFrame>& frames) const override
   {
-    return !boxesOf_.empty() && std::none_of(
-                                    frames.begin(), frames.end(),
-                                    [this](const auto& frame) { return find(frame) != nullptr; });
+    const auto isHere = [this](const auto& frame)
+    { return images_.has(frame.color, namesFor(frame)); };
+    return !images_.empty() && std::none_of(frames.begin(), frames.end(), isHere);
   }
 
   std::string fileOf(const FolderFrame& frame) const override
@@ -143,16 +129,11 @@ class CocoBoxes : public BoxReader
   }
 
  private:
-  /** The boxes that the file has of an image, or null. */
-  const std::vector<DetectedObject>* find(const FolderFrame& frame) const
+  std::vector<std::string> namesFor(const FolderFrame& frame) const
   {
-    for (const auto& name : namesOf(frame))
-    {
-      auto found = boxesOf_.find(name);
-      if (found == boxesOf_.end() && isResults_) found = boxesOf_.find(numberAtEnd(name));
-      if (found != boxesOf_.end()) return &found->second;
-    }
-    return nullptr;
+    auto names = namesOf(frame);
+    if (isResults_) names.push_back(numberAtEnd(names.back()));
+    return names;
   }
 
   void readResults(const Json& results)
@@ -173,9 +154,9 @@ class CocoBoxes : public BoxReader
     for (const auto& image : valueOf<Json>(json, "images", file_))
     {
       const std::string place = file_ + ": an image";
-      const auto name = withoutExtension(valueOf<std::string>(image, "file_name", place));
+      const auto name = valueOf<std::string>(image, "file_name", place);
       images[valueOf<long long>(image, "id", place)] = name;
-      boxesOf_[name];
+      images_.of(name);
     }
     for (const auto& category : valueOf<Json>(json, "categories", file_))
       names[valueOf<long long>(category, "id", file_ + ": a category")] =
@@ -205,7 +186,7 @@ class CocoBoxes : public BoxReader
     object.label = label;
     if (json.contains("score")) object.score = valueOf<double>(json, "score", place);
     object.box = {box[0], box[1], box[0] + box[2], box[1] + box[3]};
-    auto& objects = boxesOf_[image];
+    auto& objects = images_.of(image);
     objects.push_back(std::move(object));
     requireFewBoxes(objects.size(), file_ + ": " + image);
   }
@@ -213,7 +194,7 @@ class CocoBoxes : public BoxReader
   std::string file_;
   std::string labels_;  // of results, as a data set has names in any case
   bool isResults_ = false;
-  std::map<std::string, std::vector<DetectedObject>> boxesOf_;  // by the names of images
+  CocoImages images_;
 };
 }  // namespace
 
