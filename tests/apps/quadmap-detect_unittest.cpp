@@ -141,6 +141,9 @@ TEST_F(QuadmapDetect, NamesWhatIsWrongInOneLine)
   expectError(run(rawlog + " --sensor left"), "no usable RGB-D images of a sensor \"left\"");
   expectError(
       runProgram("quadmap-detect", rawlog + " --model nosuch"), "nosuch: is no known model");
+  expectError(
+      runProgram("quadmap-detect", rawlog + " --model chairs.onnx"),
+      "chairs.ini with the lines [detector] / weights = chairs.onnx / labels = FILE");
   tiny_.folder.write("tiny.weights", "");
   expectError(run(rawlog), "tiny.weights: is empty");
 }

@@ -147,6 +147,28 @@ TEST(Detector, IsRefusedWhenItIsNoNetwork)
   EXPECT_TRUE(has(loadingError("nosuch"), "nanodet-m"));
 }
 
+TEST(Detector, SaysWhichModelFileANetworkNeeds)
+{
+  const TemporaryFolder folder;
+  const std::string network = folder.write("m.onnx", "no network"), model = folder.path("m.ini");
+  EXPECT_EQ(
+      loadingError(network),
+      network + ": is a network, which needs a model file, such as " + model +
+          " with the lines [detector] / weights = m.onnx / labels = FILE (names of the classes, "
+          "one "
+          "a line) / width = 640 / height = 640 (of its input); doc/guide/find-objects.md has all "
+          "keys");
+  EXPECT_TRUE(
+      has(loadingError(folder.path("d.weights")),
+          "[detector] / weights = d.weights / network = FILE.cfg / labels = FILE"));
+  // The lines that it names are a model file, which fails on the network alone.
+  folder.write("m.names", "chair\n");
+  folder.write(
+      "m.ini", "[detector]\nweights = m.onnx\nlabels = m.names\nwidth = 640\nheight = 640\n");
+  EXPECT_EQ(loadingError(model).find(network + ": "), 0u) << loadingError(model);
+  EXPECT_EQ(loadingError(network), network + ": is a network; its model file is " + model);
+}
+
 TEST(Detector, IsRefusedWhenItsChecksumIsAnother)
 {
   const TinyDetector tiny;

@@ -46,6 +46,20 @@ bool isFile(const fs::path& path)
   return fs::is_regular_file(path, ignored);
 }
 
+/** How a network is used, of which the user gave the weights instead of a model file. */
+std::string adviceFor(const fs::path& weights)
+{
+  const fs::path modelFile = fs::path(weights).replace_extension(kExtension);
+  if (isFile(modelFile))
+    return weights.string() + ": is a network; its model file is " + modelFile.string();
+  const std::string network = weights.extension() == ".onnx" ? "" : " / network = FILE.cfg";
+  return weights.string() + ": is a network, which needs a model file, such as " +
+         modelFile.string() +
+         " with the lines [detector] / weights = " + weights.filename().string() + network +
+         " / labels = FILE (names of the classes, one a line) / width = 640 / height = 640 (of its "
+         "input); doc/guide/find-objects.md has all keys";
+}
+
 }  // namespace
 
 std::string detectorFolder()
@@ -64,6 +78,8 @@ std::string modelFileOf(const std::string& model)
     if (!isFile(path)) throw std::runtime_error(model + ": there is no such model file");
     return model;
   }
+  if (path.extension() == ".onnx" || path.extension() == ".weights")
+    throw std::runtime_error(adviceFor(path));
   std::string known;
   for (const std::string& file : allModelFiles())
   {
