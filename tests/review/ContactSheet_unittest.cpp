@@ -25,6 +25,24 @@ TEST(ContactSheet, ShowsConfirmedObjectsInTheirLargestBox)
   EXPECT_EQ(sheet.rows, 232 + 8) << "the first object is not confirmed";
 }
 
+TEST(ContactSheet, MarksDoubtfulObjects)
+{
+  PageContent page = quadmap::testing::samplePage();
+  page.objects[1].record.existence = 0.85;
+  const TemporaryFolder folder;
+  writeContactSheet(page, folder.path("sheet.png"));
+  const cv::Mat sheet = cv::imread(folder.path("sheet.png"));
+  const auto isColoured = [&](int column)  // the text below a field; else it is grey
+  {
+    const cv::Mat text = sheet(cv::Rect(8 + 208 * column, 208, 200, 24));
+    return std::any_of(
+        text.begin<cv::Vec3b>(), text.end<cv::Vec3b>(),
+        [](const cv::Vec3b& pixel) { return pixel[2] > pixel[0] + 60; });
+  };
+  EXPECT_TRUE(isColoured(0));
+  EXPECT_FALSE(isColoured(1)) << "0.98";
+}
+
 TEST(ContactSheet, MayBeEmpty)
 {
   const TemporaryFolder folder;

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "quadmap/obs/DoubtfulObject.h"
 #include "quadmap/review/SceneRenderer.h"
 
 namespace quadmap
@@ -17,6 +18,8 @@ constexpr int kField = 200,
               kTextHeight = 24;  // of an object: side of its image, text below it [px]
 constexpr double kAround =
     0.15;  // of a box that is shown around it, on each side / its longer side
+
+const cv::Scalar kSure = cv::Scalar::all(30), kDoubt(0, 106, 154);  // of text; that of pages (BGR)
 
 struct View
 {
@@ -76,9 +79,10 @@ void drawField(const PageContent& content, const PageObject& object, cv::Mat fie
     cut(cv::Rect(0, 0, (place & square).width, (place & square).height))
         .copyTo(field(place & square));
   }
+  const bool doubtful = isDoubtful(object.record);
   cv::putText(
-      field, object.record.label + " " + object.record.id, {4, kField + 17},
-      cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(30), 1, cv::LINE_AA);
+      field, object.record.label + " " + object.record.id + (doubtful ? " ?" : ""),
+      {4, kField + 17}, cv::FONT_HERSHEY_SIMPLEX, 0.5, doubtful ? kDoubt : kSure, 1, cv::LINE_AA);
 }
 
 }  // namespace

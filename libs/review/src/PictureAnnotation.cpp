@@ -10,6 +10,7 @@
 
 #include "LabelLayout.h"
 #include "SceneColors.h"
+#include "quadmap/obs/DoubtfulObject.h"
 #include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
@@ -95,13 +96,12 @@ struct Label
 
 std::vector<Label> labelsOf(const SceneContent& content)
 {
-  constexpr double kCertain = 0.9;  // of existence: below it an object is doubtful
   const cv::Scalar kWrong(30, 20, 200), kMissed(40, 40, 40);
   std::vector<Label> labels;
   for (const ObjectRecord& record : content.objects)
   {
     std::string text = record.label + " " + record.id;
-    if (record.existence && *record.existence < kCertain) text += " ?";
+    if (isDoubtful(record)) text += " ?";
     const bool isPhantom = content.phantoms.count(record.id) > 0;
     if (isPhantom) text += " phantom";
     labels.push_back({text, isPhantom ? kWrong : bgr(labelColor(record.label)), topOf(record)});

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/obs/DoubtfulObject.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/obs/ObjectList.h"
 
 namespace quadmap
 {
@@ -16,7 +16,7 @@ struct InventoryItem
   bool confirmed = true;  //!< The map reports it
 
   /** Not confirmed, or it exists with a probability below 0.9. */
-  bool isDoubtful() const { return !confirmed || record.existence.value_or(1) < 0.9; }
+  bool isDoubtful() const { return !confirmed || quadmap::isDoubtful(record); }
 };
 
 /** What there is: objects, and the labels they may be called by. A value of its own, which does not
