@@ -138,6 +138,7 @@ TEST_F(PageInBrowser, KeepsTheViewInItsLink) { check("link_keeps_the_view", samp
 TEST_F(PageInBrowser, MeasuresDistances) { check("measures", samplePage()); }
 TEST_F(PageInBrowser, MarksWhatDiffersFromTheTruth) { check("compares", samplePage()); }
 TEST_F(PageInBrowser, EditsWithHandlesAndMerges) { check("handles", samplePage()); }
+TEST_F(PageInBrowser, ShowsTheTableWithoutScrollingSideways) { check("table_fits", samplePage()); }
 TEST_F(PageInBrowser, FitsATelephone) { check("phone_and_themes", samplePage()); }
 TEST_F(PageInBrowser, DrawsOnlyWhenSomethingChanges) { check("rests", samplePage()); }
 TEST_F(PageInBrowser, MovesWhenLarge) { check("speed", quadmap::testing::largePage()); }

@@ -4,15 +4,17 @@ Page.table = (function () {
   const body = document.querySelector("#objects tbody"), head = document.querySelector("#objects thead tr");
   const filter = Page.byId("filter");
   const none = (value) => (value === null || value === undefined ? Infinity : value);
+  const timeText = (time) => Page.timeText(time).replace(" s", "\u00a0s");  // one line, where a date may take two
+  // "extra": left out where the panel is narrow; the tab of the object has it.
   const columns = [
     {title: "id", value: (o) => Number(o.id) || o.id, text: (o) => o.id},
     {title: "label", value: (o) => o.label, text: (o) => o.label},
-    {title: "size [m]", value: (o) => o.size[0] * o.size[1] * o.size[2], text: (o) => o.size.map((s) => s.toFixed(2)).join(" × ")},
+    {title: "size [m]", value: (o) => o.size[0] * o.size[1] * o.size[2], text: (o) => o.size.map((s) => s.toFixed(2)).join("×")},
     {title: "exists", value: (o) => none(o.existence), text: (o) => (o.existence === null ? "" : o.existence.toFixed(2))},
-    {title: "± [cm]", hint: "standard deviation of the centre", value: (o) => none(Page.centreSigma(o)),
+    {title: "± [cm]", kind: "extra", hint: "standard deviation of the centre", value: (o) => none(Page.centreSigma(o)),
      text: (o) => (o.sigma ? (100 * Page.centreSigma(o)).toFixed(1) : "")},
-    {title: "first", value: (o) => none(o.first), text: (o) => Page.timeText(o.first)},
-    {title: "last", value: (o) => none(o.last), text: (o) => Page.timeText(o.last)},
+    {title: "first", kind: "extra", value: (o) => none(o.first), text: (o) => timeText(o.first)},
+    {title: "last", kind: "extra", value: (o) => none(o.last), text: (o) => timeText(o.last)},
     {title: "views", value: (o) => none(o.views), text: (o) => (o.views === null ? "" : o.views)},
     {title: "verdict", value: (o) => o.verdict || "", text: (o) => o.verdict || (Page.isDoubtful(o) ? "doubtful" : "")},
   ];
@@ -25,7 +27,7 @@ Page.table = (function () {
     row.dataset.id = object.id;
     if (Page.isDoubtful(object)) row.className = "doubt";
     columns.forEach(function (column, i) {
-      const cell = Page.element("td", row, i === 1 ? null : column.text(object));
+      const cell = Page.element("td", row, i === 1 ? null : column.text(object), column.kind);
       if (i !== 1) return;
       Page.element("span", cell, null, "dot").style.background = Page.cssColor(object.color);
       Page.element("span", cell, column.text(object));
@@ -57,7 +59,7 @@ Page.table = (function () {
   }
 
   columns.forEach(function (column, i) {
-    const cell = Page.element("th", head, column.title);
+    const cell = Page.element("th", head, column.title, column.kind);
     cell.title = column.hint || "Sort by " + column.title;
     cell.addEventListener("click", function () {
       direction = sortedBy === i ? -direction : 1;

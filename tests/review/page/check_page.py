@@ -112,6 +112,17 @@ def check_phone_and_themes(path):
         require(schemes == ["dark", "light"], f"scroll bars and fields follow the theme: {schemes}")
 
 
+def check_table_fits(path):
+    """No sideways scrolling, not even beside the bar that many rows need."""
+    for width, height in ((1280, 800), (800, 600), (390, 800)):
+        with Browser(address_of(path), width, height) as page:
+            page.evaluate("document.querySelector('#objects .scroll').style.maxHeight = '40px'")
+            wide, room = page.evaluate("(() => { const e = document.querySelector('#objects .scroll'); return [e.scrollWidth, e.clientWidth]; })()")
+            require(wide <= room, f"the table takes {wide} of {room} pixels in a window of {width}")
+            shown = page.evaluate("Array.from(document.querySelectorAll('#objects th')).filter((e) => e.offsetWidth).map((e) => e.textContent)")
+            require(len(shown) == 9 if width == 1280 else {"label", "size [m]", "exists", "verdict"} < set(shown), f"its columns: {shown}")
+
+
 def type_into(page, selector, text):
     page.evaluate(f"(() => {{ const e = document.querySelector({selector!r}); e.value = {text!r};"
                   "e.dispatchEvent(new Event('change')); })()")
