@@ -3,6 +3,7 @@
 #include <mrpt/3rdparty/tclap/CmdLine.h>
 #include <mrpt/system/COutputLogger.h>
 
+#include <algorithm>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include "HelpTable.h"
 #include "StopSignals.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/SimilarWords.h"
 
 /** What all programs of the project share: arguments, errors and the exit status.
  *
@@ -204,9 +206,20 @@ class CommandLine
       const std::string word = argv[i];
       const bool isOption = !isValue && word.size() > 1 && word[0] == '-';
       const TCLAP::Arg* option = isOption ? findOption(word) : nullptr;
-      if (isOption && !option) throw UsageError("unknown option " + word);
+      if (isOption && !option) throw UsageError("unknown option " + word + suggestionFor(word));
       isValue = option && option->isValueRequired();
     }
+  }
+
+  /** "; did you mean --output?" for -output and --ouptut; empty when no option is similar. */
+  std::string suggestionFor(const std::string& word) const
+  {
+    std::vector<std::string> names;
+    for (const HelpEntry& entry : output_.help.entries)
+      if (!entry.isPositional) names.push_back(entry.name);
+    const auto meant =
+        mostSimilar(word.substr(std::min(word.find_first_not_of('-'), word.size())), names);
+    return meant ? "; did you mean --" + *meant + "?" : "";
   }
 
   const TCLAP::Arg* findOption(const std::string& word)

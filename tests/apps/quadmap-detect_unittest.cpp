@@ -200,4 +200,14 @@ TEST_F(QuadmapDetect, AnswersWrongUsageWithStatus2AndOneLine)
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
   }
+  const auto expectSuggestion = [](const std::string& option, const std::string& suggestion)
+  {
+    EXPECT_EQ(
+        runProgram("quadmap-detect", "x.rawlog " + option).err,
+        "quadmap-detect: unknown option " + option + suggestion + " (see quadmap-detect --help)\n");
+  };
+  expectSuggestion("--lsit", "; did you mean --list?");
+  expectSuggestion("-modle", "; did you mean --model?");
+  expectSuggestion("--xyzzy", "");
+  expectSuggestion("---", "");
 }

@@ -14,20 +14,6 @@ namespace
 {
 using Words = std::vector<std::string>;
 using Keys = std::set<std::string>;
-
-/** The edit distance by its definition, with exchanges. */
-std::size_t slowDistance(const std::string& a, const std::string& b)
-{
-  if (a.empty() || b.empty()) return a.size() + b.size();
-  const auto from = [](const std::string& s, std::size_t n) { return s.substr(n); };
-  if (a[0] == b[0]) return slowDistance(from(a, 1), from(b, 1));
-  std::size_t least = std::min(
-      {slowDistance(from(a, 1), b), slowDistance(a, from(b, 1)),
-       slowDistance(from(a, 1), from(b, 1))});
-  if (a.size() > 1 && b.size() > 1 && a[0] == b[1] && a[1] == b[0])
-    least = std::min(least, slowDistance(from(a, 2), from(b, 2)));
-  return 1 + least;
-}
 }  // namespace
 
 TEST(Vocabulary, SplitsTextIntoWords)
@@ -36,16 +22,6 @@ TEST(Vocabulary, SplitsTextIntoWords)
       wordsOf("What's on the TV-stand_2?"), (Words{"whats", "on", "the", "tv", "stand", "2"}));
   EXPECT_EQ(wordsOf(" \t\n ?! "), Words{});
   EXPECT_EQ(wordsOf("Stühle"), Words{"stühle"}) << "letters beyond ASCII stay";
-}
-
-TEST(Vocabulary, EditDistanceAgreesWithItsDefinition)
-{
-  EXPECT_EQ(editDistance("chiar", "chair"), 1u) << "neighbours exchanged";
-  EXPECT_EQ(editDistance("", "cup"), 3u);
-  const Words words = {"",      "a",     "cup",  "cpu", "cups", "pucs",
-                       "chair", "chiar", "hair", "tea", "eat"};
-  for (const std::string& a : words)
-    for (const std::string& b : words) EXPECT_EQ(editDistance(a, b), slowDistance(a, b)) << a << b;
 }
 
 TEST(Vocabulary, KnowsPluralsAndSynonyms)

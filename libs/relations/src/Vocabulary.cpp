@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <tuple>
+
+#include "quadmap/base/SimilarWords.h"
 
 namespace quadmap
 {
@@ -74,26 +75,6 @@ std::vector<std::string> wordsOf(const std::string& text)
   return words;
 }
 
-std::size_t editDistance(const std::string& a, const std::string& b)
-{
-  // Rows of the usual table: the last two and the present one.
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    before = std::exchange(last, row);
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      const bool isSame = a[i - 1] == b[j - 1];
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (isSame ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-  }
-  return row[b.size()];
-}
-
 Vocabulary::Vocabulary(const Inventory& inventory) : table_(inventory.labels)
 {
   for (const auto& [name, properties] : table_.all()) keyByWords_[wordsOf(name)] = keyOf(name);
@@ -130,13 +111,11 @@ std::vector<std::string> Vocabulary::similarTo(
     const std::string& word, const std::set<std::string>& grammar) const
 {
   constexpr std::size_t kMost = 3;
-  const std::size_t farthest = std::max<std::size_t>(1, word.size() / 3);
-  // Distance; labels of the objects, other words, labels of which one word is alike; the alphabet.
+  // Slips; labels of the objects, other words, labels of which one word is alike; the alphabet.
   std::set<std::tuple<std::size_t, int, std::string>> ranked;
   const auto offer = [&](const std::string& spelling, int rank, const std::string& shown)
   {
-    const std::size_t distance = editDistance(word, spelling);
-    if (distance <= farthest && distance < word.size()) ranked.emplace(distance, rank, shown);
+    if (const auto slips = slipsIn(word, spelling)) ranked.emplace(*slips, rank, shown);
   };
   for (const std::string& label : objectLabels_) offer(joined(wordsOf(label), ""), 0, label);
   for (const auto& [spelling, name] : table_.spellings())
@@ -146,7 +125,7 @@ std::vector<std::string> Vocabulary::similarTo(
   for (const std::string& known : grammar) offer(known, 1, known);
 
   std::vector<std::string> best;
-  for (const auto& [distance, rank, shown] : ranked)
+  for (const auto& [slips, rank, shown] : ranked)
     if (best.size() < kMost && std::find(best.begin(), best.end(), shown) == best.end())
       best.push_back(shown);
   return best;

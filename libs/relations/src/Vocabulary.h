@@ -13,10 +13,6 @@ namespace quadmap
  * ASCII are letters. */
 std::vector<std::string> wordsOf(const std::string& text);
 
-/** Smallest number of letters that have to be put in, left out, replaced or exchanged with their
- * neighbour to make one word of the other. */
-std::size_t editDistance(const std::string& a, const std::string& b);
-
 /** What the words of questions about an inventory mean. */
 class Vocabulary
 {
