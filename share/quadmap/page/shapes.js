@@ -2,7 +2,7 @@
 // Ellipsoids, cuboids, trajectories and frustums.
 Page.shapes = (function () {
   const scene = Page.view.scene;
-  const sphere = new THREE.SphereGeometry(1, 20, 12);
+  const sphere = new THREE.SphereGeometry(1, 20, 12), coarseSphere = new THREE.SphereGeometry(1, 10, 6);
   const boxEdges = new THREE.EdgesGeometry(new THREE.BoxGeometry(1, 1, 1));
   const layers = {};
   for (const name of ["floor", "cloud", "ellipsoids", "cuboids", "trajectory", "odometry", "cameras", "compared"]) {
@@ -106,6 +106,11 @@ Page.shapes = (function () {
     layers.floor.add(grid);
   }
 
+  // Without a graphics card the triangles of many bodies take half of a frame's time.
+  Page.view.beforeDraw.push(function () {
+    const shape = Page.view.moving && Page.view.bySoftware ? coarseSphere : sphere;
+    for (const shown of drawn.values()) shown.body.geometry = shape;
+  });
   rebuild();
   addFloor();
   line(Page.data.trajectory, 0x2a63d4, layers.trajectory);

@@ -13,9 +13,10 @@ Page.view = (function () {
     const names = gl && gl.getExtension("WEBGL_debug_renderer_info");
     return Boolean(names && /swiftshader|llvmpipe|software|basic render/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)));
   }
+  const bySoftware = isDrawnBySoftware();
   let renderer = null;
   try {
-    renderer = new THREE.WebGLRenderer({canvas: canvas, antialias: !isDrawnBySoftware()});
+    renderer = new THREE.WebGLRenderer({canvas: canvas, antialias: !bySoftware});
   } catch (error) {
     Page.note("This browser has no WebGL: the map cannot be drawn, tables and images can be used.");
   }
@@ -27,7 +28,7 @@ Page.view = (function () {
   controls.screenSpacePanning = true;
   controls.maxDistance = 200;
 
-  const view = {scene, camera, controls, canvas, moving: false, beforeDraw: [], afterDraw: [], frames: 0};
+  const view = {scene, camera, controls, canvas, bySoftware, moving: false, beforeDraw: [], afterDraw: [], frames: 0};
   let requested = false, timer = 0, lastFrame = 0;
 
   function draw(now) {

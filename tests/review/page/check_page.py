@@ -200,6 +200,12 @@ def check_rests(path):
         require(page.evaluate("Page.view.frames") == frames, "nothing is drawn while nothing changes")
         require(page.evaluate("Page.cloud.points.geometry.drawRange.count") == page.evaluate("Page.data.cloud.points"),
                 "at rest all points are drawn")
+        corners = "Page.shapes.drawn.get('2').body.geometry.vertices.length"
+        fine = page.evaluate(corners)
+        page.evaluate("Page.view.move()")
+        page.wait(f"Page.view.frames > {frames}")
+        require(page.evaluate(corners) < fine / 2, "without a graphics card moving bodies are coarse")
+        page.wait(f"!Page.view.moving && {corners} === {fine}")
 
 
 def frames_per_second(page, seconds):
