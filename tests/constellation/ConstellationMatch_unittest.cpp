@@ -153,6 +153,35 @@ TEST(ConstellationMatch, NeedsOnlySomeOfTheObjectsAndNoneOfTheNewOnes)
   EXPECT_GE(found, 34);
 }
 
+TEST(ConstellationMatch, WhatTheOthersPutElsewhereIsNoPair)
+{
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    std::mt19937 rng(8000 + seed);
+    const Room room = randomRoom(rng);
+    Room now = room;
+    now[4].object = now[4].object.transformed(CPose3D(0.2, -0.15, 0, 0, 0, 0));  // the couch
+    const auto found = match(seenFrom(randomPlace(rng), now, 0.02, rng), room);
+    ASSERT_TRUE(found) << seed;
+    for (const auto& [local, known] : found->pairs) EXPECT_NE(local, 105u) << seed;
+  }
+}
+
+TEST(ConstellationMatch, FewTruePairsAreLostToTheOthers)
+{
+  std::size_t kept = 0, all = 0;
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    std::mt19937 rng(9000 + seed);
+    const Room room = randomRoom(rng);
+    const auto found = match(seenFrom(randomPlace(rng), room, 0.03, rng), room);
+    ASSERT_TRUE(found) << seed;
+    all += room.size();
+    kept += found->pairs.size();
+  }
+  EXPECT_GE(kept, 0.98 * static_cast<double>(all));
+}
+
 TEST(ConstellationMatch, WrongLabelsOfSomeDoNotMatter)
 {
   for (unsigned seed = 0; seed < 20; ++seed)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ConsistentPairs.h"
 #include "PlaceEvidence.h"
 #include "quadmap/estimation/ObjectRules.h"
 
@@ -55,8 +56,10 @@ class Matcher
         found.begin(), found.end(),
         [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
     if (found.empty()) return std::nullopt;
-    const Hypothesis& best = found.front();
     const double second = bestElsewhere(found);
+    Hypothesis& best = found.front();
+    best.pairs = consistentPairs(evidence_, best.pairs, best.place);
+    best.logOdds = logOdds(best);
     if (!isEnough(best.pairs) || best.logOdds < options_.minLogOdds ||
         best.logOdds - second < options_.minLogOdds)
       return std::nullopt;
@@ -99,16 +102,6 @@ class Matcher
     return best;
   }
 
-  void improve(Place& place, const Pairs& pairs) const
-  {
-    const auto normal = evidence_.normalEquations(PlacedObjects(local_, place), pairs);
-    const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
-    if (!lu.isInvertible()) return;  // one object without a heading fixes no place
-    const Eigen::Vector4d step = lu.solve(normal.g);
-    place.t += step.head<3>();
-    place.yaw = mrpt::math::wrapToPi(place.yaw + step[3]);
-  }
-
   Hypothesis refined(const Place& guess) const
   {
     Hypothesis h;
@@ -117,14 +110,20 @@ class Matcher
     {
       h.pairs = evidence_.pairsAt(
           PlacedObjects(local_, h.place), k == 0 ? PlaceEvidence::kCoarseFactor : 1);
-      improve(h.place, h.pairs);
+      h.place = evidence_.improved(h.place, h.pairs);
     }
-    const PlacedObjects placed(local_, h.place);
-    h.pairs = evidence_.pairsAt(placed, 1);
-    for (const auto& [i, j] : h.pairs) h.logOdds += evidence_.of(placed, i, j, 1);
-    // With the pairs' evidence: doc/mathematics.md, (19.4).
-    h.logOdds += logUnknown(placed, h.pairs) - logPlaces(placed, h.pairs);
+    h.pairs = evidence_.pairsAt(PlacedObjects(local_, h.place), 1);
+    h.logOdds = logOdds(h);
     return h;
+  }
+
+  /** doc/mathematics.md, (19.4). */
+  double logOdds(const Hypothesis& h) const
+  {
+    const PlacedObjects placed(local_, h.place);
+    double sum = logUnknown(placed, h.pairs) - logPlaces(placed, h.pairs);
+    for (const auto& [i, j] : h.pairs) sum += evidence_.of(placed, i, j, 1);
+    return sum;
   }
 
   /** ln of the probability that the map lacks every local object within its area. Unmatched objects

@@ -1,5 +1,7 @@
 #include "PlaceEvidence.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +13,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kGate = 11.34;        // chi^2 of three degrees of freedom, 99 %
-constexpr double kYawGate = 6.63;      // of one
+constexpr double kYawGate = 6.63;      // chi^2 of one degree of freedom, 99 %
 constexpr double kMargin = 0.5;        // around the objects of the map, for its area [m]
 constexpr double kMaxYawEvidence = 2;  // bound of what one heading says for or against a pair
 
@@ -132,18 +133,25 @@ Pairs PlaceEvidence::pairsAt(const PlacedObjects& placed, double factor) const
   return pairs;
 }
 
+PlaceEvidence::Gap PlaceEvidence::gap(
+    const PlacedObjects& placed, std::size_t i, std::size_t j) const
+{
+  const Eigen::Vector3d q = placed.centers[i] - placed.place.t;
+  Gap gap{offset(placed, i, j), {}, covariance(placed, i, j)};
+  gap.J << Eigen::Matrix3d::Identity(), Eigen::Vector3d(-q.y(), q.x(), 0);  // of R p + t
+  return gap;
+}
+
 PlaceEvidence::Normal PlaceEvidence::normalEquations(
     const PlacedObjects& placed, const Pairs& pairs) const
 {
   Normal normal;
   for (const auto& [i, j] : pairs)
   {
-    const Eigen::Vector3d q = placed.centers[i] - placed.place.t;
-    Eigen::Matrix<double, 3, 4> J;  // of R p + t
-    J << Eigen::Matrix3d::Identity(), Eigen::Vector3d(-q.y(), q.x(), 0);
-    const Eigen::Matrix3d W = covariance(placed, i, j).inverse();
-    normal.H += J.transpose() * W * J;
-    normal.g += J.transpose() * W * offset(placed, i, j);
+    const Gap pair = gap(placed, i, j);
+    const Eigen::Matrix<double, 4, 3> JtW = pair.J.transpose() * pair.S.inverse();
+    normal.H += JtW * pair.J;
+    normal.g += JtW * pair.d;
     if (!both_.bothHaveHeadings(i, j)) continue;
     const double variance = yawVariance(i, j), a = yawOffset(placed.place, i, j);
     if (a * a > kYawGate * variance) continue;  // it was turned since
@@ -151,6 +159,15 @@ PlaceEvidence::Normal PlaceEvidence::normalEquations(
     normal.g[3] += a / variance;
   }
   return normal;
+}
+
+Place PlaceEvidence::improved(const Place& place, const Pairs& pairs) const
+{
+  const auto normal = normalEquations(PlacedObjects(both_.local, place), pairs);
+  const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
+  if (!lu.isInvertible()) return place;
+  const Eigen::Vector4d step = lu.solve(normal.g);
+  return {place.t + step.head<3>(), mrpt::math::wrapToPi(place.yaw + step[3])};
 }
 
 }  // namespace quadmap

@@ -34,6 +34,9 @@ class PlaceEvidence
       const LabelTable& labels,
       const ConstellationOptions& options);
 
+  /** What a pair may be off: chi^2 of three degrees of freedom, 99 %. */
+  static constexpr double kGate = 11.34;
+
   /** Factor on sigmas while a place is only guessed from a pair. */
   static constexpr double kCoarseFactor = 2;
 
@@ -49,6 +52,15 @@ class PlaceEvidence
   /** The pairing with the most evidence, each object once. */
   Pairs pairsAt(const PlacedObjects& placed, double factor) const;
 
+  /** How far apart the centres of a pair are, and how that depends on (shift, yaw). */
+  struct Gap
+  {
+    Eigen::Vector3d d;              //!< From the local object to that of the map [m]
+    Eigen::Matrix<double, 3, 4> J;  //!< Of where the local object is
+    Eigen::Matrix3d S;              //!< Covariance of d, (19.1)
+  };
+  Gap gap(const PlacedObjects& placed, std::size_t i, std::size_t j) const;
+
   /** Weighted least squares of (shift, yaw) over pairs. */
   struct Normal
   {
@@ -56,6 +68,10 @@ class PlaceEvidence
     Eigen::Vector4d g = Eigen::Vector4d::Zero();
   };
   Normal normalEquations(const PlacedObjects& placed, const Pairs& pairs) const;
+
+  /** The place moved to where its pairs agree best. It stays where they fix none, as one object
+   * without a heading does. */
+  Place improved(const Place& place, const Pairs& pairs) const;
 
   const Constellations& both() const { return both_; }
   const Eigen::AlignedBox2d& bounds() const { return bounds_; }  //!< Of the map [m]

@@ -149,7 +149,7 @@ struct ObjectPriorResidual
     return true;
   }
 
-  /** Puts the whole residual under Cauchy's kernel, doc/mathematics.md, (19.6). */
+  /** Puts the whole residual under Cauchy's kernel, doc/mathematics.md, (19.8). */
   template <typename T>
   void soften(Eigen::Map<Eigen::Matrix<T, kSize, 1>>& r) const
   {

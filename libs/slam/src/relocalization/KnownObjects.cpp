@@ -41,7 +41,7 @@ ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma
   const bool hasHeading = local.orientationDefined && given.orientationDefined;
   Known known =
       hasHeading ? renamed(there, axisRenaming(there.state, here)) : shapedLike(there, here);
-  // (19.5): each side errs by sigma for itself, ln s by sigma / s and the yaw as along the longer
+  // (19.7): each side errs by sigma for itself, ln s by sigma / s and the yaw as along the longer
   // side.
   UprightState more;
   more.head<3>().setConstant(sigma);

@@ -15,7 +15,7 @@ namespace quadmap
 ObjectPrior priorOf(const MapObject& local, const MapObject& given, double sigma);
 
 /** Priors of the objects that a run has found again, by their ids in the run: the map's state, and
- * its covariance enlarged by (19.5).
+ * its covariance enlarged by (19.7).
  * \param pairs (local, given), of objects the maps have. */
 std::map<ObjectId, ObjectPrior> priorsOf(
     const CQuadricObjectMap& local,

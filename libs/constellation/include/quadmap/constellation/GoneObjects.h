@@ -23,7 +23,7 @@ struct GoneRules
 };
 
 /** Finds the objects of a map that a session, which was found in it, shows to be no longer where
- * they were: doc/mathematics.md, (19.7), and "Changes" there. */
+ * they were: doc/mathematics.md, (19.9), and "Changes" there. */
 class GoneObjects
 {
  public:

@@ -93,7 +93,7 @@ class RobustKernel
   double h_;  // threshold or scale [sigmas]
 };
 
-/** Scale of Cauchy's kernel over all that is known of an object, c of doc/mathematics.md, (19.6)
+/** Scale of Cauchy's kernel over all that is known of an object, c of doc/mathematics.md, (19.8)
  * [sigmas]: the chi of its seven numbers exceeds it once in a hundred. */
 constexpr double kObjectKernel = 4.3;
 

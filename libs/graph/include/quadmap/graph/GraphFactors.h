@@ -51,7 +51,7 @@ struct ObjectPrior
   Eigen::MatrixXd L;
   Eigen::VectorXd g;
   /** Scale c of Cauchy's kernel of the whole residual r, for knowledge that may be wrong [sigmas]:
-   * |r|^2 becomes c^2 ln(1 + |r|^2 / c^2), doc/mathematics.md, (19.6). 0: there is no kernel. */
+   * |r|^2 becomes c^2 ln(1 + |r|^2 / c^2), doc/mathematics.md, (19.8). 0: there is no kernel. */
   double cauchy = 0;
 };
 Factor createObjectPrior(const ObjectPrior& prior, ObjectFreedom freedom);

@@ -1,0 +1,50 @@
+#include "ConsistentPairs.h"
+
+#include <algorithm>
+
+namespace quadmap
+{
+namespace
+{
+/** Squared distance of pair k from where the others put it, in their sigmas: doc/mathematics.md,
+ * (19.5) and (19.6). */
+double distanceFromOthers(
+    const PlaceEvidence& evidence, const PlacedObjects& placed, const Pairs& pairs, std::size_t k)
+{
+  Pairs others = pairs;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+  const auto normal = evidence.normalEquations(placed, others);
+  const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
+  if (!lu.isInvertible()) return 0;
+  const Eigen::Vector4d step = lu.solve(normal.g);
+  const auto distance = [&](const Pairs::value_type& pair, const Eigen::Matrix4d& ofPlace)
+  {
+    const auto gap = evidence.gap(placed, pair.first, pair.second);
+    const Eigen::Vector3d d = gap.d - gap.J * step;
+    return d.dot((gap.S + gap.J * ofPlace * gap.J.transpose()).ldlt().solve(d));
+  };
+  double sum = 0;
+  for (const auto& pair : others) sum += distance(pair, Eigen::Matrix4d::Zero());
+  const double freedom = std::max(0.0, 3.0 * static_cast<double>(others.size()) - 4);
+  return distance(pairs[k], lu.inverse()) / std::min(1.0, (3 + sum) / (3 + freedom));
+}
+
+}  // namespace
+
+Pairs consistentPairs(const PlaceEvidence& evidence, Pairs pairs, Place& place)
+{
+  while (pairs.size() > 2)
+  {
+    const PlacedObjects placed(evidence.both().local, place);
+    std::vector<double> distances;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      distances.push_back(distanceFromOthers(evidence, placed, pairs, k));
+    const auto worst = std::max_element(distances.begin(), distances.end());
+    if (*worst <= PlaceEvidence::kGate) break;
+    pairs.erase(pairs.begin() + (worst - distances.begin()));
+    place = evidence.improved(place, pairs);
+  }
+  return pairs;
+}
+
+}  // namespace quadmap
