@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 using quadmap::RobustKernel;
@@ -14,7 +15,7 @@ std::vector<RobustKernel> kernels()
 {
   return {
       RobustKernel::quadratic(), RobustKernel::huber(kThreshold), RobustKernel::cauchy(kThreshold),
-      RobustKernel::oneSidedCauchy(kThreshold)};
+      RobustKernel::inequality(kThreshold)};
 }
 
 constexpr double kResiduals[] = {-7.0, -1.6, -1.4, -0.01, 1e-14, 0.3, 1.49, 1.51, 4.0, 20.0};
@@ -51,7 +52,7 @@ TEST(RobustKernel, KnownValues)
 
 TEST(RobustKernel, AnInequalityThatHoldsCostsNothing)
 {
-  const auto kernel = RobustKernel::oneSidedCauchy(kThreshold);
+  const auto kernel = RobustKernel::inequality(kThreshold);
   for (const double r : {-5.0, 0.0})
   {
     EXPECT_EQ(kernel.cost(r), 0);
@@ -59,6 +60,14 @@ TEST(RobustKernel, AnInequalityThatHoldsCostsNothing)
     EXPECT_EQ(kernel.row(r, 1).value, 0);
     EXPECT_EQ(kernel.row(r, 1).slope, 0);
   }
-  // The compiler may compute one of the logarithms itself, to another last digit.
-  EXPECT_DOUBLE_EQ(kernel.cost(2), RobustKernel::cauchy(kThreshold).cost(2));
+}
+
+TEST(RobustKernel, AnInequalityIsLikeCauchysKernelNearZeroAndBoundedFarAway)
+{
+  const auto kernel = RobustKernel::inequality(kThreshold);
+  const auto cauchy = RobustKernel::cauchy(kThreshold);
+  EXPECT_NEAR(kernel.weight(0.1), cauchy.weight(0.1), 2e-5);
+  EXPECT_LT(kernel.cost(1e3), kThreshold * kThreshold);
+  EXPECT_NEAR(kernel.cost(1e3), kThreshold * kThreshold, 1e-4);
+  EXPECT_DOUBLE_EQ(kernel.weight(std::sqrt(2) * kThreshold), 0.25);
 }

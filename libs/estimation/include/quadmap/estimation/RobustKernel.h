@@ -24,15 +24,24 @@ class RobustKernel
   }
   /** Huber's kernel, doc/mathematics.md, (11.12): a straight line beyond the threshold h > 0. */
   static constexpr RobustKernel huber(double h) { return {Kind::Huber, h}; }
-  /** Cauchy's kernel, doc/mathematics.md, (11.13): the pull fades with the distance; h > 0. */
+  /** Cauchy's kernel, as in doc/mathematics.md, (19.8): the pull fades with the distance; h > 0. */
   static constexpr RobustKernel cauchy(double h) { return {Kind::Cauchy, h}; }
-  /** Cauchy's kernel for r > 0, and no cost at all for r <= 0: of an inequality r <= 0. */
-  static constexpr RobustKernel oneSidedCauchy(double h) { return {Kind::OneSidedCauchy, h}; }
+  /** Geman and McClure's kernel for r > 0, doc/mathematics.md, (11.13), and no cost at all for
+   * r <= 0: of an inequality r <= 0 that is wrong altogether now and then. However far it is off,
+   * it costs less than h^2; h > 0. */
+  static constexpr RobustKernel inequality(double h) { return {Kind::Inequality, h}; }
 
   double cost(double r) const
   {
-    if (isSatisfied(r)) return 0;
-    if (kind_ != Kind::Huber) return 0.5 * h_ * h_ * std::log1p(r * r / (h_ * h_));
+    switch (kind_)
+    {
+      case Kind::Cauchy:
+        return 0.5 * h_ * h_ * std::log1p(r * r / (h_ * h_));
+      case Kind::Inequality:
+        return r <= 0 ? 0 : 0.5 * r * r / (1 + bounded(r));
+      default:
+        break;
+    }
     const double size = std::abs(r);
     return size <= h_ ? 0.5 * r * r : h_ * size - 0.5 * h_ * h_;
   }
@@ -40,8 +49,15 @@ class RobustKernel
   /** Derivative of the cost by r, divided by r: the weight in the normal equations, in [0, 1]. */
   double weight(double r) const
   {
-    if (isSatisfied(r)) return 0;
-    if (kind_ != Kind::Huber) return 1 / (1 + r * r / (h_ * h_));
+    switch (kind_)
+    {
+      case Kind::Cauchy:
+        return 1 / (1 + r * r / (h_ * h_));
+      case Kind::Inequality:
+        return r <= 0 ? 0 : std::pow(1 + bounded(r), -2);
+      default:
+        break;
+    }
     const double size = std::abs(r);
     return size <= h_ ? 1.0 : h_ / size;
   }
@@ -59,7 +75,7 @@ class RobustKernel
       if (r < -h_) return -sqrt(h_ * (-2.0 * r - h_));
       return r;
     }
-    if (kind_ == Kind::OneSidedCauchy && r <= 0.0) return T(0);
+    if (kind_ == Kind::Inequality) return r <= 0.0 ? T(0) : r / sqrt(1.0 + bounded(r));
     const T u = r * r / (h_ * h_);
     if (u < kNearZero) return r;  // the root of u has no derivative at 0
     const T size = h_ * sqrt(log1p(u));
@@ -70,7 +86,7 @@ class RobustKernel
   RobustRow row(double r, double w) const
   {
     const double rootOfWeight = std::sqrt(w);
-    if (isSatisfied(r)) return {0, 0};
+    if (kind_ == Kind::Inequality && r <= 0) return {0, 0};
     const double value = root(r);
     // 1/2 value^2 = cost, and so value * slope = weight(r) * r.
     const double slope = value == r ? 1.0 : weight(r) * r / value;
@@ -82,12 +98,17 @@ class RobustKernel
   {
     Huber,
     Cauchy,
-    OneSidedCauchy
+    Inequality
   };
   static constexpr double kNearZero = 1e-20;  // of r^2 / h^2
 
   constexpr RobustKernel(Kind kind, double h) : kind_(kind), h_(h) {}
-  bool isSatisfied(double r) const { return kind_ == Kind::OneSidedCauchy && r <= 0; }
+  /** Of the kernel of inequalities. With 2 h^2 its weight falls like Cauchy's near 0. */
+  template <typename T>
+  T bounded(const T& r) const
+  {
+    return r * r / (2 * h_ * h_);
+  }
 
   Kind kind_;
   double h_;  // threshold or scale [sigmas]

@@ -73,8 +73,7 @@ class ViewAtPose
   /** Kernel of a face: an *at least* face is an inequality. */
   static RobustKernel kernelOf(FaceKind kind, double huber)
   {
-    return kind == FaceKind::AtLeast ? RobustKernel::oneSidedCauchy(huber)
-                                     : RobustKernel::huber(huber);
+    return kind == FaceKind::AtLeast ? RobustKernel::inequality(huber) : RobustKernel::huber(huber);
   }
 
  private:
