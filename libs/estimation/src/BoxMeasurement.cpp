@@ -28,7 +28,9 @@ BoxMeasurement measurementIn(
   if (view.complete && (!options.edgesOfComplete || view.allSidesKnown())) return m;
   m.edges.reserve(view.edges.size());
   for (const auto& edge : view.edges)
-    m.edges.push_back({R_frame_map * edge.plane.n, edgeSigma(view, edge, options)});
+    m.edges.push_back(
+        {R_frame_map * edge.plane.n, edgeSigma(view, edge, options),
+         edgeShapeSigma(view, options)});
   return m;
 }
 
@@ -66,8 +68,14 @@ BoxMeasurement measurementInMap(const ObjectView& view, const EstimatorOptions& 
 double edgeSigma(
     const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options)
 {
-  return (view.center - view.camera).norm() * edge.angle + view.pose.position + options.edgeFloor +
-         options.edgeShapeShare * view.halfSizes.mean();
+  return std::hypot(
+      (view.center - view.camera).norm() * edge.angle + view.pose.position + options.edgeFloor,
+      edgeShapeSigma(view, options));
+}
+
+double edgeShapeSigma(const ObjectView& view, const EstimatorOptions& options)
+{
+  return options.edgeShapeShare * view.halfSizes.mean();
 }
 
 Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)

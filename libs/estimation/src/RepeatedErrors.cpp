@@ -56,6 +56,22 @@ double repeatedShare(
   return shareOf(placeOf(a, center), placeOf(b, center), options);
 }
 
+void shareEdgeErrors(std::vector<BoxMeasurement>& views)
+{
+  std::map<int, double> count;
+  const auto side = [](const BoxMeasurement& view, const BoxMeasurement::Edge& edge)
+  { return edgeSide(edge.normal, view.center - view.camera); };
+  for (const auto& view : views)
+    for (const auto& edge : view.edges) count[side(view, edge)] += view.weight;
+  for (auto& view : views)
+    for (auto& edge : view.edges)
+    {
+      const double n = std::max(1.0, count[side(view, edge)]);
+      edge.sigma = std::hypot(edge.sigma, std::sqrt(n - 1) * edge.shared);
+      edge.shared *= std::sqrt(n);
+    }
+}
+
 RepeatedErrors::RepeatedErrors(
     const UprightState& state, double shapeExponent, const EstimatorOptions& options) :
     object_(state), shapeExponent_(shapeExponent), options_(options)
@@ -66,7 +82,7 @@ void RepeatedErrors::add(
     const ObjectView& view, const BoxMeasurement& measurement, const ViewAtPose& placed)
 {
   const double range = (view.center - view.camera).norm();
-  const double ofPose = std::hypot(view.pose.position, range * view.pose.angle);
+  const double common = std::hypot(view.pose.position, range * view.pose.angle);
   const auto place = placeOf(view.camera, object_.t);
   const double weight = measurement.weight;
   const auto huber = RobustKernel::huber(options_.huber);
@@ -78,7 +94,7 @@ void RepeatedErrors::add(
     Side& side = sides_[sideAlong(object_, view.faceNormal(f))];
     const ResidualRow row = placed.face(f, object_);
     addRow(
-        row, {face.sigma, ofPose}, ViewAtPose::kernelOf(face.kind, options_.huber), weight, place,
+        row, {face.sigma, common}, ViewAtPose::kernelOf(face.kind, options_.huber), weight, place,
         side);
   }
   if (view.complete && view.yawDefined)
@@ -86,14 +102,14 @@ void RepeatedErrors::add(
     const ResidualRow row = placed.yaw(object_);
     const Sigmas sigmas{view.yawSigma, view.pose.angle};
     addRow(row, sigmas, huber, weight, place, sides_[kYaw]);
-    sides_[kYaw].found += weight * (row.r * row.r - sigmas.ofPose * sigmas.ofPose);
+    sides_[kYaw].found += weight * (row.r * row.r - sigmas.common * sigmas.common);
     sides_[kYaw].claimed += weight * sigmas.own2();
   }
   for (const auto& edge : measurement.edges)
   {
     Side& side = sides_[edgeSide(edge.normal, view.center - view.camera)];
     const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
-    addRow(row, {edge.sigma, ofPose}, huber, weight, place, side);
+    addRow(row, {edge.sigma, std::hypot(common, edge.shared)}, huber, weight, place, side);
   }
 }
 
@@ -111,7 +127,7 @@ void RepeatedErrors::addRow(
       {place, row.byUprightState() * (std::sqrt(w) * own / (sigmas.all * sigmas.all))});
 }
 
-double RepeatedErrors::Sigmas::own2() const { return std::max(0.0, all * all - ofPose * ofPose); }
+double RepeatedErrors::Sigmas::own2() const { return std::max(0.0, all * all - common * common); }
 
 double RepeatedErrors::Side::excess() const
 {

@@ -62,7 +62,7 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "Part of the standard deviation of every box edge that the outline adds.");
   list.number(
       "edgeShapeShare", o.estimator.edgeShapeShare, {0, 1}, "",
-      "The rest of that part, as a share of the object's mean half size.");
+      "All box edges of one side of an object err alike by this share of its mean half size.");
   list.flag(
       "edgesOfComplete", o.estimator.edgesOfComplete,
       "True uses the box edges of complete measurements with unseen sides too.");

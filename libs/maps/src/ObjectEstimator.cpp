@@ -63,9 +63,11 @@ class Evidence
       measurements_.push_back(measurementInMap(view, options));
       // A consensus needs a majority.
       measurements_.back().weight = views.size() < 3 ? 1.0 : viewWeight(view, reference);
-      placed_.emplace_back(
-          measurements_.back(), RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
     }
+    shareEdgeErrors(measurements_);
+    for (const BoxMeasurement& measurement : measurements_)
+      placed_.emplace_back(
+          measurement, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
   }
 
   NormalEquations at(const UprightState& x, double shapeExponent) const

@@ -21,6 +21,7 @@ struct BoxMeasurement : MeasuredGeometry
   {
     Eigen::Vector3d normal;  //!< Of the plane through the camera, towards the object
     double sigma = 0;        //!< Of the tangency distance [m]
+    double shared = 0;       //!< The part of it by which all views of one side err alike [m]
   };
 
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  //!< Of the cuboid, one per column
@@ -54,6 +55,9 @@ BoxMeasurement measurementInMap(const ObjectView& view, const EstimatorOptions& 
  * (11.6). */
 double edgeSigma(
     const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options);
+
+/** The part of it by which all views of one side of a box err alike [m]. */
+double edgeShapeSigma(const ObjectView& view, const EstimatorOptions& options);
 
 /** W such that W * (centre - seed) is in sigmas [1/m], doc/mathematics.md, (11.9).
  * \param covariance Of the seed [m^2]. W is for the frame that it is given in. */

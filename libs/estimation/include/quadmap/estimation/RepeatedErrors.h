@@ -19,6 +19,12 @@ double repeatedShare(
     const Eigen::Vector3d& center,
     const EstimatorOptions& options);
 
+/** Tells box edges how many others err alike: of n views of one side of an object, the shared part
+ * of an edge's variance counts n times, so that together they know the side as well as one that
+ * errs by it, doc/mathematics.md, (11.6). \param views Of one object, each as measurementInMap()
+ * leaves it, with its weight. */
+void shareEdgeErrors(std::vector<BoxMeasurement>& views);
+
 /** The errors that views of one object repeat: the same side is cut, hidden, bent by the lens and
  * drawn by the detector alike in all images from about one place, and a little so from everywhere.
  * However many such views there are, what they repeat does not average out. */
@@ -38,7 +44,7 @@ class RepeatedErrors
  private:
   struct Sigmas
   {
-    double all, ofPose;  // of a residual; what the pose adds to it
+    double all, common;  // of a residual; of it what the pose adds and all edges of a side share
 
     double own2() const;
   };
