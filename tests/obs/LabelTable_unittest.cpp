@@ -145,6 +145,8 @@ TEST(LabelTable, ValuesAreSensibleForARoboticist)
     EXPECT_GE(p.sizeSpread, 0.1) << name;
     EXPECT_LE(p.sizeSpread, 1.0) << name;
     EXPECT_EQ(std::count(p.confusedWith.begin(), p.confusedWith.end(), name), 0) << name;
+    EXPECT_TRUE(p.dominantDirection || p.support != UsualSupport::Wall)
+        << name << " is flat, and faces as its wall does";
   }
   for (const char* boxy :
        {"suitcase", "refrigerator", "microwave", "tv", "book", "laptop", "bed", "cabinet",
@@ -155,7 +157,7 @@ TEST(LabelTable, ValuesAreSensibleForARoboticist)
   }
   for (const char* round :
        {"cup", "bowl", "vase", "bottle", "wine glass", "potted plant", "sports ball", "apple",
-        "orange", "clock", "umbrella", "teddy bear", "cat", "dog", "person"})
+        "orange", "umbrella", "teddy bear", "cat", "dog", "person"})
   {
     EXPECT_GE(table.properties(round).shapeExponent, 1.3) << round;
     EXPECT_FALSE(table.properties(round).dominantDirection) << round;
