@@ -1,13 +1,18 @@
 #include "ConsistentPairs.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace quadmap
 {
 namespace
 {
-/** Squared distance of pair k from where the others put it, in their sigmas: doc/mathematics.md,
- * (19.5) and (19.6). */
+/** Not all pairs of a place err alike: some were seen from other sides than before. So the spread
+ * of those that agree well says only so much of another one. Share of the sigmas of (19.1). */
+constexpr double kLeastSpread = 0.5;
+
+/** Squared distance of pair k from where the others put it, in sigmas of their spread:
+ * doc/mathematics.md, (19.5) and (19.6). It is 0 when the others fix no place. */
 double distanceFromOthers(
     const PlaceEvidence& evidence, const PlacedObjects& placed, const Pairs& pairs, std::size_t k)
 {
@@ -26,7 +31,8 @@ double distanceFromOthers(
   double sum = 0;
   for (const auto& pair : others) sum += distance(pair, Eigen::Matrix4d::Zero());
   const double freedom = std::max(0.0, 3.0 * static_cast<double>(others.size()) - 4);
-  return distance(pairs[k], lu.inverse()) / std::min(1.0, (3 + sum) / (3 + freedom));
+  const double variance = std::clamp((3 + sum) / (3 + freedom), kLeastSpread * kLeastSpread, 1.0);
+  return distance(pairs[k], lu.inverse()) / variance;
 }
 
 }  // namespace

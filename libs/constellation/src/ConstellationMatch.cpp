@@ -57,9 +57,7 @@ class Matcher
         [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
     if (found.empty()) return std::nullopt;
     const double second = bestElsewhere(found);
-    Hypothesis& best = found.front();
-    best.pairs = consistentPairs(evidence_, best.pairs, best.place);
-    best.logOdds = logOdds(best);
+    const Hypothesis best = agreed(found.front());
     if (!isEnough(best.pairs) || best.logOdds < options_.minLogOdds ||
         best.logOdds - second < options_.minLogOdds)
       return std::nullopt;
@@ -113,6 +111,17 @@ class Matcher
       h.place = evidence_.improved(h.place, h.pairs);
     }
     h.pairs = evidence_.pairsAt(PlacedObjects(local_, h.place), 1);
+    h.logOdds = logOdds(h);
+    return h;
+  }
+
+  /** Without the pairs that the others contradict. */
+  Hypothesis agreed(Hypothesis h) const
+  {
+    h.pairs = consistentPairs(evidence_, h.pairs, h.place);
+    // Those had pulled the place away from others, which are pairs again where it is now.
+    h.pairs = evidence_.pairsAt(PlacedObjects(local_, h.place), 1);
+    h.pairs = consistentPairs(evidence_, h.pairs, h.place);
     h.logOdds = logOdds(h);
     return h;
   }

@@ -56,7 +56,7 @@ class PlaceEvidence
   struct Gap
   {
     Eigen::Vector3d d;              //!< From the local object to that of the map [m]
-    Eigen::Matrix<double, 3, 4> J;  //!< Of where the local object is
+    Eigen::Matrix<double, 3, 4> J;  //!< Derivative of where the local object is
     Eigen::Matrix3d S;              //!< Covariance of d, (19.1)
   };
   Gap gap(const PlacedObjects& placed, std::size_t i, std::size_t j) const;

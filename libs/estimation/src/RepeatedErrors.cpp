@@ -23,11 +23,17 @@ int sideAlong(const ObjectShape& object, const Vector3d& outward)
   return 2 * static_cast<int>(axis) + (along[axis] < 0 ? 1 : 0);
 }
 
-/** Which side of its box an edge is: upper, lower, left or right, as seen with up upwards. */
+/** Which side of its box an edge is: upper, lower, left or right, in an image with up upwards. Of a
+ * camera that looks straight down, the map's x is to the right. */
 int edgeSide(const Vector3d& inward, const Vector3d& lineOfSight)
 {
-  if (std::abs(inward.z()) > inward.head<2>().norm()) return kFirstEdge + (inward.z() < 0 ? 0 : 1);
-  return kFirstEdge + (lineOfSight.cross(inward).z() < 0 ? 2 : 3);
+  const Vector3d across = lineOfSight.cross(Vector3d::UnitZ());
+  const bool isVertical = across.norm() <= 1e-9 * lineOfSight.norm();
+  const Vector3d right = isVertical ? Vector3d(Vector3d::UnitX()) : Vector3d(across.normalized());
+  const double toRight = inward.dot(right);
+  const double downward = inward.dot(lineOfSight.cross(right).normalized());
+  if (std::abs(downward) > std::abs(toRight)) return kFirstEdge + (downward > 0 ? 0 : 1);
+  return kFirstEdge + (toRight > 0 ? 2 : 3);
 }
 
 /** Where a camera is as seen from the object: the direction, and the logarithm of the distance. A

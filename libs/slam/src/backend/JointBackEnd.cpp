@@ -6,6 +6,7 @@
 #include "GraphOptions.h"
 #include "MergedObjects.h"
 #include "PoseMarginals.h"
+#include "quadmap/estimation/RepeatedErrors.h"
 #include "quadmap/estimation/ViewRedundancy.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/PosePosition.h"
@@ -141,9 +142,9 @@ FactorGraph JointBackEnd::globalGraph(
 {
   struct Seen
   {
-    std::size_t pose;
-    Eigen::Vector3d camera;
-    BoxMeasurement view;
+    std::vector<std::size_t> poses;
+    std::vector<Eigen::Vector3d> cameras;
+    std::vector<BoxMeasurement> views;
   };
   FactorGraph graph(graphOptions(options_, estimator_, GraphScope::WholeRun));
   const bool mayTilt = priors.empty() && firstPose == FirstPose::FreeToTilt &&
@@ -152,7 +153,7 @@ FactorGraph JointBackEnd::globalGraph(
   if (!priors.empty()) graph.addPose(CPose3D());
   if (mayTilt) graph.addPose(result.keyframes.front().T_map_robot);
   const std::size_t first = graph.poses();
-  std::map<ObjectId, std::vector<Seen>> seenOf;
+  std::map<ObjectId, Seen> seenOf;
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
     const Keyframe& keyframe = result.keyframes[k];
@@ -166,8 +167,12 @@ FactorGraph JointBackEnd::globalGraph(
     for (const auto& decision : result.map.match(*boxes, keyframe.T_map_robot))
       if (const MapObject* object = decision.object ? result.map.find(*decision.object) : nullptr)
         if (auto view = viewFor(*boxes, decision.box, keyframe.T_map_robot, *object))
-          seenOf[object->id].push_back(
-              {pose, positionOf(keyframe.T_map_robot + boxes->sensorPose), std::move(*view)});
+        {
+          Seen& seen = seenOf[object->id];
+          seen.poses.push_back(pose);
+          seen.cameras.push_back(positionOf(keyframe.T_map_robot + boxes->sensorPose));
+          seen.views.push_back(std::move(*view));
+        }
   }
   for (auto& [id, seen] : seenOf)
   {
@@ -175,14 +180,10 @@ FactorGraph JointBackEnd::globalGraph(
     graph.setObject(id, object.object, labels_.properties(object.label()));
     if (const auto prior = priors.find(id); prior != priors.end())
       graph.setObjectPrior(id, prior->second);
-    std::vector<Eigen::Vector3d> cameras;
-    for (const auto& s : seen) cameras.push_back(s.camera);
-    const auto shares = independentShares(cameras, object.object.center(), existence_);
-    for (std::size_t i = 0; i < seen.size(); ++i)
-    {
-      seen[i].view.weight *= shares[i];
-      graph.addView(seen[i].pose, id, seen[i].view);
-    }
+    const auto shares = independentShares(seen.cameras, object.object.center(), existence_);
+    for (std::size_t i = 0; i < shares.size(); ++i) seen.views[i].weight *= shares[i];
+    shareEdgeErrors(seen.views);
+    for (std::size_t i = 0; i < shares.size(); ++i) graph.addView(seen.poses[i], id, seen.views[i]);
   }
   return graph;
 }

@@ -38,7 +38,7 @@ class RobustKernel
       case Kind::Cauchy:
         return 0.5 * h_ * h_ * std::log1p(r * r / (h_ * h_));
       case Kind::Inequality:
-        return r <= 0 ? 0 : 0.5 * r * r / (1 + bounded(r));
+        return r <= 0 ? 0 : h_ * h_ / (1 + 1 / inequalitySquare(r));
       default:
         break;
     }
@@ -54,7 +54,7 @@ class RobustKernel
       case Kind::Cauchy:
         return 1 / (1 + r * r / (h_ * h_));
       case Kind::Inequality:
-        return r <= 0 ? 0 : std::pow(1 + bounded(r), -2);
+        return r <= 0 ? 0 : std::pow(1 + inequalitySquare(r), -2);
       default:
         break;
     }
@@ -75,7 +75,7 @@ class RobustKernel
       if (r < -h_) return -sqrt(h_ * (-2.0 * r - h_));
       return r;
     }
-    if (kind_ == Kind::Inequality) return r <= 0.0 ? T(0) : r / sqrt(1.0 + bounded(r));
+    if (kind_ == Kind::Inequality) return r <= 0.0 ? T(0) : r / sqrt(1.0 + inequalitySquare(r));
     const T u = r * r / (h_ * h_);
     if (u < kNearZero) return r;  // the root of u has no derivative at 0
     const T size = h_ * sqrt(log1p(u));
@@ -103,9 +103,9 @@ class RobustKernel
   static constexpr double kNearZero = 1e-20;  // of r^2 / h^2
 
   constexpr RobustKernel(Kind kind, double h) : kind_(kind), h_(h) {}
-  /** Of the kernel of inequalities. With 2 h^2 its weight falls like Cauchy's near 0. */
+  /** r^2 / (2 h^2) of doc/mathematics.md, (11.13). */
   template <typename T>
-  T bounded(const T& r) const
+  T inequalitySquare(const T& r) const
   {
     return r * r / (2 * h_ * h_);
   }
