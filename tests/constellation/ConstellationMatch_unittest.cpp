@@ -182,6 +182,25 @@ TEST(ConstellationMatch, FewTruePairsAreLostToTheOthers)
   EXPECT_GE(kept, 0.98 * static_cast<double>(all));
 }
 
+TEST(ConstellationMatch, WhatErrsMoreThanMostStaysAPair)
+{
+  std::size_t kept = 0, all = 0;
+  for (unsigned seed = 0; seed < 3; ++seed)
+  {
+    std::mt19937 rng(9100 + seed);
+    const Room hall = hallOfChairs(37, rng);
+    const CPose3D place = randomPlace(rng);
+    Room local = seenFrom(place, hall, 0.01, rng);
+    const Room poor = seenFrom(place, hall, 0.04, rng);  // seen from another side than before
+    for (std::size_t i = 0; i < local.size(); i += 6) local[i] = poor[i];
+    const auto found = match(local, hall);
+    ASSERT_TRUE(found) << seed;
+    all += hall.size();
+    kept += found->pairs.size();
+  }
+  EXPECT_GE(kept, 0.98 * static_cast<double>(all));
+}
+
 TEST(ConstellationMatch, WrongLabelsOfSomeDoNotMatter)
 {
   for (unsigned seed = 0; seed < 20; ++seed)

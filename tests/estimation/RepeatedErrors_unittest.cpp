@@ -62,6 +62,30 @@ TEST(ShareEdgeErrors, OtherSidesAndLoneViewsStayWhatTheyAre)
   EXPECT_DOUBLE_EQ(one[0].edges[0].shared, before[0].edges[0].shared);
 }
 
+TEST(ShareEdgeErrors, TheFourEdgesOfOneBoxAreFourSidesAlsoFromAbove)
+{
+  for (const double pitch : {-60.0, 0.0, 30.0, 45.0, 60.0, 90.0})
+  {
+    const double a = pitch * M_PI / 180;
+    const Eigen::Vector3d ahead(std::cos(a), 0, -std::sin(a)), right(0, -1, 0);
+    const Eigen::Vector3d down = ahead.cross(right);
+    BoxMeasurement view;
+    view.center = kCenter;
+    view.camera = kCenter - 2 * ahead;
+    for (const Eigen::Vector3d& side :
+         {right, Eigen::Vector3d(-right), down, Eigen::Vector3d(-down)})
+      view.edges.push_back({(side + 0.1 * ahead).normalized(), 0.05, 0.04});
+    std::vector<BoxMeasurement> views{view};
+    shareEdgeErrors(views);
+    for (const auto& edge : views[0].edges) EXPECT_DOUBLE_EQ(edge.sigma, 0.05) << pitch;
+
+    views.assign(3, view);
+    shareEdgeErrors(views);
+    const double expected = std::sqrt(0.05 * 0.05 + 2 * 0.04 * 0.04);
+    for (const auto& edge : views[0].edges) EXPECT_NEAR(edge.sigma, expected, 1e-12) << pitch;
+  }
+}
+
 TEST(ShareEdgeErrors, AViewOfLittleWeightAddsLittle)
 {
   std::vector<BoxMeasurement> views{viewFrom(0, 0.02, 0.05), viewFrom(1, 0.02, 0.05)};

@@ -290,6 +290,50 @@ TEST(ObjectEstimator, UnseenSidesAreLowerBounds)
   EXPECT_GT(far, largest - 0.02);
 }
 
+TEST(ObjectEstimator, ManyBoxesThatAreAlikeTooWideDoNotOutweighRightCuboids)
+{
+  SyntheticCamera camera(6);
+  camera.disturbances = Disturbances{};
+  std::vector<ObjectView> views;
+  for (int i = 0; i < 30; ++i)
+  {
+    const Eigen::Vector3d eye(
+        -0.6, -0.6 + 0.04 * i, 0.9);  // from one side: its far end is not seen
+    const auto T = SyntheticCamera::lookAt(eye, kCabinet.object.center());
+    auto view =
+        *viewOf(camera.observe(T, {kCabinet}).objects.at(0), T, boxy("suitcase"), {0.001, 0.001});
+    const Eigen::Vector3d ahead = (view.center - view.camera).normalized();
+    const double wider = 0.05 * view.halfSizes.mean() / (view.center - view.camera).norm();
+    for (auto& edge : view.edges) edge.plane.n = (edge.plane.n + wider * ahead).normalized();
+    views.push_back(view);
+  }
+  const auto widthError = [&](const EstimatorOptions& options)
+  {
+    const auto state = estimatorOf(views, options).estimate({}, boxy("suitcase"), options).state;
+    return std::abs(std::exp(state[4]) - kCabinet.object.semiAxes().x());
+  };
+  EstimatorOptions independent;
+  independent.edgeShapeShare = 0;
+  EXPECT_LT(widthError({}), 0.7 * widthError(independent));
+}
+
+TEST(ObjectEstimator, HoweverManyBoxesThereAreTheyKnowAHeightNoBetterThanWhatTheyShare)
+{
+  SyntheticCamera camera(7);
+  camera.disturbances = Disturbances{};
+  camera.disturbances.partialProbability = 1;
+  EstimatorOptions options;
+  options.repeatedThere = options.repeatedAnywhere = 0;  // other errors that views repeat
+  LabelProperties anySize = boxy("suitcase");
+  anySize.sizeSpread = 10;
+  const auto result =
+      estimatorOf(viewsAround(camera, kCabinet, 60), options).estimate({}, anySize, options);
+  // Half the height is half of how far two edges are apart, each of which errs by the share of s.
+  const double share = options.edgeShapeShare * kCabinet.object.semiAxes().mean();
+  const double least = share / std::sqrt(2.0) / kCabinet.object.semiAxes().z();
+  EXPECT_GT(std::sqrt(result.covariance(6, 6)), 0.9 * least);
+}
+
 TEST(ObjectEstimator, FewLowerBoundsBehindTheObjectDoNotStretchIt)
 {
   // Seen from one side; in every fourth view the wall behind was taken for the object's end.
