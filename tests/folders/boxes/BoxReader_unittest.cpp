@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "../../obs/TemporaryFolder.h"
@@ -29,6 +30,26 @@ class BoxFiles : public ::testing::Test
     FolderFrame frame;
     frame.color = "/recording/rgb/" + image;
     return openBoxes(files_.path(place), "")->isOfOtherImages({frame});
+  }
+  /** Writes r.json, results with a box of class k for the k-th image. */
+  void writeResults(const std::vector<std::string>& images)
+  {
+    std::string text;
+    for (std::size_t k = 0; k < images.size(); ++k)
+      text += (k == 0 ? "[" : ",") + (R"({"image_id": ")" + images[k]) + R"(", "category_id": )" +
+              std::to_string(k + 1) + R"(, "bbox": [1, 2, 3, 4]})";
+    files_.write("r.json", text + "]");
+  }
+  /** Which image of r.json has the boxes of an image of a recording, from 1; 0: none. */
+  int imageOf(const std::string& image) const
+  {
+    FolderFrame frame;
+    frame.color = image;
+    const auto boxes = openBoxes(files_.path("r.json"), "")->boxes(frame, camera_);
+    const std::vector<std::string> labels{"person", "bicycle", "car", "motorcycle"};
+    if (boxes->empty()) return 0;
+    const auto label = std::find(labels.begin(), labels.end(), boxes->at(0).label);
+    return static_cast<int>(label - labels.begin()) + 1;
   }
   std::string errorOfReading(
       const std::string& image, const std::string& place = "", const std::string& labels = "") const
@@ -218,25 +239,39 @@ TEST_F(BoxFiles, CocoResultsMayBeOfOtherImages)
 
 TEST_F(BoxFiles, CocoImagesOfEqualNamesAreToldApartByTheirFolders)
 {
-  const auto boxesOf = [this](const std::string& image)
-  {
-    FolderFrame frame;
-    frame.color = image;
-    const auto boxes = openBoxes(files_.path("r.json"), "")->boxes(frame, camera_);
-    return boxes->empty() ? "none" : boxes->at(0).label;
-  };
-  files_.write("r.json", R"([{"image_id": "left/a.jpg", "category_id": 62, "bbox": [1, 2, 3, 4]},
-    {"image_id": "right/a.jpg", "category_id": 47, "bbox": [1, 2, 3, 4]},
-    {"image_id": "./hall/right/b.jpg", "category_id": 44, "bbox": [1, 2, 3, 4]}])");
-  EXPECT_EQ(boxesOf("/room/left/a.png"), "chair");
-  EXPECT_EQ(boxesOf("/room/right/a.png"), "cup");
-  EXPECT_EQ(boxesOf("/room/left/b.png"), "none") << "that of the right camera";
-  EXPECT_EQ(boxesOf("/hall/right/b.png"), "bottle") << "two folders of the path agree";
-  EXPECT_EQ(boxesOf("/room/rgb/b.png"), "bottle") << "the only image of this name";
+  writeResults({"left/a.jpg", "right/a.jpg", "right/b.jpg", "./hall/right/c.jpg"});
+  EXPECT_EQ(imageOf("/room/left/a.png"), 1);
+  EXPECT_EQ(imageOf("/room/right/a.png"), 2);
+  EXPECT_EQ(imageOf("/room/left/b.png"), 0) << "right/ has another image a: it is another camera";
+  EXPECT_EQ(imageOf("/room/right/b.png"), 3);
+  EXPECT_EQ(imageOf("/hall/right/c.png"), 4) << "two folders of the path agree";
+  EXPECT_EQ(imageOf("/room/left/c.png"), 4) << "nothing says that hall/right is another camera";
+  EXPECT_EQ(imageOf("/room/rgb/b.png"), 3) << "the only image of this name";
   EXPECT_EQ(
-      errorOf([&] { boxesOf("/room/rgb/a.png"); }),
-      files_.path("r.json") + ": image left/a and image right/a may both be /room/rgb/a.png");
+      errorOf([&] { imageOf("/room/rgb/a.png"); }),
+      files_.path("r.json") +
+          ": image left/a.jpg and image right/a.jpg may both be /room/rgb/a.png; name them with "
+          "folders that end as those of the recording");
   EXPECT_FALSE(isOfOtherImages("r.json", "a.png")) << "one of them is, and reading them tells";
+}
+
+TEST_F(BoxFiles, CocoImagesOfUniqueNamesMayBeInAnyFolder)
+{
+  writeResults({"train/100.000000.png", "val/rgb/100.033333.png", "train/100.066667.png"});
+  EXPECT_EQ(imageOf("/data/room1/rgb/100.000000.png"), 1);
+  EXPECT_EQ(imageOf("/data/room1/rgb/100.033333.png"), 2) << "although it alone is in rgb/";
+  EXPECT_EQ(imageOf("/data/room1/rgb/100.066667.png"), 3);
+}
+
+TEST_F(BoxFiles, OfCocoImagesOfEqualNamesTheLongerCommonPathCounts)
+{
+  writeResults({"a.png", "rgb/a.png", "b.png"});
+  EXPECT_EQ(imageOf("/room1/rgb/a.png"), 2);
+  EXPECT_EQ(imageOf("/room1/rgb/b.png"), 3) << "no folders, none that differs";
+  EXPECT_EQ(imageOf("/room1/color/a.png"), 1) << "rgb/ differs";
+  writeResults({"left/a.jpg", "/data/left/a.jpg"});
+  EXPECT_EQ(imageOf("/data/left/a.png"), 2);
+  EXPECT_EQ(imageOf("/room/left/a.png"), 1) << "/data differs";
 }
 
 TEST_F(BoxFiles, CocoDataSetsHaveImagesOfEqualNames)

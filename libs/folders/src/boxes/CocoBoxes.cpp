@@ -192,7 +192,7 @@ class CocoBoxes : public BoxReader
   }
 
   std::string file_;
-  std::string labels_;  // of results, as a data set has names in any case
+  std::string labels_;  // of results; a data set has names itself, and a note says so
   bool isResults_ = false;
   CocoImages images_;
 };

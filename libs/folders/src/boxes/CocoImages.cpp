@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
+#include <tuple>
 
 namespace quadmap
 {
@@ -23,39 +25,74 @@ std::string withoutExtension(const fs::path& file)
   return name.string();
 }
 
-/** The number of folders that two paths have in common at their ends. */
-std::size_t commonFolders(const fs::path& a, const fs::path& b)
+/** How well the folders of an image of the file agree with those of a recording. */
+struct Agreement
 {
-  const std::vector<fs::path> foldersOfA(a.begin(), a.end()), foldersOfB(b.begin(), b.end());
-  const auto differing =
-      std::mismatch(foldersOfA.rbegin(), foldersOfA.rend(), foldersOfB.rbegin(), foldersOfB.rend());
-  return static_cast<std::size_t>(differing.first - foldersOfA.rbegin());
+  std::size_t folders = 0;  // that the paths have in common at their ends
+  bool isWhole = false;     // whether these are all folders of the image of the file
+
+  bool operator<(const Agreement& other) const
+  {
+    return std::tie(folders, isWhole) < std::tie(other.folders, other.isWhole);
+  }
+};
+
+Agreement agreementOf(const fs::path& place, const fs::path& recording)
+{
+  const std::vector<fs::path> a(place.begin(), place.end()), b(recording.begin(), recording.end());
+  const auto differing = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend()).first;
+  return {static_cast<std::size_t>(differing - a.rbegin()), differing == a.rend()};
 }
 }  // namespace
 
 CocoImages::Boxes& CocoImages::of(const std::string& image)
 {
+  meant_.clear();
   const fs::path path = fs::path(image).lexically_normal();
-  return folders_[path.parent_path().string()][withoutExtension(path)];
+  Image& found = images_[withoutExtension(path)][path.parent_path().string()];
+  if (found.written.empty()) found.written = image;
+  return found.boxes;
 }
 
-std::vector<CocoImages::Image> CocoImages::candidates(
+CocoImages::Meant CocoImages::imagesMeantIn(const std::string& folder) const
+{
+  std::map<std::string, Agreement> agreements;  // by folders that the file names
+  for (const auto& [name, places] : images_)
+    for (const auto& [place, image] : places)
+      if (agreements.count(place) == 0) agreements[place] = agreementOf(place, folder);
+  using Places = std::map<std::string, Image>;
+  const auto bestOf = [&](const Places& places, const std::set<std::string>& without)
+  {
+    Agreement best;
+    for (const auto& [place, image] : places)
+      if (without.count(place) == 0) best = std::max(best, agreements.at(place));
+    return best;
+  };
+  std::set<std::string> others;  // folders of other recordings or cameras
+  for (const auto& [name, places] : images_)
+  {
+    const Agreement best = bestOf(places, {});
+    for (const auto& [place, image] : places)
+      if (const auto& own = agreements.at(place); !own.isWhole && own < best) others.insert(place);
+  }
+  Meant meant;
+  for (const auto& [name, places] : images_)
+  {
+    const Agreement best = bestOf(places, others);
+    for (const auto& [place, image] : places)
+      if (others.count(place) == 0 && !(agreements.at(place) < best)) meant[name].push_back(&image);
+  }
+  return meant;
+}
+
+std::vector<const CocoImages::Image*> CocoImages::candidates(
     const std::string& path, const std::vector<std::string>& names) const
 {
-  const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
-  std::size_t nearest = 0;
-  for (const auto& [place, images] : folders_)
-    nearest = std::max(nearest, commonFolders(place, folder));
-  const auto isNear = [&](const std::string& place)  // a name without folders may be of any
-  { return place.empty() || commonFolders(place, folder) == nearest; };
+  const std::string folder = fs::absolute(path).lexically_normal().parent_path().string();
+  if (meant_.count(folder) == 0) meant_[folder] = imagesMeantIn(folder);
+  const Meant& meant = meant_.at(folder);
   for (const auto& name : names)
-  {
-    std::vector<Image> found;
-    for (const auto& [place, images] : folders_)
-      if (const auto image = images.find(name); image != images.end() && isNear(place))
-        found.emplace_back((fs::path(place) / name).string(), &image->second);
-    if (!found.empty()) return found;
-  }
+    if (const auto found = meant.find(name); found != meant.end()) return found->second;
   return {};
 }
 
@@ -65,9 +102,9 @@ const CocoImages::Boxes* CocoImages::find(
   const auto found = candidates(path, names);
   if (found.size() > 1)
     throw std::runtime_error(
-        file_ + ": image " + found[0].first + " and image " + found[1].first + " may both be " +
-        path);
-  return found.empty() ? nullptr : found[0].second;
+        file_ + ": image " + found[0]->written + " and image " + found[1]->written +
+        " may both be " + path + "; name them with folders that end as those of the recording");
+  return found.empty() ? nullptr : &found[0]->boxes;
 }
 
 }  // namespace quadmap

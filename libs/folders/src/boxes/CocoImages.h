@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quadmap/obs/DetectedObject.h"
@@ -9,7 +10,12 @@
 namespace quadmap
 {
 /** The boxes of a file of COCO by its images, which it names with as much of their path as the
- * writer thought fit: "a.jpg", "left/a.jpg", "/data/room/left/a.jpg", or a number. */
+ * writer thought fit: "a.jpg", "left/a.jpg", "/data/room/left/a.jpg", or a number.
+ *
+ * Of images with equal names the one is meant whose path has the most folders at its end in common
+ * with that of the recording's image, and of equals the one all of whose folders agree. A folder
+ * that differs and in which an image was not meant is of another recording or camera, and so are
+ * all its images. */
 class CocoImages
 {
  public:
@@ -21,7 +27,7 @@ class CocoImages
   /** The boxes of an image, none at first. \param image As the file names it. */
   Boxes& of(const std::string& image);
 
-  bool empty() const { return folders_.empty(); }
+  bool empty() const { return images_.empty(); }
 
   /** Whether the file has an image that may be this one. \param names See find(). */
   bool has(const std::string& path, const std::vector<std::string>& names) const
@@ -29,22 +35,27 @@ class CocoImages
     return !candidates(path, names).empty();
   }
 
-  /** The boxes of an image of the recording, or null. Of images with equal names it is the one
-   * whose path has the most folders at its end in common with the image's; one without folders may
-   * be any.
+  /** The boxes of an image of the recording, or null. Not for several threads at a time.
    * \param path The image's file.
    * \param names What it may be called, without folder and extension; the first that is there
    * counts. \exception std::runtime_error If several may be it. The message names them. */
   const Boxes* find(const std::string& path, const std::vector<std::string>& names) const;
 
  private:
-  /** An image of the file: its name with its folder, and its boxes. */
-  using Image = std::pair<std::string, const Boxes*>;
-  std::vector<Image> candidates(
+  struct Image
+  {
+    std::string written;  // as the file names it
+    Boxes boxes;
+  };
+  using Meant = std::map<std::string, std::vector<const Image*>>;  // by names without extension
+
+  Meant imagesMeantIn(const std::string& folder) const;
+  std::vector<const Image*> candidates(
       const std::string& path, const std::vector<std::string>& names) const;
 
   std::string file_;
-  std::map<std::string, std::map<std::string, Boxes>> folders_;  // by names without extension
+  std::map<std::string, std::map<std::string, Image>> images_;  // by name, then by folder
+  mutable std::map<std::string, Meant> meant_;  // by the folders that were asked for so far
 };
 
 }  // namespace quadmap
