@@ -35,9 +35,17 @@ struct Cli
   cli::Example finding{
       line, "quadmap-detect kitchen.rawlog --model nanodet-m", "Writes kitchen.objects.rawlog."};
   cli::Group modelGroup{line, "Model"};
-  Text model{"",         "model", "Name of a model (see --list), or a model file (.ini).",
-             true,       "",      "NAME|FILE",
-             line.args()};
+  Text model{
+      "",
+      "model",
+      "Name of a model (see --list), or a model file: an INI file with the section [detector], in "
+      "which weights names the network (.onnx, or .weights of Darknet with network = its "
+      ".cfg), labels a file with the names of the classes, one a line, and width and height "
+      "tell the size of the network's input [px].",
+      true,
+      "",
+      "NAME|FILE",
+      line.args()};
   TCLAP::SwitchArg list{
       "", "list",
       "Given alone: print the models that are known, which of them are installed, and how to get "

@@ -107,7 +107,7 @@ struct Cli
       "detector",
       "Find the boxes of the keyframes with this model, whatever boxes the input has: its name "
       "(see "
-      "quadmap-detect --list) or its model file (.ini).",
+      "quadmap-detect --list) or its model file (.ini; see quadmap-detect --help).",
       false,
       "",
       "NAME|FILE",

@@ -143,7 +143,7 @@ TEST_F(QuadmapDetect, NamesWhatIsWrongInOneLine)
       runProgram("quadmap-detect", rawlog + " --model nosuch"), "nosuch: is no known model");
   expectError(
       runProgram("quadmap-detect", rawlog + " --model chairs.onnx"),
-      "chairs.ini with the lines [detector] / weights = chairs.onnx / labels = FILE");
+      "chairs.onnx: there is no such file");
   tiny_.folder.write("tiny.weights", "");
   expectError(run(rawlog), "tiny.weights: is empty");
 }

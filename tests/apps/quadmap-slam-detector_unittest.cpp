@@ -116,7 +116,7 @@ TEST_F(SlamWithDetector, NamesTheModelThatCannotBeUsed)
     EXPECT_FALSE(std::filesystem::exists(folder_.path("out"))) << "nothing is left behind";
   };
   expectError("--detector nosuch", 1, "nosuch: is no known model");
-  expectError("--detector chairs.onnx", 1, "chairs.ini with the lines [detector] / ");
+  expectError("--detector chairs.onnx", 1, "chairs.onnx: there is no such file");
   expectError("--objects x " + detector(), 2, "--objects: not with a detector");
   tiny_.folder.write("tiny.weights", "");
   expectError(detector(), 1, "tiny.weights: is empty");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <opencv2/core.hpp>
 
 #include "TinyDetector.h"
@@ -147,26 +148,33 @@ TEST(Detector, IsRefusedWhenItIsNoNetwork)
   EXPECT_TRUE(has(loadingError("nosuch"), "nanodet-m"));
 }
 
-TEST(Detector, SaysWhichModelFileANetworkNeeds)
+TEST(Detector, SaysThatANetworkNeedsAModelFile)
 {
   const TemporaryFolder folder;
-  const std::string network = folder.write("m.onnx", "no network"), model = folder.path("m.ini");
-  EXPECT_EQ(
-      loadingError(network),
-      network + ": is a network, which needs a model file, such as " + model +
-          " with the lines [detector] / weights = m.onnx / labels = FILE (names of the classes, "
-          "one "
-          "a line) / width = 640 / height = 640 (of its input); doc/guide/find-objects.md has all "
-          "keys");
-  EXPECT_TRUE(
-      has(loadingError(folder.path("d.weights")),
-          "[detector] / weights = d.weights / network = FILE.cfg / labels = FILE"));
+  for (const char* name : {"m.onnx", "UP.ONNX", "d.weights", "d.cfg"})
+  {
+    const std::string network = folder.path(name);
+    EXPECT_EQ(loadingError(network), network + ": there is no such file");
+    folder.write(name, "no network");
+    EXPECT_EQ(
+        loadingError(network), network +
+                                   ": is a network and needs a model file (.ini) with weights, "
+                                   "labels, width and height; see quadmap-detect --help");
+  }
+  const std::string sub = folder.path("sub.onnx");
+  std::filesystem::create_directory(sub);
+  EXPECT_EQ(loadingError(sub), sub + ": there is no such file") << "a folder";
   // The lines that it names are a model file, which fails on the network alone.
   folder.write("m.names", "chair\n");
-  folder.write(
-      "m.ini", "[detector]\nweights = m.onnx\nlabels = m.names\nwidth = 640\nheight = 640\n");
+  const std::string network = folder.path("m.onnx"),
+                    model = folder.write(
+                        "m.ini",
+                        "[detector]\nweights = m.onnx\nlabels = m.names\n"
+                        "width = 640\nheight = 640\n");
   EXPECT_EQ(loadingError(model).find(network + ": "), 0u) << loadingError(model);
-  EXPECT_EQ(loadingError(network), network + ": is a network; its model file is " + model);
+  EXPECT_EQ(
+      loadingError(network),
+      network + ": is a network and needs a model file; " + model + " is beside it");
 }
 
 TEST(Detector, IsRefusedWhenItsChecksumIsAnother)

@@ -1,5 +1,7 @@
 #include "model/ModelFolder.h"
 
+#include <mrpt/system/string_utils.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -46,18 +48,24 @@ bool isFile(const fs::path& path)
   return fs::is_regular_file(path, ignored);
 }
 
-/** How a network is used, of which the user gave the weights instead of a model file. */
-std::string adviceFor(const fs::path& weights)
+/** Whether a file is named as a network or a part of one, and not as a model file. */
+bool isNetwork(const fs::path& path)
 {
-  const fs::path modelFile = fs::path(weights).replace_extension(kExtension);
-  if (isFile(modelFile))
-    return weights.string() + ": is a network; its model file is " + modelFile.string();
-  const std::string network = weights.extension() == ".onnx" ? "" : " / network = FILE.cfg";
-  return weights.string() + ": is a network, which needs a model file, such as " +
-         modelFile.string() +
-         " with the lines [detector] / weights = " + weights.filename().string() + network +
-         " / labels = FILE (names of the classes, one a line) / width = 640 / height = 640 (of its "
-         "input); doc/guide/find-objects.md has all keys";
+  const std::string extension = mrpt::system::lowerCase(path.extension().string());
+  return extension == ".onnx" || extension == ".weights" || extension == ".cfg";
+}
+
+/** Why a network cannot be used where a model file is expected. */
+std::string whyNoModelFile(const fs::path& network)
+{
+  if (!isFile(network)) return network.string() + ": there is no such file";
+  const fs::path beside = fs::path(network).replace_extension(kExtension);
+  if (isFile(beside))
+    return network.string() + ": is a network and needs a model file; " + beside.string() +
+           " is beside it";
+  return network.string() +
+         ": is a network and needs a model file (.ini) with weights, labels, width and height; "
+         "see quadmap-detect --help";
 }
 
 }  // namespace
@@ -78,8 +86,7 @@ std::string modelFileOf(const std::string& model)
     if (!isFile(path)) throw std::runtime_error(model + ": there is no such model file");
     return model;
   }
-  if (path.extension() == ".onnx" || path.extension() == ".weights")
-    throw std::runtime_error(adviceFor(path));
+  if (isNetwork(path)) throw std::runtime_error(whyNoModelFile(path));
   std::string known;
   for (const std::string& file : allModelFiles())
   {
