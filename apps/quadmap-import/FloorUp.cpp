@@ -50,10 +50,11 @@ std::vector<Eigen::Vector3d> floorsIn(const FrameFolder& folder)
 std::string turnUpright(FrameFolder& folder)
 {
   if (folder.posesCount() == 0) return "left to quadmap-slam, as there are no poses";
-  if (const auto& up = folder.camera().worldUp)
+  const FolderCamera& camera = folder.camera();
+  if (const auto& up = camera.worldUp)
     return mrpt::format(
         "(%.3f, %.3f, %.3f) in the world of the poses, as %s says", up->x(), up->y(), up->z(),
-        folder.camera().origin.c_str());
+        (camera.upOrigin.empty() ? camera.origin : camera.upOrigin).c_str());
   const auto floors = floorsIn(folder);
   const auto up = agreedDirection(floors);
   const auto votes = static_cast<std::size_t>(std::count_if(

@@ -95,7 +95,7 @@ TEST_F(ScanNetFolder, TakesAGivenCameraInsteadOfItsOwn)
 {
   for (int i : {0, 1, 10}) writeColor(i, 640, 480);
   FrameFolderOptions options;
-  options.camera = files_.write("my.ini", "[camera]\nfx = 500\nfy = 510\n");
+  options.camera = files_.write("my.ini", "[camera]\nfx = 500\nfy = 510\nworldUp = 0 1 0\n");
   for (const bool hasOwn : {true, false})
   {
     if (!hasOwn) std::filesystem::remove_all(files_.path("intrinsic"));
@@ -105,7 +105,8 @@ TEST_F(ScanNetFolder, TakesAGivenCameraInsteadOfItsOwn)
     EXPECT_DOUBLE_EQ(scan->cameraParams.fy(), 510) << hasOwn;
     EXPECT_NEAR(static_cast<float>(scan->rangeImage(240, 320)) * scan->rangeUnits, 2.0, 1e-3)
         << "millimetres, as the camera does not tell";
-    ASSERT_TRUE(scene.camera().worldUp) << "ScanNet's z is up with any camera";
+    EXPECT_EQ(scene.camera().worldUp, Eigen::Vector3d::UnitZ()) << "with any camera";
+    EXPECT_EQ(scene.camera().upOrigin, "ScanNet");
     EXPECT_NEAR(scene.T_world_robot(2)->x(), 10, 1e-9) << hasOwn;
   }
 }

@@ -115,8 +115,8 @@ FolderContent readScanNetFolder(const std::string& folder, const FrameFolderOpti
   else
     content.camera = cameraOfFolder(folder, options, "", kScanNetDepthFactor);
   content.camera.posesAreOfDepth = content.camera.depth.has_value();
-  // As ScanNet's scenes are turned.
-  if (!content.camera.worldUp) content.camera.worldUp = Eigen::Vector3d::UnitZ();
+  content.camera.worldUp = Eigen::Vector3d::UnitZ();  // a given camera is one of another world
+  content.camera.upOrigin = "ScanNet";
   if (fs::is_directory(fs::path(folder) / "pose"))
     readPoses(content);
   else

@@ -31,6 +31,7 @@ struct FolderCamera
   std::optional<DepthCamera> depth;
   bool posesAreOfDepth = false;            //!< The poses of the recording are those of `depth`
   std::optional<Eigen::Vector3d> worldUp;  //!< Unit vector in the world of the recording's poses
+  std::string upOrigin;  //!< Where worldUp is from; empty: from where the camera is
 
   bool isDistorted() const { return color.distortion != mrpt::img::DistortionModel::none; }
 };
