@@ -2,8 +2,8 @@
 
 #include <mrpt/3rdparty/tclap/CmdLine.h>
 #include <mrpt/system/COutputLogger.h>
+#include <mrpt/system/string_utils.h>
 
-#include <algorithm>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -111,8 +111,8 @@ class StrictOutput : public TCLAP::StdOutput
     const std::string value = "Value ", constraint = " does not meet constraint: ";
     const auto at = error.find(constraint);
     if (at != std::string::npos)
-      return "expected " + error.substr(at + constraint.size()) + ", got " +
-             error.substr(value.size(), at - value.size());
+      return otherThan(
+          error.substr(at + constraint.size()), error.substr(value.size(), at - value.size()));
     const std::string unreadable = "Couldn't read argument value from string ";
     if (error.rfind(unreadable, 0) == 0)
       return "expected a number, got " + error.substr(unreadable.size());
@@ -120,6 +120,17 @@ class StrictOutput : public TCLAP::StdOutput
     if (error.rfind("Argument already set", 0) == 0) return "is given twice";
     if (error.rfind("Couldn't find match", 0) == 0) return "is one argument too many";
     return error;
+  }
+
+  /** "expected a|b, got 'x'", and which of them may be meant. */
+  static std::string otherThan(const std::string& expected, const std::string& got)
+  {
+    HelpEntry entry;
+    entry.label = expected;
+    const auto meant =
+        mostSimilar(mrpt::system::trim(got.substr(1, got.size() - 2)), entry.choices());
+    return "expected " + expected + ", got " + got +
+           (meant ? "; did you mean " + *meant + "?" : "");
   }
 
   static std::string missingArguments(TCLAP::CmdLineInterface& line)
@@ -206,20 +217,25 @@ class CommandLine
       const std::string word = argv[i];
       const bool isOption = !isValue && word.size() > 1 && word[0] == '-';
       const TCLAP::Arg* option = isOption ? findOption(word) : nullptr;
-      if (isOption && !option) throw UsageError("unknown option " + word + suggestionFor(word));
+      if (isOption && !option) throw UsageError(whyUnknown(word));
       isValue = option && option->isValueRequired();
     }
   }
 
-  /** "; did you mean --output?" for -output and --ouptut; empty when no option is similar. */
-  std::string suggestionFor(const std::string& word) const
+  /** Why a word is no option, with what may be meant by --ouptut, -output or --output=FILE. */
+  std::string whyUnknown(const std::string& word)
   {
+    const std::string option = word.substr(0, word.find('='));
+    if (const TCLAP::Arg* known = findOption(option))
+      return word + ": " + option +
+             (known->isValueRequired() ? " takes its value after a blank" : " takes no value");
     std::vector<std::string> names;
     for (const HelpEntry& entry : output_.help.entries)
       if (!entry.isPositional) names.push_back(entry.name);
-    const auto meant =
-        mostSimilar(word.substr(std::min(word.find_first_not_of('-'), word.size())), names);
-    return meant ? "; did you mean --" + *meant + "?" : "";
+    const auto begin = option.find_first_not_of('-');
+    const std::string name = begin == std::string::npos ? "" : option.substr(begin);
+    const auto meant = mostSimilar(mrpt::system::lowerCase(name), names);
+    return "unknown option " + word + (meant ? "; did you mean --" + *meant + "?" : "");
   }
 
   const TCLAP::Arg* findOption(const std::string& word)

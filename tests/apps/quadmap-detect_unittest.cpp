@@ -208,6 +208,21 @@ TEST_F(QuadmapDetect, AnswersWrongUsageWithStatus2AndOneLine)
   };
   expectSuggestion("--lsit", "; did you mean --list?");
   expectSuggestion("-modle", "; did you mean --model?");
+  expectSuggestion("--MODEL", "; did you mean --model?");
+  expectSuggestion("--ouptut=/tmp/some/where.rawlog", "; did you mean --output?");
   expectSuggestion("--xyzzy", "");
   expectSuggestion("---", "");
+}
+
+TEST_F(QuadmapDetect, SaysThatValuesOfOptionsStandBehindABlank)
+{
+  const std::pair<std::string, std::string> complaints[] = {
+      {"--output=/tmp/some/where.rawlog", "--output takes its value after a blank"},
+      {                           "-o=x",       "-o takes its value after a blank"},
+      {                 "--keep-going=1",            "--keep-going takes no value"}
+  };
+  for (const auto& [option, complaint] : complaints)
+    EXPECT_EQ(
+        runProgram("quadmap-detect", "x.rawlog " + option).err,
+        "quadmap-detect: " + option + ": " + complaint + " (see quadmap-detect --help)\n");
 }

@@ -66,6 +66,12 @@ TEST_F(QuadmapImport, TellsTheKindOfAFolder)
   expectFailure(run("auto OUT -o OUT/y.rawlog"), "tum has associations.txt");
 }
 
+TEST_F(QuadmapImport, SaysWhichKindMayBeMeant)
+{
+  const std::string message = run("scanet IN --check").err;
+  EXPECT_NE(message.find(", got 'scanet'; did you mean scannet?"), kNotFound) << message;
+}
+
 TEST_F(QuadmapImport, SaysWhatIsThere)
 {
   std::filesystem::remove(recording_.files.path("detections/f1.txt"));

@@ -329,6 +329,7 @@ TEST_F(QuadmapMap, NamesTheWrongArgumentFirst)
 {
   const std::pair<const char*, const char*> complaints[] = {
       {                  "dance", "COMMAND: expected apply|info|merge|query|relabel|remove, got 'dance'"},
+      {                  "qurey",                    "got 'qurey'; did you mean query? (see quadmap-map"},
       {     "info MAP -v loudly",            "--verbosity: expected debug|info|warn|error, got 'loudly'"},
       {     "query MAP --id one",                                   "--id: expected a number, got 'one'"},
       {      "query MAP --label",                                          "--label: a value is missing"},
