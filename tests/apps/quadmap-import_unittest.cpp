@@ -227,7 +227,11 @@ TEST_F(QuadmapImport, SaysThatNamesOfClassesAreNotUsed)
   const auto result = run("tum IN -o OUT/x.rawlog --labels my.names");
   EXPECT_EQ(result.status, 0);
   EXPECT_TRUE(isOneLine(result.err)) << result.err;
-  EXPECT_NE(result.err.find("hence --labels my.names is not used"), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("itself; --labels my.names is not used"), kNotFound) << result.err;
+  std::filesystem::remove_all(recording_.files.path("detections"));
+  const std::string note = run("tum IN -o OUT/x.rawlog --labels my.names").err;
+  EXPECT_NE(note.find("no detections, "), kNotFound) << note;
+  EXPECT_NE(note.find("; --labels my.names is not used"), kNotFound) << note;
 }
 
 TEST_F(QuadmapImport, TakesPosesAsAsked)

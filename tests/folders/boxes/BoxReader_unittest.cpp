@@ -161,7 +161,7 @@ TEST_F(BoxFiles, SaysThatNamesAreNotUsedWhereBoxesHaveTheirOwn)
   {
     EXPECT_EQ(
         openBoxes(place, "my.names")->note(),
-        place + ": has the names of the classes itself, hence --labels my.names is not used");
+        place + ": names its classes itself; --labels my.names is not used");
     EXPECT_EQ(openBoxes(place, "")->note(), "") << place;
   }
 }

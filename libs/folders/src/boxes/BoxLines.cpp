@@ -208,7 +208,7 @@ std::string noteOfUnnamedClasses(const std::string& place)
 std::string noteOfNamedClasses(const std::string& place, const std::string& labels)
 {
   if (labels.empty()) return {};
-  return place + ": has the names of the classes itself, hence --labels " + labels + " is not used";
+  return place + ": names its classes itself; --labels " + labels + " is not used";
 }
 
 void requireFewBoxes(std::size_t boxes, const std::string& place)

@@ -54,7 +54,8 @@ FrameFolder::FrameFolder(FolderContent content, const FrameFolderOptions& option
   if (boxes_ && !boxes_->note().empty()) content_.notes.push_back(boxes_->note());
   if (!boxes_)
     content_.notes.push_back(
-        content_.folder + ": no detections, hence no boxes (quadmap-slam --detector finds some)");
+        content_.folder + ": no detections, hence no boxes (quadmap-slam --detector finds some)" +
+        (options.labels.empty() ? "" : "; --labels " + options.labels + " is not used"));
   if (camera.worldUp) turnUp(*camera.worldUp);
 }
 
