@@ -43,6 +43,23 @@ TEST(ContactSheet, MarksDoubtfulObjects)
   EXPECT_FALSE(isColoured(1)) << "0.98";
 }
 
+TEST(ContactSheet, ShowsTheIdBehindALongLabel)
+{
+  const auto textOf = [](const std::string& id)
+  {
+    PageContent page = quadmap::testing::samplePage();
+    page.objects[1].record.label = std::string(60, 'w');
+    page.objects[1].record.id = id;
+    const TemporaryFolder folder;
+    writeContactSheet(page, folder.path("sheet.png"));
+    return cv::Mat(cv::imread(folder.path("sheet.png")), cv::Rect(8, 208, 200, 24)).clone();
+  };
+  EXPECT_GT(cv::norm(textOf("2"), textOf("7"), cv::NORM_INF), 100);
+  cv::Mat inverse;
+  cv::bitwise_not(textOf("2").colRange(197, 200), inverse);
+  EXPECT_EQ(cv::norm(inverse, cv::NORM_INF), 0) << "nothing is cut off at the right";
+}
+
 TEST(ContactSheet, MayBeEmpty)
 {
   const TemporaryFolder folder;

@@ -19,6 +19,9 @@ constexpr int kField = 200,
 constexpr double kAround =
     0.15;  // of a box that is shown around it, on each side / its longer side
 
+constexpr int kCaptionFont = cv::FONT_HERSHEY_SIMPLEX,
+              kCaptionMargin = 4;  // on each side of the text [px]
+constexpr double kCaptionScale = 0.5;
 const cv::Scalar kSure = cv::Scalar::all(30), kDoubt(0, 106, 154);  // of text; that of pages (BGR)
 
 struct View
@@ -66,6 +69,21 @@ cv::Mat cutOut(const View& view)
   return cut;
 }
 
+/** Label, id and mark of an object; of a label that is too long for the field, its beginning. */
+std::string captionOf(const ObjectRecord& record)
+{
+  const std::string end = " " + record.id + (isDoubtful(record) ? " ?" : "");
+  const auto fits = [&](const std::string& label)
+  {
+    const cv::Size size = cv::getTextSize(label + end, kCaptionFont, kCaptionScale, 1, nullptr);
+    return size.width <= kField - 2 * kCaptionMargin;
+  };
+  if (fits(record.label)) return record.label + end;
+  std::size_t length = 0;
+  while (length < record.label.size() && fits(record.label.substr(0, length + 1) + "..")) ++length;
+  return record.label.substr(0, length) + ".." + end;
+}
+
 void drawField(const PageContent& content, const PageObject& object, cv::Mat field)
 {
   const View view = bestView(content, object.record.id);
@@ -79,10 +97,9 @@ void drawField(const PageContent& content, const PageObject& object, cv::Mat fie
     cut(cv::Rect(0, 0, (place & square).width, (place & square).height))
         .copyTo(field(place & square));
   }
-  const bool doubtful = isDoubtful(object.record);
   cv::putText(
-      field, object.record.label + " " + object.record.id + (doubtful ? " ?" : ""),
-      {4, kField + 17}, cv::FONT_HERSHEY_SIMPLEX, 0.5, doubtful ? kDoubt : kSure, 1, cv::LINE_AA);
+      field, captionOf(object.record), {kCaptionMargin, kField + 17}, kCaptionFont, kCaptionScale,
+      isDoubtful(object.record) ? kDoubt : kSure, 1, cv::LINE_AA);
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ const Page = {
 
   // Distance of a centre from the truth that one would expect [m]; null when nothing is known.
   centreSigma(object) { return object.sigma && Math.hypot(object.sigma[0], object.sigma[1], object.sigma[2]); },
-  // Less certain than nine to one, or not confirmed at all.
-  isDoubtful(object) { return !object.confirmed || (object.existence !== null && object.existence < 0.9); },
+  // Not certain enough, or not confirmed at all.
+  isDoubtful(object) { return !object.confirmed || (object.existence !== null && object.existence < Page.data.sureExistence); },
 
   // The objects as the map has them. The quaternions of the file are rounded.
   restore() {

@@ -12,6 +12,7 @@
 
 #include "page/Base64.h"
 #include "quadmap/base/Json.h"
+#include "quadmap/obs/DoubtfulObject.h"
 #include "quadmap/obs/LabelColor.h"
 
 namespace quadmap
@@ -164,14 +165,15 @@ std::string pageJson(const PageContent& content)
   Json json = {
       {          "title",                            content.title},
       {          "floor",      rounded(content.scene.floorHeight(),kMillimetres)},
-      {        "objects",             objectsJson(content.objects)                                        },
-      {         "labels",               labelsJson(content.labels)},
-      {     "trajectory", trajectoryJson(content.scene.trajectory)                                        },
-      {       "odometry",   trajectoryJson(content.scene.odometry)},
-      {          "cloud",                                       {}                                        },
-      {   "comparedName",                     content.comparedName},
-      {"comparedIsTruth",                  content.comparedIsTruth                                        },
-      {       "compared",            objectsJson(content.compared)}
+      {  "sureExistence",                           kSureExistence                                        },
+      {        "objects",             objectsJson(content.objects)},
+      {         "labels",               labelsJson(content.labels)                                        },
+      {     "trajectory", trajectoryJson(content.scene.trajectory)},
+      {       "odometry",   trajectoryJson(content.scene.odometry)                                        },
+      {          "cloud",                                       {}},
+      {   "comparedName",                     content.comparedName                                        },
+      {"comparedIsTruth",                  content.comparedIsTruth},
+      {       "compared",            objectsJson(content.compared)                                        }
   };
   json["cloud"] = {
       {"points",                          content.scene.cloud.size()},

@@ -4,7 +4,13 @@
 
 namespace quadmap
 {
-/** Whether a map is not sure that an object exists: with a probability below 0.9. */
-inline bool isDoubtful(const ObjectRecord& record) { return record.existence.value_or(1) < 0.9; }
+/** Objects that exist with a smaller probability are doubtful. */
+inline constexpr double kSureExistence = 0.9;
+
+/** Whether a map is not sure that an object exists. */
+inline bool isDoubtful(const ObjectRecord& record)
+{
+  return record.existence.value_or(1) < kSureExistence;
+}
 
 }  // namespace quadmap
