@@ -18,21 +18,19 @@ double distanceFromOthers(
 {
   Pairs others = pairs;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-  const auto normal = evidence.normalEquations(placed, others);
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
-  if (!lu.isInvertible()) return 0;
-  const Eigen::Vector4d step = lu.solve(normal.g);
+  const auto found = evidence.normalEquations(placed, others).solved();
+  if (!found) return 0;
   const auto distance = [&](const Pairs::value_type& pair, const Eigen::Matrix4d& ofPlace)
   {
     const auto gap = evidence.gap(placed, pair.first, pair.second);
-    const Eigen::Vector3d d = gap.d - gap.J * step;
+    const Eigen::Vector3d d = gap.d - gap.J * found->step;
     return d.dot((gap.S + gap.J * ofPlace * gap.J.transpose()).ldlt().solve(d));
   };
   double sum = 0;
   for (const auto& pair : others) sum += distance(pair, Eigen::Matrix4d::Zero());
   const double freedom = std::max(0.0, 3.0 * static_cast<double>(others.size()) - 4);
   const double variance = std::clamp((3 + sum) / (3 + freedom), kLeastSpread * kLeastSpread, 1.0);
-  return distance(pairs[k], lu.inverse()) / variance;
+  return distance(pairs[k], found->covariance) / variance;
 }
 
 }  // namespace

@@ -161,13 +161,18 @@ PlaceEvidence::Normal PlaceEvidence::normalEquations(
   return normal;
 }
 
+std::optional<PlaceEvidence::Normal::Solution> PlaceEvidence::Normal::solved() const
+{
+  const Eigen::FullPivLU<Eigen::Matrix4d> lu(H);
+  if (!lu.isInvertible()) return std::nullopt;
+  return Solution{lu.solve(g), lu.inverse()};
+}
+
 Place PlaceEvidence::improved(const Place& place, const Pairs& pairs) const
 {
-  const auto normal = normalEquations(PlacedObjects(both_.local, place), pairs);
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(normal.H);
-  if (!lu.isInvertible()) return place;
-  const Eigen::Vector4d step = lu.solve(normal.g);
-  return {place.t + step.head<3>(), mrpt::math::wrapToPi(place.yaw + step[3])};
+  const auto found = normalEquations(PlacedObjects(both_.local, place), pairs).solved();
+  if (!found) return place;
+  return {place.t + found->step.head<3>(), mrpt::math::wrapToPi(place.yaw + found->step[3])};
 }
 
 }  // namespace quadmap

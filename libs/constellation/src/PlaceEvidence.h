@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -66,11 +67,18 @@ class PlaceEvidence
   {
     Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
     Eigen::Vector4d g = Eigen::Vector4d::Zero();
+
+    struct Solution
+    {
+      Eigen::Vector4d step;
+      Eigen::Matrix4d covariance;
+    };
+    /** Nothing when the pairs fix no place, as one object without a heading does. */
+    std::optional<Solution> solved() const;
   };
   Normal normalEquations(const PlacedObjects& placed, const Pairs& pairs) const;
 
-  /** The place moved to where its pairs agree best. It stays where they fix none, as one object
-   * without a heading does. */
+  /** The place moved to where its pairs agree best. It stays where they fix none. */
   Place improved(const Place& place, const Pairs& pairs) const;
 
   const Constellations& both() const { return both_; }

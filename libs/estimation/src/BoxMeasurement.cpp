@@ -9,6 +9,12 @@ namespace quadmap
 {
 namespace
 {
+/** The part of an edge's sigma by which all views of one side of a box err alike [m]. */
+double edgeShapeSigma(const ObjectView& view, const EstimatorOptions& options)
+{
+  return options.edgeShapeShare * view.halfSizes.mean();
+}
+
 /** The measurement with the map's axes turned by R and its origin moved.
  * \param origin Of the new frame, in the map [m]. */
 BoxMeasurement measurementIn(
@@ -71,11 +77,6 @@ double edgeSigma(
   return std::hypot(
       (view.center - view.camera).norm() * edge.angle + view.pose.position + options.edgeFloor,
       edgeShapeSigma(view, options));
-}
-
-double edgeShapeSigma(const ObjectView& view, const EstimatorOptions& options)
-{
-  return options.edgeShapeShare * view.halfSizes.mean();
 }
 
 Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)

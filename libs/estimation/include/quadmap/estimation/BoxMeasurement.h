@@ -56,9 +56,6 @@ BoxMeasurement measurementInMap(const ObjectView& view, const EstimatorOptions& 
 double edgeSigma(
     const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options);
 
-/** The part of it by which all views of one side of a box err alike [m]. */
-double edgeShapeSigma(const ObjectView& view, const EstimatorOptions& options);
-
 /** W such that W * (centre - seed) is in sigmas [1/m], doc/mathematics.md, (11.9).
  * \param covariance Of the seed [m^2]. W is for the frame that it is given in. */
 Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options);

@@ -33,12 +33,13 @@ class RobustKernel
 
   double cost(double r) const
   {
+    if (isSatisfied(r)) return 0;
     switch (kind_)
     {
       case Kind::Cauchy:
         return 0.5 * h_ * h_ * std::log1p(r * r / (h_ * h_));
       case Kind::Inequality:
-        return r <= 0 ? 0 : h_ * h_ / (1 + 1 / inequalitySquare(r));
+        return h_ * h_ / (1 + 1 / inequalitySquare(r));
       default:
         break;
     }
@@ -49,12 +50,13 @@ class RobustKernel
   /** Derivative of the cost by r, divided by r: the weight in the normal equations, in [0, 1]. */
   double weight(double r) const
   {
+    if (isSatisfied(r)) return 0;
     switch (kind_)
     {
       case Kind::Cauchy:
         return 1 / (1 + r * r / (h_ * h_));
       case Kind::Inequality:
-        return r <= 0 ? 0 : std::pow(1 + inequalitySquare(r), -2);
+        return std::pow(1 + inequalitySquare(r), -2);
       default:
         break;
     }
@@ -86,7 +88,7 @@ class RobustKernel
   RobustRow row(double r, double w) const
   {
     const double rootOfWeight = std::sqrt(w);
-    if (kind_ == Kind::Inequality && r <= 0) return {0, 0};
+    if (isSatisfied(r)) return {0, 0};
     const double value = root(r);
     // 1/2 value^2 = cost, and so value * slope = weight(r) * r.
     const double slope = value == r ? 1.0 : weight(r) * r / value;
@@ -103,6 +105,8 @@ class RobustKernel
   static constexpr double kNearZero = 1e-20;  // of r^2 / h^2
 
   constexpr RobustKernel(Kind kind, double h) : kind_(kind), h_(h) {}
+  bool isSatisfied(double r) const { return kind_ == Kind::Inequality && r <= 0; }
+
   /** r^2 / (2 h^2) of doc/mathematics.md, (11.13). */
   template <typename T>
   T inequalitySquare(const T& r) const
