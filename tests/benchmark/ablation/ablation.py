@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""What each rule of perception is worth: switches it off, maps, and compares with the truth.
+
+  ablation.py --check             each rule of rules/*.json still fits the sources
+  ablation.py [OPTION]... DIR     builds and runs in DIR; writes DIR/results.json and prints the table
+    --rooms N --first-seed S      random rooms, drifting odometry, 320x240 (default: 4, from 301)
+    --rules A,B                   these only
+    --jobs N                      at a time (default: number of cores)
+    --page FILE                   the table goes here
+
+A rule is {"rule", "equation", "what", "edits": [{"file", "from", "to"}]}: the edits switch it off. Real
+recordings are taken from $QUADMAP_TEST_DATA, poses given. What is done already is not done again.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+import threading
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+SOURCES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "cmake", "libs", "apps", "doc", "share")
+REAL = {  # name: folder, detections, poses
+    "kitchen_a NanoDet": ("kitchen_a", "detections", "ground-truth"),
+    "kitchen_a YOLOv8n": ("kitchen_a", "detections_yolov8n", "ground-truth"),
+    "tum_fr2_desk": ("tum_fr2_desk", "detections", "ground-truth"),
+    "tum_fr3_cabinet": ("tum_fr3_cabinet", "detections", "odometry"),
+}
+
+
+def read_rules():
+    return [rule for path in sorted((HERE / "rules").glob("*.json")) for rule in json.loads(path.read_text())]
+
+
+def switched_off(rule, root):
+    """The sources without the rule: {file: text}. Raises ValueError where they do not have it."""
+    texts = {}
+    for edit in rule["edits"]:
+        name = edit["file"]
+        text = texts.get(name) or (root / name).read_text()
+        if text.count(edit["from"]) != 1:
+            raise ValueError(f'{rule["rule"]}: {text.count(edit["from"])} times in {name}: {edit["from"]}')
+        texts[name] = text.replace(edit["from"], edit["to"])
+    return texts
+
+
+def check():
+    wrong, names = [], set()
+    for rule in read_rules():
+        if rule["rule"] in names:
+            wrong.append(f'{rule["rule"]}: twice')
+        names.add(rule["rule"])
+        try:
+            switched_off(rule, ROOT)
+        except (OSError, ValueError) as error:
+            wrong.append(str(error))
+    print("\n".join(wrong) or f"{len(names)} rules fit the sources")
+    return bool(wrong)
+
+
+def run(*command, **options):
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, **options)
+    if done.returncode:
+        raise RuntimeError(f'{" ".join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr[-2000:]}')
+
+
+class Bench:
+    """Programs with all rules, libraries without one, recordings, and what came out, in one folder."""
+
+    def __init__(self, folder):
+        self.folder, self.lock = folder, threading.Lock()
+        self.source, self.build = folder / "source", folder / "source/build/release"
+        self.results_file = folder / "results.json"
+        self.results = json.loads(self.results_file.read_text()) if self.results_file.exists() else {}
+
+    def build_programs(self):
+        for path in (path for name in SOURCES for path in [ROOT / name, *(ROOT / name).rglob("*")] if path.is_file()):
+            copy = self.source / path.relative_to(ROOT)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            # A run that was cut off may have left a rule switched off.
+            if not copy.exists() or copy.read_bytes() != path.read_bytes():
+                copy.write_bytes(path.read_bytes())
+                shutil.copymode(path, copy)
+        run("cmake", "--preset", "release", "-DQUADMAP_BUILD_TESTS=OFF", "-DQUADMAP_TOGETHER=ON", cwd=self.source)
+        run("cmake", "--build", self.build, "--target", "programs")
+
+    def library_without(self, rule):
+        """Folder with the library of perception that does without the rule."""
+        folder = self.folder / "libraries" / rule["rule"]
+        with self.lock:  # one folder of sources
+            if not folder.exists():
+                self.build_without(rule, folder)
+        return folder
+
+    def build_without(self, rule, folder):
+        kept = {name: (self.source / name).read_text() for name in {edit["file"] for edit in rule["edits"]}}
+        try:
+            for name, text in switched_off(rule, self.source).items():
+                (self.source / name).write_text(text)
+            run("cmake", "--build", self.build, "--target", "quadmap_perception")
+            folder.mkdir(parents=True)
+            shutil.copy(self.build / "lib/libquadmap-perception.so.0", folder)
+        finally:
+            for name, text in kept.items():
+                (self.source / name).write_text(text)
+
+    def recordings(self, rooms):
+        """{name: (folder, poses)}; those that are not there are made."""
+        out = {}
+        data = pathlib.Path(os.environ.get("QUADMAP_TEST_DATA", ROOT.parent / "shared/data"))
+        for name, (source, boxes, poses) in REAL.items():
+            if (data / source).exists():
+                out[name] = (self.recorded(name, data / source, boxes, poses), poses)
+        for seed in rooms:
+            out[f"room {seed}"] = (self.simulated(seed), "odometry")
+        return out
+
+    def recorded(self, name, source, boxes, poses):
+        folder = self.folder / "recordings" / name.replace(" ", ".")
+        if not (folder / "objects.gt.json").exists():
+            folder.mkdir(parents=True, exist_ok=True)
+            run(self.build / "bin/quadmap-import", "tum", source, "--poses-as", poses, "--detections", source / boxes,
+                "-o", folder / "x.rawlog")
+            shutil.copy(source / "groundtruth.txt", folder / "groundtruth.tum")
+            shutil.copy(source / "objects_gt.json", folder / "objects.gt.json")
+        return folder
+
+    def simulated(self, seed):
+        folder = self.folder / f"recordings/room.{seed}"
+        if not (folder / "objects.gt.json").exists():
+            folder.mkdir(parents=True, exist_ok=True)
+            run(self.build / "bin/quadmap-simulate", "random", "--seed", seed, "--resolution", "320x240",
+                "-o", folder / "x.rawlog")
+            for name in ("groundtruth.tum", "objects.gt.json"):
+                (folder / f"x.{name}").rename(folder / name)
+        return folder
+
+    def measure(self, rule, library, recording, poses):
+        """F1, Trans [m], Shape and the worth, F1 times the IoU in 3D, of one run."""
+        out = self.folder / "runs" / rule / recording.name
+        environment = dict(os.environ, LD_LIBRARY_PATH=str(library or ""))
+        shutil.rmtree(out, ignore_errors=True)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        odometry = "ground-truth" if poses == "ground-truth" else "rawlog"
+        run(self.build / "bin/quadmap-slam", recording / "x.rawlog", "-o", out, "--threads", 1,
+            "--odometry", odometry, env=environment)
+        figures = out.with_suffix(".json")
+        run(self.build / "bin/quadmap-evaluate", out, "--objects", recording / "objects.gt.json",
+            "--trajectory", recording / "groundtruth.tum", "--json", figures)
+        objects = json.loads(figures.read_text())["objects"]
+        shutil.rmtree(out)
+        worth = objects["f1"] * (objects["iou_3d"] or 0)
+        return {"f1": objects["f1"], "trans": objects["trans_m"], "shape": objects["shape_iou"], "worth": worth}
+
+    def keep(self, rule, name, figures):
+        with self.lock:
+            self.results.setdefault(rule, {})[name] = figures
+            self.results_file.write_text(json.dumps(self.results, indent=1))
+
+
+def run_all(bench, rules, rooms, jobs):
+    """Returns the names of the recordings."""
+    bench.build_programs()
+    recordings = bench.recordings(rooms)
+    left = len(rules) + 1
+
+    def without(rule):
+        nonlocal left
+        missing = [name for name in recordings if name not in bench.results.get(rule["rule"], {})]
+        library = bench.library_without(rule) if rule["edits"] and missing else None
+        for name in missing:
+            bench.keep(rule["rule"], name, bench.measure(rule["rule"], library, *recordings[name]))
+        left -= 1
+        print(f"\r{left} rules left ", end="", file=sys.stderr, flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for job in [pool.submit(without, rule) for rule in [{"rule": "none", "edits": []}] + rules]:
+            job.result()
+    print(file=sys.stderr)
+    return list(recordings)
+
+
+def table(bench, rules, recordings):
+    """One row a rule, those that are worth most first: loss of each figure without it, in hundredths."""
+    groups = {"rooms": [r for r in recordings if r.startswith("room ")], "real": [r for r in recordings if r in REAL]}
+    base, rows = bench.results["none"], []
+
+    def loss(rule, names, figure):
+        differences = [base[n][figure] - bench.results[rule][n][figure] for n in names
+                       if base[n][figure] is not None and bench.results[rule][n][figure] is not None]
+        return 100 * statistics.fmean(differences) if differences else 0.0
+
+    for rule in rules:
+        worths = [base[n]["worth"] - bench.results[rule["rule"]][n]["worth"] for n in recordings]
+        cells = [f'{loss(rule["rule"], names, figure):.1f}' for names in groups.values() if names
+                 for figure in ("f1", "shape", "worth")]
+        rows.append((statistics.fmean(worths), max(worths), rule, cells))
+    rows.sort(key=lambda row: -row[0])
+    lines = ["| rule | equation | what it does | " + " | ".join(
+        f"{group}: {figure}" for group, names in groups.items() if names for figure in ("F1", "Shape", "worth")) + " | most |"]
+    lines.append("|" + "---|" * (lines[0].count("|") - 1))
+    for _, most, rule, cells in rows:
+        lines.append(f'| {rule["rule"]} | {rule["equation"]} | {rule["what"]} | {" | ".join(cells)} | {100 * most:.1f} |')
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("folder", nargs="?", type=lambda name: pathlib.Path(name).resolve())
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--rooms", type=int, default=4)
+    parser.add_argument("--first-seed", type=int, default=301)
+    parser.add_argument("--rules", default="")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--page", type=pathlib.Path)
+    choice = parser.parse_args()
+    if choice.check or not choice.folder:
+        sys.exit(check() if choice.check else parser.error("a folder is needed"))
+    names = set(choice.rules.split(",")) if choice.rules else None
+    rules = [rule for rule in read_rules() if names is None or rule["rule"] in names]
+    bench = Bench(choice.folder)
+    rooms = range(choice.first_seed, choice.first_seed + choice.rooms)
+    text = table(bench, rules, run_all(bench, rules, rooms, choice.jobs))
+    choice.page.write_text(text) if choice.page else print(text)
+
+
+if __name__ == "__main__":
+    main()
