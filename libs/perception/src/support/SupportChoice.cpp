@@ -16,9 +16,8 @@ namespace
 {
 // Evidence is added up in natural logarithms of odds; each kind is bounded, so that no single one
 // decides against all others.
-constexpr double kCovered = 4.0;  // the surface reaches under the object
-constexpr double kBelow = -8.0;   // per share of the object that lies under the surface
-constexpr double kAllowedBelow = 0.1;
+constexpr double kCovered = 4.0;    // the surface reaches under the object
+constexpr double kBelow = -8.0;     // per share of the object that lies under the surface
 constexpr double kGap = -1.5;       // a gap between them: something nearer may carry it
 constexpr double kGapScale = 0.10;  // [m]
 constexpr double kAbsent = -4.0;    // the object would show in the gap, and does not
@@ -141,15 +140,12 @@ class SupportJudge
   /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
   double standingScore(int i) const
   {
-    constexpr double kMinTouching = 0.15;
-    constexpr double kMinCovered = 0.3, kMaxBelow = 0.5;
     constexpr double kAround = 0.5;
     const ScenePlane& plane = planes_.plane(i);
     const auto ring = touching(plane.plane);
     SupportSurface surface = {plane.plane, plane.extent};
     if (const auto* owner = ownerOf(i)) surface.box = owner->box;
-    if (ring.share > kMinTouching)
-      surface.extent = plane.extent.grown(connectedTo(cloud_, surface, ring.surface, options_));
+    surface.extent = plane.extent.grown(connectedTo(cloud_, surface, ring.surface, options_));
     const auto e = standingEvidence(cloud_, surface, object_, detection_.box, label_, options_);
     // A thing's own top is in its box, too, with little above it; thin things rise little above the
     // noise.
@@ -159,9 +155,7 @@ class SupportJudge
     // the noise of single points.
     const bool isAround = !mayBeItsTop && ring.share > kAround;
     if (e.above < minAbove && !isAround) return 0;
-    if (e.covered < kMinCovered || e.below > kMaxBelow) return 0;
-    return kCovered * e.covered + kBelow * std::max(0.0, e.below - kAllowedBelow) +
-           kGap * (1 - std::exp(-e.gap / kGapScale)) +
+    return kCovered * e.covered + kBelow * e.below + kGap * (1 - std::exp(-e.gap / kGapScale)) +
            kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
            usual(i) + heightPenalty(e.top, label_, tooLow(i));
   }

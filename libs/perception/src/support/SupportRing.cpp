@@ -97,7 +97,6 @@ void findBeside(
 RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring)
 {
   constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
-  constexpr double kSurely = 0.5;  // of the tolerance; the desk lies not far below a keyboard's top
   RingEvidence out;
   int all = 0, on = 0;
   for (const auto& p : points)
@@ -108,9 +107,7 @@ RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ri
     if (distance > p.tolerance) continue;
     if (ring == Ring::LowerHalf && (!p.beside || distance > p.nearest + p.noise)) continue;
     ++on;
-    if (!p.inBox && distance < kSurely * p.tolerance && p.normal &&
-        p.normal->dot(plane.n) > kSameWay)
-      out.surface.push_back(p.point);
+    if (p.normal && p.normal->dot(plane.n) > kSameWay) out.surface.push_back(p.point);
   }
   if (all > 0) out.share = static_cast<double>(on) / all;
   return out;
