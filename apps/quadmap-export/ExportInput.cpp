@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/Sha256.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 #include "quadmap/maps/MapFile.h"
 #include "quadmap/maps/ObjectRecords.h"
@@ -88,18 +89,25 @@ std::vector<PageObject> pageObjectsOf(const CQuadricObjectMap& map)
   return objects;
 }
 
+/** What a page calls a file or folder: pages are passed on, and whose folders these are is nobody
+ * else's business. */
+std::string shownName(const std::string& path)
+{
+  return fs::weakly_canonical(path).filename().string();
+}
+
 /** Fills in the truth or the second map. */
 void addCompared(
     const ExportInput& input, const std::optional<std::string>& mapPath, PageContent& content)
 {
   if (mapPath)
   {
-    content.comparedName = *mapPath;
+    content.comparedName = shownName(*mapPath);
     content.compared = pageObjectsOf(readMap(*mapPath));
   }
   else if (input.truthPath)
   {
-    content.comparedName = *input.truthPath;
+    content.comparedName = shownName(*input.truthPath);
     content.comparedIsTruth = true;
     for (const ObjectRecord& record : content.scene.truth)
     {
@@ -127,7 +135,8 @@ PageContent readPageInput(
     images->add(scan, camera);
   };
   PageContent content;
-  content.title = input.path;
+  content.title = shownName(input.path);
+  content.mapSha256 = sha256OfFile(mapFileOf(input.path));
   content.scene = readScene(input, map, visit);
   content.objects = pageObjectsOf(map);
   for (const auto& entry : map.labels().all()) content.labels.push_back(entry.first);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <iostream>
 #include <string>
-#include <vector>
 
 #include "EditCli.h"
 #include "ObjectTable.h"
+#include "quadmap/base/Sha256.h"
 #include "quadmap/maps/MapEdits.h"
 #include "quadmap/maps/MapFile.h"
 
@@ -16,6 +16,21 @@ namespace quadmap
 {
 namespace
 {
+constexpr const char* kAnyLabelHelp =
+    "Take a label that neither the map's label table nor its objects have.";
+
+/** \exception std::runtime_error If the list was made for another map, or for another state of it.
+ */
+void requireSameMap(
+    const MapEditList& edits, const std::string& listPath, const std::string& mapPath)
+{
+  if (!edits.mapSha256.empty() && edits.mapSha256 != sha256OfFile(mapFileOf(mapPath)))
+    throw std::runtime_error(
+        listPath + ": was made for another map than " + mapPath +
+        ", or for another state of it: its numbers may name other objects here; --any-map applies "
+        "it all the same");
+}
+
 /** When the confirmed objects were seen, as a line; empty when there is none. */
 std::string timesSeen(const CQuadricObjectMap& map)
 {
@@ -58,9 +73,7 @@ void relabelCommand(int argc, char** argv)
       "Calls object 7 an armchair.");
   Id id("", "id", "The object.", true, 0, "N", cli.line.args());
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
-  TCLAP::SwitchArg anyLabel(
-      "", "any-label", "Take a label that neither the map's label table nor its objects have.",
-      cli.line.args());
+  TCLAP::SwitchArg anyLabel("", "any-label", kAnyLabelHelp, cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
   if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
   CQuadricObjectMap map = readMap(cli.file.getValue());
@@ -96,12 +109,21 @@ void applyCommand(int argc, char** argv)
       "Applies what was changed in the page.");
   TCLAP::UnlabeledValueArg<std::string> list(
       "EDITS", "The list (.json).", true, "", "EDITS", cli.line.args());
+  TCLAP::SwitchArg anyMap(
+      "", "any-map", "Apply a list that was made for another map, or for another state of it.",
+      cli.line.args());
+  TCLAP::SwitchArg anyLabel("", "any-label", kAnyLabelHelp, cli.line.args());
   if (!cli.line.parse(argc, argv)) return;
-  const std::vector<MapEdit> edits = readMapEdits(list.getValue());
+  const MapEditList edits = readMapEdits(list.getValue());
   CQuadricObjectMap map = readMap(cli.file.getValue());
+  if (!anyMap.getValue()) requireSameMap(edits, list.getValue(), cli.file.getValue());
+  if (!anyLabel.getValue())
+    for (const MapEdit& edit : edits.edits)
+      if (edit.kind == MapEdit::Kind::Relabel)
+        requireLabel(inventoryOf(map), edit.label, list.getValue());
   try
   {
-    applyEdits(edits, map);
+    applyEdits(edits.edits, map);
   }
   catch (const std::exception& e)
   {

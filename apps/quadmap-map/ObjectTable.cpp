@@ -119,8 +119,8 @@ void requireLabel(const Inventory& inventory, const std::string& label, const st
   for (const std::string& word : similarLabels(inventory, label))
     similar += (similar.empty() ? "; did you mean \"" : "\" or \"") + oneLine(word);
   throw std::runtime_error(
-      path + ": \"" + oneLine(label) + "\" is a label neither of its label table nor of its " +
-      "objects (" + labelCounts(inventory) + ")" + similar + (similar.empty() ? "" : "\"?"));
+      path + ": \"" + oneLine(label) + "\" is a label neither of the map's label table nor of " +
+      "its objects (" + labelCounts(inventory) + ")" + similar + (similar.empty() ? "" : "\"?"));
 }
 
 }  // namespace quadmap

@@ -6,6 +6,7 @@
 #include "../obs/FileSizeLimit.h"
 #include "RunProgram.h"
 #include "SampleMap.h"
+#include "quadmap/base/Sha256.h"
 
 using namespace quadmap;
 
@@ -247,6 +248,37 @@ TEST_F(QuadmapMap, AppliesAnEditList)
   EXPECT_FALSE(std::filesystem::exists(folder_.path("x.quadmap")));
 }
 
+TEST_F(QuadmapMap, AppliesAnEditListToItsOwnMapOnly)
+{
+  const std::string list = R"({"format": "quadmap-edits", "version": 1, "map_sha256": ")" +
+                           sha256OfFile(folder_.path("objects.quadmap")) +
+                           R"(", "edits": [{"op": "remove", "id": )" +
+                           std::to_string(idOf("chair")) + "}]}";
+  folder_.write("edits.json", list);
+  ASSERT_EQ(run("apply MAP DIR/edits.json -o DIR/once.quadmap").status, 0);
+  const auto other = run("apply DIR/once.quadmap DIR/edits.json -o DIR/twice.quadmap");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.err.find("edits.json: was made for another map"), kNotFound) << other.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("twice.quadmap")));
+  ASSERT_EQ(
+      run("relabel MAP" + option("id", "couch") + " --label bench -o DIR/o.quadmap").status, 0);
+  EXPECT_EQ(run("apply DIR/o.quadmap DIR/edits.json --any-map -o DIR/p.quadmap").status, 0);
+  EXPECT_TRUE(mapFrom(folder_.path("p.quadmap")).withLabel("chair").empty());
+}
+
+TEST_F(QuadmapMap, AppliesNoMisspeltLabel)
+{
+  folder_.write(
+      "edits.json",
+      R"({"format": "quadmap-edits", "version": 1, "edits": [{"op": "relabel", "id": )" +
+          std::to_string(idOf("chair")) + R"(, "label": "bnech"}]})");
+  const auto misspelt = run("apply MAP DIR/edits.json -o DIR/a.quadmap");
+  EXPECT_EQ(misspelt.status, 1);
+  EXPECT_NE(misspelt.err.find("did you mean \"bench\"?"), kNotFound) << misspelt.err;
+  ASSERT_EQ(run("apply MAP DIR/edits.json --any-label -o DIR/a.quadmap").status, 0);
+  EXPECT_EQ(mapFrom(folder_.path("a.quadmap")).withLabel("bnech").size(), 1u);
+}
+
 TEST_F(QuadmapMap, ChangesAMapInPlace)
 {
   ASSERT_EQ(run("remove MAP" + option("id", "couch") + " -o MAP").status, 0);
@@ -334,7 +366,8 @@ TEST_F(QuadmapMap, NamesTheWrongArgumentFirst)
       {     "query MAP --id one",                                   "--id: expected a number, got 'one'"},
       {      "query MAP --label",                                          "--label: a value is missing"},
       {"query MAP --id 1 --id 2",                                                 "--id: is given twice"},
-      {    "info MAP DIR/second",                                     "second: is one argument too many"}
+      {    "info MAP DIR/second",                                     "second: is one argument too many"},
+      {   "query MAP frobnicate",                                       "(see quadmap-map query --help)"}
   };
   for (const auto& [arguments, complaint] : complaints)
   {

@@ -74,7 +74,7 @@ void apply(const MapEdit& edit, CQuadricObjectMap& map)
 
 }  // namespace
 
-std::vector<MapEdit> readMapEdits(const std::string& path)
+MapEditList readMapEdits(const std::string& path)
 {
   const Json json = readJson(path);
   const auto fail = [&](const std::string& what) { throw std::runtime_error(path + ": " + what); };
@@ -82,16 +82,19 @@ std::vector<MapEdit> readMapEdits(const std::string& path)
       !json.contains("edits") || !json.at("edits").is_array())
     fail("is no list of edits: expected \"format\": \"quadmap-edits\" and \"edits\"");
   if (json.value("version", Json()) != 1) fail("is of another version than 1, which is known here");
-  std::vector<MapEdit> edits;
+  MapEditList list;
+  const Json map = json.value("map_sha256", Json(""));
+  if (!map.is_string()) fail("\"map_sha256\" must be text");
+  list.mapSha256 = map.get<std::string>();
   for (const Json& edit : json.at("edits")) try
     {
-      edits.push_back(editFrom(edit));
+      list.edits.push_back(editFrom(edit));
     }
     catch (const std::exception& e)
     {
-      fail(mrpt::format("edit %zu: %s", edits.size() + 1, e.what()));
+      fail(mrpt::format("edit %zu: %s", list.edits.size() + 1, e.what()));
     }
-  return edits;
+  return list;
 }
 
 void applyEdits(const std::vector<MapEdit>& edits, CQuadricObjectMap& map)

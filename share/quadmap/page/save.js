@@ -10,7 +10,7 @@ Page.save = (function () {
       for (const key of ["id", "keep", "absorb"]) if (key in out) out[key] = idOf(out[key]);
       return out;
     });
-    return JSON.stringify({format: "quadmap-edits", version: 1, edits: list}, null, 1) + "\n";
+    return JSON.stringify({format: "quadmap-edits", version: 1, map_sha256: Page.data.mapSha256, edits: list}, null, 1) + "\n";
   }
   // The confirmed objects and those that were edited, in the frame of the map: the form of objects.json.
   function truth() {
@@ -39,6 +39,8 @@ Page.save = (function () {
     list.style.margin = "0";
     for (const edit of edits) Page.element("li", list, textOf(edit));
     if (!edits.length) Page.element("span", panel, "Nothing was changed.", "dim");
+    if (edits.some((edit) => edit.op === "merge"))
+      Page.element("p", panel, "A merged object keeps the size and the place of the one that stays here and in a truth. Applying the edits to the map estimates it anew from what both were measured by.", "dim");
     const row = Page.element("div", panel, null, "row");
     Page.button(row, "Undo", () => Page.editing.undo()).id = "undo";
     Page.button(row, "Save edits", () => download("edits.json", editList())).id = "save-edits";

@@ -164,6 +164,7 @@ std::string pageJson(const PageContent& content)
   const CloudGrid grid(content.scene.cloud);
   Json json = {
       {          "title",                            content.title},
+      {      "mapSha256",                        content.mapSha256},
       {          "floor",      rounded(content.scene.floorHeight(),kMillimetres)},
       {  "sureExistence",                           kSureExistence                                        },
       {        "objects",             objectsJson(content.objects)},

@@ -24,10 +24,17 @@ struct MapEdit
   Ellipsoid object;       //!< Place: where it is, and how large
 };
 
-/** Reads an edit list as a page saves it.
- * \exception std::runtime_error For a file that cannot be read or is no edit list. The message
+/** An edit list as a page saves it. */
+struct MapEditList
+{
+  std::string
+      mapSha256;  //!< Of the file of the map it was made for, as hexadecimal digits; or empty
+  std::vector<MapEdit> edits;  //!< In their order
+};
+
+/** \exception std::runtime_error For a file that cannot be read or is no edit list. The message
  * names file and edit. */
-std::vector<MapEdit> readMapEdits(const std::string& path);
+MapEditList readMapEdits(const std::string& path);
 
 /** Applies the edits in their order.
  * \exception std::runtime_error If an object is not there, or cannot be edited so. The message

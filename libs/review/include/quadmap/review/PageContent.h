@@ -45,6 +45,7 @@ struct PageKeyframe
 struct PageContent
 {
   std::string title;
+  std::string mapSha256;            //!< Of the map's file, for edit lists: hexadecimal digits
   SceneContent scene;               //!< Trajectories and cloud; its objects are not shown
   std::vector<PageObject> objects;  //!< Of the map, confirmed or not
   std::vector<std::string> labels;  //!< Names offered when an object is labelled anew
