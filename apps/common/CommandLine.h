@@ -33,6 +33,12 @@ namespace quadmap::cli
 struct UsageError : std::runtime_error
 {
   using std::runtime_error::runtime_error;
+  UsageError(const std::string& what, std::string ofCommand) :
+      std::runtime_error(what), command(std::move(ofCommand))
+  {
+  }
+
+  std::string command;  //!< Of a program with commands: whose --help helps; else empty
 };
 
 /** Runs a program: 0 when `body` returns (or what it returns, if it is an int), 2 for a UsageError,
@@ -54,7 +60,8 @@ int runMain(const char* program, F&& body) noexcept
   }
   catch (const UsageError& e)
   {
-    std::cerr << program << ": " << oneLine(e.what()) << " (see " << program << " --help)\n";
+    std::cerr << program << ": " << oneLine(e.what()) << " (see " << program << " "
+              << (e.command.empty() ? "" : e.command + " ") << "--help)\n";
     return 2;
   }
   catch (const std::exception& e)

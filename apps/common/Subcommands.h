@@ -31,6 +31,19 @@ inline void printHelpAs(
   std::cout << (isManual ? manualTail() : completionTail(program.program, true));
 }
 
+/** Runs a command. \exception UsageError Names it. */
+inline void runSubcommand(const Subcommands::value_type& command, int argc, char** argv)
+{
+  try
+  {
+    command.second(argc, argv);
+  }
+  catch (const UsageError& e)
+  {
+    throw UsageError(e.what(), command.first);
+  }
+}
+
 /** main() of such a program.
  * \param description Of the program, for --help without a command. */
 inline int runSubcommands(
@@ -45,7 +58,7 @@ inline int runSubcommands(
       [&]
       {
         const auto command = argc > 1 ? commands.find(argv[1]) : commands.end();
-        if (command != commands.end()) return command->second(argc - 1, argv + 1);
+        if (command != commands.end()) return runSubcommand(*command, argc - 1, argv + 1);
         if (argc == 3 && argv[1] == std::string("--help-as"))
           return printHelpAs(argv[2], {program, description, QUADMAP_VERSION, {}, {}}, commands);
         // --help, --version, and what is wrong when no command is given.

@@ -201,6 +201,20 @@ TEST(Questions, DoubtfulObjectsComeLastAndAreMarked)
   EXPECT_EQ(reasonOf("nearest cup to the tv", room), "0.31 m from tv 12?") << "no other is left";
 }
 
+TEST(Questions, DoNotFindWhatIsSurelyNotThere)
+{
+  Inventory room = livingRoom();
+  for (InventoryItem& item : room.items)
+    if (item.record.id == "1" || item.record.id == "5")
+    {
+      item.confirmed = false;
+      item.record.existence = 0.09;
+    }
+  EXPECT_EQ(asked("cups", room), Ids{"8"});
+  EXPECT_EQ(ask(room, "cup near the tv").whyNothing, "there is no \"tv\"");
+  EXPECT_EQ(asked("cup 5", room), Ids{"5"}) << "by its number it is";
+}
+
 TEST(Questions, KeepWithinLimits)
 {
   AnswerLimits limits;

@@ -17,6 +17,9 @@ struct InventoryItem
 
   /** Not confirmed, or it exists with a probability below 0.9. */
   bool isDoubtful() const { return !confirmed || quadmap::isDoubtful(record); }
+
+  /** As surely not there as others are there: it exists with a probability below 0.1. */
+  bool isRefuted() const { return record.existence && *record.existence < 1 - kSureExistence; }
 };
 
 /** What there is: objects, and the labels they may be called by. A value of its own, which does not
