@@ -31,7 +31,8 @@ struct Cli
       "Finds the robot of an RGB-D rawlog in a map of objects, from anywhere in it, with a "
       "particle "
       "filter, and follows it. The map stays as it is. Boxes come from the rawlog or from "
-      "NAME.objects.rawlog beside it. The status is 1 when the robot was not found. Ctrl-C stops "
+      "NAME.objects.rawlog beside it. The status is 1 when the robot was not found, or is lost in "
+      "the end. Ctrl-C stops "
       "early: the files then hold what was done, and the exit status is 130 (143 after SIGTERM).",
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> rawlog{
@@ -151,22 +152,39 @@ void write(Cli& cli, const LocalizationRequest& request, const LocalizationResul
   for (const auto& name : files.names()) std::printf("wrote %s/%s\n", folder.c_str(), name.c_str());
 }
 
+/** Since when the robot is localised, and whether it was before. */
+void printLocalised(const LocalizationResult& result)
+{
+  const auto& all = result.updates;
+  const auto first = std::find_if(
+      all.begin(), all.end(), [](const auto& update) { return update.estimate.isLocalised; });
+  if (first == all.end())
+  {
+    std::printf("not localised yet\n");
+    return;
+  }
+  const auto from = result.localisedFrom();
+  const auto firstIndex = static_cast<std::size_t>(first - all.begin());
+  if (from != firstIndex)
+    std::printf(
+        "localised for the first time at update %zu, %.1f s after the first, and lost again\n",
+        firstIndex + 1, first->time - all.front().time);
+  if (from)
+    std::printf(
+        "localised from update %zu of %zu on, %.1f s after the first\n", *from + 1, all.size(),
+        all[*from].time - all.front().time);
+}
+
 void printSummary(const LocalizationResult& result)
 {
-  const auto updates = static_cast<double>(result.updates.size());
-  if (const auto from = result.localisedFrom())
-    std::printf(
-        "localised from update %zu of %zu on, %.1f s after the first\n", *from + 1,
-        result.updates.size(), result.updates[*from].time - result.updates.front().time);
-  else
-    std::printf(
-        result.trajectory().empty() ? "not localised yet\n"
-                                    : "localised for a while, but lost in the end\n");
+  printLocalised(result);
   if (result.updates.empty()) return;
+  const auto updates = static_cast<double>(result.updates.size());
   const LocalizationEstimate& last = result.updates.back().estimate;
   std::printf(
-      "at the end: x %.3f m, y %.3f m, yaw %.1f deg, within %.3f m and %.1f deg\n",
-      last.T_map_robot.x(), last.T_map_robot.y(), 180 / M_PI * last.T_map_robot.yaw(), last.sigma,
+      "%s: x %.3f m, y %.3f m, yaw %.1f deg, within %.3f m and %.1f deg\n",
+      last.isLocalised ? "at the end" : "the best guess at the end", last.T_map_robot.x(),
+      last.T_map_robot.y(), 180 / M_PI * last.T_map_robot.yaw(), last.sigma,
       180 / M_PI * last.yawSigma);
   std::printf(
       "%zu frames; %.1f updates/s by the filter alone, %.1f with looking at the images\n",
@@ -188,9 +206,15 @@ int run(Cli& cli)
   if (cli.line.verbosity() <= mrpt::system::LVL_INFO) printSummary(result);
   for (const auto& what : result.dropped)
     std::cerr << "quadmap-localize: left out: " << what << "\n";
-  if (!result.interrupted) return 0;
-  std::cerr << "quadmap-localize: interrupted, the files hold what was done\n";
-  return 128 + cli::stopSignal;  // the exit status by which shells report a signal
+  if (result.interrupted)
+  {
+    std::cerr << "quadmap-localize: interrupted, the files hold what was done\n";
+    return 128 + cli::stopSignal;  // the exit status by which shells report a signal
+  }
+  if (result.localisedFrom()) return 0;
+  std::cerr << "quadmap-localize: " << oneLine(request.rawlog)
+            << ": the robot is lost in the end\n";
+  return 1;
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ void relabelCommand(int argc, char** argv)
   Id id("", "id", "The object.", true, 0, "N", cli.line.args());
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
   TCLAP::SwitchArg anyLabel("", "any-label", kAnyLabelHelp, cli.line.args());
-  if (!cli.line.parse(argc, argv)) return;
+  if (!cli.parse(argc, argv)) return;
   if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
   CQuadricObjectMap map = readMap(cli.file.getValue());
   requireObject(map, id.getValue(), cli.file.getValue());
@@ -91,7 +91,7 @@ void removeCommand(int argc, char** argv)
       "Leaves out two objects.");
   TCLAP::MultiArg<unsigned> ids(
       "", "id", "An object; may be given several times.", true, "N", cli.line.args());
-  if (!cli.line.parse(argc, argv)) return;
+  if (!cli.parse(argc, argv)) return;
   CQuadricObjectMap map = readMap(cli.file.getValue());
   for (const unsigned id : ids.getValue())
   {
@@ -113,7 +113,7 @@ void applyCommand(int argc, char** argv)
       "", "any-map", "Apply a list that was made for another map, or for another state of it.",
       cli.line.args());
   TCLAP::SwitchArg anyLabel("", "any-label", kAnyLabelHelp, cli.line.args());
-  if (!cli.line.parse(argc, argv)) return;
+  if (!cli.parse(argc, argv)) return;
   const MapEditList edits = readMapEdits(list.getValue());
   CQuadricObjectMap map = readMap(cli.file.getValue());
   if (!anyMap.getValue()) requireSameMap(edits, list.getValue(), cli.file.getValue());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,18 @@ struct EditCli
   EditCli(const std::string& command, const std::string& description) :
       line("quadmap-map " + command, description, QUADMAP_VERSION)
   {
+  }
+
+  /** \return As CommandLine::parse(). \exception cli::UsageError Also for a name that would be read
+   * as another kind of file. */
+  bool parse(int argc, char** argv)
+  {
+    if (!line.parse(argc, argv)) return false;
+    const auto extension = std::filesystem::path(output.getValue()).extension();
+    if (!extension.empty() && extension != ".quadmap")
+      throw cli::UsageError(
+          "-o: a map is written as .quadmap, got '" + oneLine(output.getValue()) + "'");
+    return true;
   }
 
   /** Writes the changed map and says so. */

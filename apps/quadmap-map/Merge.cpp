@@ -99,6 +99,15 @@ void requireNewFile(const TwoMaps& maps, const std::string& output)
         throw cli::UsageError("-o: must not be one of the two maps, which stay as they are");
 }
 
+/** Merged with itself, a map would count all its frames twice.
+ * \exception cli::UsageError If the two files are one, or are equal. */
+void requireTwoMaps(const TwoMaps& maps)
+{
+  if (sha256OfFile(mapFileOf(maps.ownName)) == sha256OfFile(mapFileOf(maps.otherName)))
+    throw cli::UsageError(
+        "merge: " + maps.ownName + " and " + maps.otherName + " are the same map");
+}
+
 std::string quantity(std::size_t n, const char* thing)
 {
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
@@ -155,6 +164,7 @@ void mergeMaps(MergeCli& cli)
 {
   const fs::path output = cli.output.getValue();
   TwoMaps maps(cli);
+  requireTwoMaps(maps);
   requireNewFile(maps, output.string());
   const MapMergeOptions options =
       cli.config.isSet() ? readMergeOptions(cli.config.getValue()) : MapMergeOptions();
@@ -176,7 +186,7 @@ void mergeMaps(MergeCli& cli)
 void mergeCommand(int argc, char** argv)
 {
   MergeCli cli;
-  if (!cli.line.parse(argc, argv)) return;
+  if (!cli.parse(argc, argv)) return;
   if (cli.isOfMaps())
     mergeMaps(cli);
   else

@@ -106,12 +106,16 @@ TEST_F(QuadmapMapMerge, TellsWhatIsGoneByTheFramesOfTheNewerMap)
   EXPECT_FALSE(conflicts[0]["own"].is_null());
 }
 
-TEST_F(QuadmapMapMerge, TheSameMapTwiceIsThatMap)
+TEST_F(QuadmapMapMerge, RefusesTheSameMapTwice)
 {
-  const auto result = run("@own.quadmap @own.quadmap -o @both.quadmap");
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(mapFrom(folder_.path("both.quadmap")).objects().size(), 3u);
-  EXPECT_TRUE(report("both.merge.json")["conflicts"].empty());
+  std::filesystem::copy(folder_.path("own.quadmap"), folder_.path("copy.quadmap"));
+  for (const char* second : {"@own.quadmap", "@copy.quadmap"})
+  {
+    const auto result = run("@own.quadmap " + std::string(second) + " -o @both.quadmap");
+    EXPECT_EQ(result.status, 2) << second;
+    EXPECT_NE(result.err.find("are the same map"), kNotFound) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("both.quadmap")));
 }
 
 TEST_F(QuadmapMapMerge, RefusesMapsOfOtherPlacesAndDamagedOnes)
@@ -151,6 +155,7 @@ TEST_F(QuadmapMapMerge, WrongCallsAreTold)
         "@own.quadmap @other.simplemap --keep 1 --absorb 2 -o @x",
         "@own.quadmap @other.simplemap @own.quadmap -o @x",
         "@own.quadmap @other.simplemap -o @own.quadmap",
+        "@own.quadmap @other.simplemap -o @both.json",
         "@home @own.quadmap -o @home/objects.simplemap",
         "@own.quadmap --keep 1 --absorb 2 --config @x.ini -o @x"})
   {

@@ -351,6 +351,38 @@ TEST(MapMerging, WhatNeitherMapIsSureOfIsNotReported)
   EXPECT_EQ(own.withLabel("suitcase").front()->existenceLogOdds, 8);
 }
 
+TEST(MapMerging, KeepsDoubtsOfBothMapsInEitherOrder)
+{
+  std::mt19937 rng(9);
+  Room room = randomRoom(rng);
+  room.push_back(thing(20, "suitcase", CPose3D(4.6, 0, 0.3, 0.2, 0, 0)));
+  room.back().existenceLogOdds = 2;
+  Room later = room;
+  room.push_back(thing(21, "sink", CPose3D(-4.6, 0, 0.3, 0.2, 0, 0)));
+  room.back().existenceLogOdds = 2;
+  later.push_back(thing(22, "bed", CPose3D(0, 4.6, 0.3, 0.2, 0, 0)));
+  later.back().existenceLogOdds = 2;
+  CQuadricObjectMap ab = mapOf(room, CPose3D(), rng), ba = mapOf(later, kOther, rng, kNewer);
+  const CQuadricObjectMap a = ab, b = ba;
+  const unsigned newerCount = b.objects().at(20).observations();
+  ASSERT_TRUE(ab.mergeMap(b) && ba.mergeMap(a));
+  for (const CQuadricObjectMap* map : {&ab, &ba})
+  {
+    EXPECT_EQ(map->objects().size(), room.size() + 1);
+    std::map<std::string, int> doubts;
+    for (const auto& [id, object] : map->objects())
+      if (!object.confirmed) ++doubts[object.label()];
+    EXPECT_EQ(
+        doubts, (std::map<std::string, int>{
+                    {     "bed", 1},
+                    {    "sink", 1},
+                    {"suitcase", 1}
+    }));
+    for (const auto& [id, object] : map->objects())
+      if (object.label() == "suitcase") EXPECT_EQ(object.observations(), newerCount);
+  }
+}
+
 TEST(MapMerging, AStoredResultIsTheSameAndCanBeExtended)
 {
   std::mt19937 rng(9);

@@ -3,74 +3,15 @@
 #include <algorithm>
 #include <set>
 
+#include "merging/MergeSide.h"
 #include "merging/PairedMaps.h"
 #include "quadmap/constellation/Moves.h"
-#include "quadmap/geometry/ConvexHull.h"
+#include "quadmap/estimation/ObjectRules.h"
 
 namespace quadmap
 {
 namespace
 {
-using Objects = std::vector<const MapObject*>;
-
-/** The outline, from above, of where a map has objects. */
-class Region
-{
- public:
-  explicit Region(const Objects& objects)
-  {
-    std::vector<Eigen::Vector2d> corners;
-    for (const MapObject* object : objects)
-    {
-      const Eigen::Matrix<double, 3, 8> all = object->object.cuboidCorners();
-      for (Eigen::Index i = 0; i < all.cols(); ++i) corners.emplace_back(all.col(i).head<2>());
-    }
-    if (!corners.empty()) hull_ = convexHull(std::move(corners));
-  }
-
-  bool contains(const Eigen::Vector2d& p) const
-  {
-    for (std::size_t i = 0; i < hull_.size(); ++i)
-      if (cross(hull_[(i + 1) % hull_.size()] - hull_[i], p - hull_[i]) < 0) return false;
-    return hull_.size() > 2;
-  }
-
- private:
-  std::vector<Eigen::Vector2d> hull_;
-};
-
-/** A map and the frames it was made of; all in the frame of the own map. */
-struct MergeSide
-{
-  bool isOwn = false;
-  std::vector<MapObject> copies;  //!< Confirmed objects
-  Objects confirmed, unpaired;    //!< Of these
-  mrpt::poses::CPose3D T_own_map;
-  const MatchedFrames* frames = nullptr;
-};
-
-MergeSide sideOf(
-    const MergedMap& map,
-    const std::set<ObjectId>& paired,
-    const mrpt::poses::CPose3D& T_own_map,
-    const MatchedFrames& frames)
-{
-  MergeSide side;
-  side.T_own_map = T_own_map;
-  side.frames = &frames;
-  for (const MapObject* object : map.confirmed())
-  {
-    side.copies.push_back(*object);
-    side.copies.back().object = object->object.transformed(T_own_map);
-  }
-  for (const MapObject& object : side.copies)
-  {
-    side.confirmed.push_back(&object);
-    if (paired.count(object.id) == 0) side.unpaired.push_back(&object);
-  }
-  return side;
-}
-
 class Planner
 {
  public:
@@ -97,6 +38,7 @@ class Planner
     joinTogether();
     moveDisplaced();
     findConflicts(ownFrames, otherFrames);
+    settleDoubts();
     addOther();
     return std::move(plan_);
   }
@@ -217,7 +159,7 @@ class Planner
       note({MapConflict::Moved, origin, labelOf(newer, move.to), move.distance});
       drop(older, move.from);
     }
-    const Region oldRegion(older.confirmed), newRegion(newer.confirmed);
+    const MapRegion oldRegion(older.confirmed), newRegion(newer.confirmed);
     for (const MapObject* object : older.unpaired)
     {
       if (from.count(object->id) != 0) continue;
@@ -256,12 +198,36 @@ class Planner
       settled_.insert(id);
   }
 
-  /** Takes over what only the other map has, and is sure of. */
+  /** Of what neither map is sure of, the newer one's word stands: maps of one place make the same
+   * mistakes, so that two doubts do not make an object. */
+  void settleDoubts()
+  {
+    std::set<ObjectId> ownPaired;
+    for (const auto& [here, there] : both_.together) ownPaired.insert(here);
+    for (const MergedMap::Object& a : own_.objects)
+    {
+      if (a.object.confirmed || ownPaired.count(a.object.id) != 0) continue;
+      for (const MergedMap::Object& b : other_.objects)
+      {
+        if (b.object.confirmed || settled_.count(b.object.id) != 0) continue;
+        if (!areOneObject(a.object, inOwnFrame(b).object, rules_.labels, rules_.merging)) continue;
+        if (!otherIsNewer())
+          settled_.insert(b.object.id);
+        else
+        {
+          plan_.removed.push_back(a.object.id);
+          break;
+        }
+      }
+    }
+  }
+
+  /** Takes over what only the other map has. */
   void addOther()
   {
     for (const MergedMap::Object& o : other_.objects)
     {
-      if (!o.object.confirmed || settled_.count(o.object.id) != 0) continue;
+      if (settled_.count(o.object.id) != 0) continue;
       PlannedObject planned = inOwnFrame(o);
       planned.origin.other = o.object.id;
       add(planned);
