@@ -187,6 +187,16 @@ ExportInput inputOf(Cli& cli)
   return input;
 }
 
+/** \exception std::runtime_error If there is no image for the sheet to show objects in. */
+void requireImages(Cli& cli, const PageContent& page)
+{
+  if (page.keyframes.empty())
+    throw std::runtime_error(
+        cli.input.getValue() +
+        ": --sheet needs images: a folder that quadmap-slam wrote, with map.simplemap, and no "
+        "--no-cloud");
+}
+
 void writeFrames(Cli& cli, const std::vector<ObjectRecord>& objects)
 {
   if (!cli.frames.isSet()) return;
@@ -231,6 +241,7 @@ void run(Cli& cli)
   const ExportInput input = inputOf(cli);
   if (!cli.html.isSet() && !cli.sheet.isSet()) return writeScenes(cli, readExportInput(input));
   PageContent page = readPageInput(input, given(cli.compare));
+  if (cli.sheet.isSet()) requireImages(cli, page);
   writeIfSet(cli.html, [&](const auto& path) { writePage(page, path, cli.three.getValue()); });
   writeIfSet(cli.sheet, [&](const auto& path) { writeContactSheet(page, path); });
   writeScenes(cli, page.scene);

@@ -82,6 +82,17 @@ TEST_F(QuadmapExport, TakesAMapInAnyOfItsForms)
   }
 }
 
+TEST_F(QuadmapExport, MakesNoSheetWithoutImages)
+{
+  for (const char* arguments : {"DIR/objects.quadmap", "DIR --no-cloud"})
+  {
+    const auto result = run(std::string(arguments) + " --sheet DIR/c.png");
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_NE(result.err.find("--sheet needs images"), kNotFound) << result.err;
+  }
+  EXPECT_FALSE(exists("c.png"));
+}
+
 TEST_F(QuadmapExport, WritesEverythingOfAFolder)
 {
   const auto result =

@@ -132,6 +132,7 @@ TEST(PageFile, IsBelow30MegabytesWhenLarge)
 }
 
 TEST_F(PageInBrowser, LinksTableAndView) { check("links_between_table_and_view", samplePage()); }
+TEST_F(PageInBrowser, HidesDoubtfulObjects) { check("doubtful_objects_hide", samplePage()); }
 TEST_F(PageInBrowser, LeavesLabelsText) { check("labels_stay_text", samplePage()); }
 TEST_F(PageInBrowser, ShowsWhatBecameOfBoxes) { check("keyframes", samplePage()); }
 TEST_F(PageInBrowser, KeepsTheViewInItsLink) { check("link_keeps_the_view", samplePage()); }

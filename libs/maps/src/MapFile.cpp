@@ -68,7 +68,13 @@ std::string mapFileOf(const std::string& path)
 CQuadricObjectMap readMap(const std::string& path)
 {
   const std::string file = mapFileOf(path);
-  if (fs::path(file).extension() == ".simplemap") return mapAnew(file);
+  const fs::path extension = fs::path(file).extension();
+  if (extension == ".simplemap") return mapAnew(file);
+  if (extension == ".json")
+    throw std::runtime_error(
+        file +
+        ": is no object map, which knows more than a list: give a .quadmap, the folder of a " +
+        "run, or a .simplemap");
   CQuadricObjectMap map;
   map.loadFromFile(file);
   return map;

@@ -15,12 +15,14 @@
 
   function setLayer(name, shown) {
     if (name === "labels") Page.overlay.labels = shown;
+    else if (name === "doubtful") Page.shapes.setDoubtful(shown);
     else Page.shapes.layers[name].visible = shown;
     const box = document.querySelector("#layers input[name=" + name + "]");
     if (box) box.checked = shown;
     Page.view.request();
   }
-  for (const name of ["labels"].concat(Object.keys(Page.shapes.layers))) {
+  const layerNames = ["labels", "doubtful"].concat(Object.keys(Page.shapes.layers));
+  for (const name of layerNames) {
     const label = Page.element("label", document.querySelector("#layers div"));
     const box = Page.element("input", label);
     box.type = "checkbox";
@@ -74,7 +76,7 @@
   }
   function followLink() {
     const parts = new URLSearchParams(location.hash.slice(1));
-    for (const name of (parts.get("h") || "").split(",")) if (name === "labels" || Page.shapes.layers[name]) setLayer(name, false);
+    for (const name of (parts.get("h") || "").split(",")) if (layerNames.includes(name)) setLayer(name, false);
     if (parts.has("k")) Page.keyframes.show(Number(parts.get("k")) || 0);
     if (parts.has("o")) Page.select(parts.get("o"));
     const eye = numbers(parts.get("c")), target = numbers(parts.get("t"));

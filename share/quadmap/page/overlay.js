@@ -28,7 +28,7 @@ Page.overlay = (function () {
   }
   function drawLabels(taken) {
     const eye = Page.view.camera.position;
-    const list = Array.from(Page.objects.values()).map(function (object) {
+    const list = Array.from(Page.objects.values()).filter(Page.shapes.isShown).map(function (object) {
       const top = new THREE.Vector3().fromArray(object.center);
       top.z += 0.5 * object.size[2];
       return {object, top, away: object.id === Page.selected ? 0 : eye.distanceTo(top)};
@@ -72,7 +72,7 @@ Page.overlay = (function () {
   // The nearest thing under the pointer: of objects, and of the cloud when `withCloud`.
   overlay.hitAt = function (event, withCloud) {
     const ray = Page.view.rayAt(event);
-    const things = Page.shapes.layers.ellipsoids.visible ? Page.shapes.layers.ellipsoids.children.slice() : [];
+    const things = Page.shapes.layers.ellipsoids.visible ? Page.shapes.layers.ellipsoids.children.filter((body) => body.visible) : [];
     if (withCloud && Page.cloud.points && Page.shapes.layers.cloud.visible) things.push(Page.cloud.points);
     ray.params.Points = {threshold: 0.02 * Page.view.camera.position.distanceTo(Page.view.controls.target) / 5};
     return ray.intersectObjects(things)[0] || null;

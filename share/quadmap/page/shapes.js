@@ -10,6 +10,7 @@ Page.shapes = (function () {
     scene.add(layers[name]);
   }
   const drawn = new Map();  // id -> {body, edges}
+  let showsDoubtful = true;
 
   function place(thing, object, scale) {
     thing.position.fromArray(object.pose);
@@ -38,10 +39,17 @@ Page.shapes = (function () {
     drawn.set(object.id, {body, edges});
     update(object);
   }
+  // Doubtful objects may be hidden, but for the selected one.
+  function isShown(object) { return showsDoubtful || object.id === Page.selected || !Page.isDoubtful(object); }
+  function setDoubtful(shown) {
+    showsDoubtful = shown;
+    mark();
+  }
   // Doubtful objects are paler; the selected one stands out.
   function mark() {
     for (const [id, shown] of drawn) {
       const object = Page.objects.get(id), isSelected = id === Page.selected;
+      shown.body.visible = shown.edges.visible = isShown(object);
       shown.body.material.opacity = isSelected ? 0.75 : Page.isDoubtful(object) ? 0.15 : 0.42;
       shown.body.material.emissive.setHex(isSelected ? 0x333333 : 0);
       shown.edges.material.color.set(isSelected ? Page.themeColor("--text") : Page.cssColor(object.color));
@@ -126,5 +134,5 @@ Page.shapes = (function () {
     if (current) scene.add(current);
     Page.view.request();
   });
-  return {layers, drawn, place, update, cuboid, bounds};
+  return {layers, drawn, place, update, cuboid, bounds, isShown, setDoubtful};
 })();

@@ -34,6 +34,20 @@ def check_links_between_table_and_view(path):
         require(page.evaluate("document.querySelector('#facts h2').textContent").endswith(" 3"), "and its facts")
 
 
+def check_doubtful_objects_hide(path):
+    with Browser(address_of(path, "#h=doubtful")) as page:
+        shown = "Page.shapes.drawn.get('{}').body.visible"
+        doubtful = page.evaluate("Array.from(Page.objects.values()).filter(Page.isDoubtful).map((o) => o.id)")
+        sure = page.evaluate("Array.from(Page.objects.values()).filter((o) => !Page.isDoubtful(o)).map((o) => o.id)")
+        require(doubtful and sure, "the test's map has doubtful objects and others")
+        require(not any(page.evaluate(shown.format(i)) for i in doubtful), "the link hides doubtful objects")
+        require(all(page.evaluate(shown.format(i)) for i in sure), "and no others")
+        page.evaluate(f"Page.select('{doubtful[0]}')")
+        require(page.evaluate(shown.format(doubtful[0])), "a selected one is shown")
+        page.evaluate("Page.select(null), document.querySelector('#layers input[name=doubtful]').click()")
+        require(all(page.evaluate(shown.format(i)) for i in doubtful + sure), "the layer brings them back")
+
+
 def check_labels_stay_text(path):
     with Browser(address_of(path)) as page:
         page.click_on("#objects tbody tr[data-id='1']")

@@ -172,7 +172,12 @@ std::string boxSection(const Json& report)
       [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
   for (const auto& [reason, sum] : ranked)
     why.addRow({reason, std::to_string(sum.count), sum.labels});
+  const bool hasNumbers = std::any_of(
+      ranked.begin(), ranked.end(),
+      [](const auto& reason) { return reason.first.find('#') != std::string::npos; });
   return "<h2>What became of the boxes</h2>\n" + (why.isEmpty() ? "" : why.toHtml()) +
+         (hasNumbers ? htmlElement("p", "# stands for a number that differs from box to box.")
+                     : "") +
          kinds.toHtml();
 }
 
@@ -216,7 +221,8 @@ std::string timeSection(const Json& report)
         kBar, most > 0 ? kBar * seconds / most : 0.0);
   }
   return "<h2>Time per module</h2>\n<p>" + htmlText(text(report, {"timing", "cpu_total_s"})) +
-         " s of CPU time in all, " + htmlText(text(report, {"timing", "threads"})) + " threads, " +
+         " s of CPU time until report.json was written, before the scene and this page; " +
+         htmlText(text(report, {"timing", "threads"})) + " threads, " +
          htmlText(text(report, {"timing", "peak_memory_mb"})) +
          " MB of memory at most.</p>\n<div class=\"wide\"><table>\n<thead><tr><th>module</th>"
          "<th class=\"number\">calls</th><th class=\"number\">mean [ms]</th>"
