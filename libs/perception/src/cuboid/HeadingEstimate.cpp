@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuboid/HeadingByLines.h"
 #include "quadmap/geometry/HeadingHistogram.h"
 #include "quadmap/geometry/LineFit.h"
 #include "quadmap/geometry/RobustStatistics.h"
@@ -12,8 +13,6 @@ namespace quadmap
 namespace
 {
 constexpr double kPi = 3.14159265358979323846;
-/** Depth images are bent by their calibration: no direction is better than this [rad]. */
-constexpr double kSigmaFloor = 0.2 * kPi / 180.0;
 
 /** The histogram of the normals of vertical surfaces, with what its peak is worth. */
 struct NormalPeak
@@ -31,7 +30,7 @@ struct NormalPeak
   double variance() const
   {
     const double agreeing = std::max(1.0, peak.dominance * independent);
-    return peak.width * peak.width / agreeing + kSigmaFloor * kSigmaFloor;
+    return peak.width * peak.width / agreeing + kHeadingFloor * kHeadingFloor;
   }
 };
 
@@ -63,30 +62,6 @@ std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
     if (cloud.normals[i] && cloud.normals[i]->head<2>().dot(n) > std::cos(kMaxNormalAngle))
       points.emplace_back(cloud.points[i].head<2>().dot(t), cloud.points[i].head<2>().dot(n));
   return fitLine(std::move(points), kShell);
-}
-
-/** The correction of a heading by the lines of all faces: their weighted mean and its variance,
- * equation (8.4). The variance grows when the lines contradict each other. */
-std::optional<LineFit> refine(const UprightCloud& cloud, double yaw)
-{
-  constexpr double kMaxCorrection = 10.0 * kPi / 180.0;
-  double information = 0, sum = 0, squares = 0;
-  int lines = 0;
-  for (int side = 0; side < 4; ++side)
-  {
-    const auto line = faceLine(cloud, yaw + side * kPi / 2);
-    if (!line || std::abs(line->angle) > kMaxCorrection) continue;
-    const double weight = 1.0 / (line->variance + kSigmaFloor * kSigmaFloor);
-    information += weight;
-    sum += weight * -line->angle;  // the normal turns against the slope
-    squares += weight * line->angle * line->angle;
-    ++lines;
-  }
-  if (lines == 0) return {};
-  const double mean = sum / information;
-  const double chi2 = squares - information * mean * mean;
-  const double inflation = lines > 1 ? std::max(1.0, chi2 / (lines - 1)) : 1.0;
-  return LineFit{mean, inflation / information, 1.0};
 }
 
 /** Heading and width of the smallest rectangle around the cloud, seen from above. */
@@ -179,16 +154,10 @@ HeadingEstimate estimateHeading(const UprightCloud& cloud, const PerceptionOptio
       normals.significance() > kMinSignificance)
   {
     out.defined = true;
-    out.yaw = normals.peak.yaw;
-    double variance = normals.variance();
-    // Once more about the corrected heading: lines of real faces stay where they are.
-    for (int i = 0; i < 2; ++i)
-      if (const auto correction = refine(cloud, out.yaw))
-      {
-        out.yaw += correction->angle;
-        variance = correction->variance + (i > 0 ? correction->angle * correction->angle : 0.0);
-      }
-    out.sigma = std::sqrt(variance);
+    const auto heading =
+        headingByLines(normals.peak.yaw, [&](double normal) { return faceLine(cloud, normal); });
+    out.yaw = heading ? heading->yaw : normals.peak.yaw;
+    out.sigma = std::sqrt(heading ? heading->variance : normals.variance());
     return out;
   }
   const Rectangle rectangle = smallestRectangle(cloud);
@@ -197,7 +166,7 @@ HeadingEstimate estimateHeading(const UprightCloud& cloud, const PerceptionOptio
   {
     out.defined = true;
     out.yaw += line->angle;
-    out.sigma = std::sqrt(line->variance + kSigmaFloor * kSigmaFloor);
+    out.sigma = std::sqrt(line->variance + kHeadingFloor * kHeadingFloor);
   }
   return out;
 }

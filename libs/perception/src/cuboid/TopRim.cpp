@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuboid/HeadingByLines.h"
 #include "quadmap/geometry/DensestWindow.h"
-#include "quadmap/geometry/LineFit.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
@@ -144,7 +144,7 @@ std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
 
 std::optional<HeadingEstimate> TopRim::heading() const
 {
-  constexpr double kMinStraight = 0.6, kSigmaFloor = 0.2 * M_PI / 180.0;
+  constexpr double kMinStraight = 0.6;
   constexpr int kStep = 2;  // [deg]
   if (rim_.size() < 2 * kMinPoints) return {};
   const auto normalAt = [](double yaw) { return Eigen::Vector2d(std::cos(yaw), std::sin(yaw)); };
@@ -162,24 +162,17 @@ std::optional<HeadingEstimate> TopRim::heading() const
       most = sum;
       out.yaw = degree * M_PI / 180.0;
     }
-  for (int iteration = 0; iteration < 2; ++iteration)
+  const auto lineOf = [&](double normal)
   {
-    double information = 0, sum = 0;
-    for (int side = 0; side < 4; ++side)
-    {
-      const Eigen::Vector2d n = normalAt(out.yaw + side * M_PI / 2), t(-n.y(), n.x());
-      std::vector<Eigen::Vector2d> points;
-      for (const auto& q : sidePoints(n)) points.emplace_back(q.p.dot(t), q.p.dot(n));
-      const auto line = fitLine(std::move(points), kWindow);
-      if (!line) continue;
-      const double weight = 1.0 / (line->variance + kSigmaFloor * kSigmaFloor);
-      information += weight;
-      sum -= weight * line->angle;  // the normal turns against the slope
-    }
-    if (information == 0) return {};
-    out.yaw += sum / information;
-    out.sigma = std::sqrt(1.0 / information);
-  }
+    const Eigen::Vector2d n = normalAt(normal), t(-n.y(), n.x());
+    std::vector<Eigen::Vector2d> points;
+    for (const auto& q : sidePoints(n)) points.emplace_back(q.p.dot(t), q.p.dot(n));
+    return fitLine(std::move(points), kWindow);
+  };
+  const auto heading = headingByLines(out.yaw, lineOf);
+  if (!heading) return {};
+  out.yaw = heading->yaw;
+  out.sigma = std::sqrt(heading->variance);
   out.dominance = static_cast<double>(straight(out.yaw)) / static_cast<double>(rim_.size());
   out.defined = out.dominance >= kMinStraight;
   return out.defined ? std::optional(out) : std::nullopt;
