@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "quadmap/geometry/PosePosition.h"
+#include "quadmap/geometry/Whitening.h"
 
 namespace quadmap
 {
@@ -81,8 +82,7 @@ double edgeSigma(
 
 Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)
 {
-  return std::sqrt(options.seedWeight) *
-         covariance.llt().matrixL().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  return std::sqrt(options.seedWeight) * whiteningOf(covariance);
 }
 
 }  // namespace quadmap

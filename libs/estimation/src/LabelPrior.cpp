@@ -29,6 +29,16 @@ std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
   return rows;
 }
 
+void addLabelPrior(
+    const UprightState& x,
+    const LabelProperties& label,
+    const EstimatorOptions& options,
+    NormalEquations& equations)
+{
+  for (const ResidualRow& row : labelPriorRows(x.tail<3>(), label, options))
+    equations.add(row.r, row.byUprightState(), RobustKernel::quadratic());
+}
+
 double sizeDeviation(const Ellipsoid& object, const LabelProperties& label, ObjectFreedom freedom)
 {
   Eigen::Vector3d sizes = 2 * object.semiAxes(), typical = label.typicalSize;

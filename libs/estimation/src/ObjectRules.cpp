@@ -135,6 +135,11 @@ bool areOneObject(
   return labelAgreement(a, b, labels) >= options.minLabelAgreement;
 }
 
+double labelLogLikelihood(double agreement, const AgreementOptions& options)
+{
+  return -options.labelPenalty * (1.0 - agreement);  // (12.9)
+}
+
 double agreementLogLikelihood(
     const ObjectView& view,
     const ImageBox& box,
@@ -144,10 +149,9 @@ double agreementLogLikelihood(
     const AgreementOptions& options)
 {
   const double shapeExponent = labels.properties(object.label()).shapeExponent;
-  const double labelTerm =
-      -options.labelPenalty * (1.0 - labelAgreement(object, view.label, labels));
   return sizeTerm(view, object, options) +
-         imageTerm(box, object.object, frame, shapeExponent, options) + labelTerm;
+         imageTerm(box, object.object, frame, shapeExponent, options) +
+         labelLogLikelihood(labelAgreement(object, view.label, labels), options);
 }
 
 double positionLogLikelihood(

@@ -1,7 +1,6 @@
 #include <ceres/autodiff_cost_function.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "RowWriter.h"
 #include "quadmap/estimation/LabelPrior.h"
@@ -9,6 +8,7 @@
 #include "quadmap/geometry/PoseAngles.h"
 #include "quadmap/geometry/StepResidual.h"
 #include "quadmap/geometry/Support.h"
+#include "quadmap/geometry/Whitening.h"
 #include "quadmap/graph/GraphFactors.h"
 
 namespace quadmap
@@ -52,11 +52,7 @@ OdometryResidual odometryResidual(const mrpt::poses::CPose3DPDFGaussian& step)
   Matrix6 J = Matrix6::Identity();
   J.bottomRightCorner<3, 3>() = localTurnsPerAngle(step.mean);
   const Matrix6 S = J * step.cov.asEigen() * J.transpose();
-  const Eigen::LLT<Matrix6> llt(S);
-  if (llt.info() != Eigen::Success || !S.allFinite())
-    throw std::invalid_argument("createOdometryFactor: the covariance is not positive definite");
-  return {
-      partsOf(poseBlockOf(step.mean).data()), llt.matrixL().solve(Matrix6(Matrix6::Identity()))};
+  return {partsOf(poseBlockOf(step.mean).data()), whiteningOf(S)};
 }
 
 /** The rows of the label alone, doc/mathematics.md, (11.17) and (11.18). */

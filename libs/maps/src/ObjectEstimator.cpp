@@ -20,24 +20,10 @@ namespace
 /** Share of the complete measurements that must show a direction. */
 constexpr double kYawShare = 0.25;
 
-/** Adds what the label alone says of the sizes, doc/mathematics.md, (11.17) and (11.18). */
-void addLabelPrior(
-    const UprightState& x,
-    const LabelProperties& label,
-    const EstimatorOptions& options,
-    NormalEquations& eq)
+/** Adds what a file knew, doc/mathematics.md, (11.19). */
+void addPrior(const InformationPrior& prior, const UprightState& state, NormalEquations& eq)
 {
-  for (const ResidualRow& row : labelPriorRows(x.tail<3>(), label, options))
-    eq.add(row.r, row.byUprightState(), RobustKernel::quadratic());
-}
-
-/** Adds what a file knew, doc/mathematics.md, (11.19). A yaw means the same every full turn, and
- * the prior's is taken in the turn in which it agrees best. */
-void addPrior(const InformationPrior& prior, UprightState x, NormalEquations& eq)
-{
-  constexpr double kTurn = 2 * M_PI;
-  if (prior.L(3, 3) > 0)
-    x[3] -= kTurn * std::round((prior.L * x - prior.xi)[3] / prior.L(3, 3) / kTurn);
+  const UprightState x = prior.inItsTurn(state);
   eq.H += prior.L;
   eq.g += prior.L * x - prior.xi;
   eq.cost += 0.5 * x.dot(prior.L * x) - prior.xi.dot(x);
@@ -155,6 +141,14 @@ std::ptrdiff_t mostRedundant(const std::deque<ObjectView>& views)
 }
 
 }  // namespace
+
+UprightState InformationPrior::inItsTurn(const UprightState& x) const
+{
+  constexpr double kTurn = 2 * M_PI;
+  UprightState out = x;
+  if (L(3, 3) > 0) out[3] -= kTurn * std::round((L * x - xi)[3] / L(3, 3) / kTurn);
+  return out;
+}
 
 void ObjectEstimator::add(ObjectView view, const EstimatorOptions& options)
 {

@@ -2,10 +2,10 @@
 
 #include <ceres/autodiff_cost_function.h>
 
-#include <stdexcept>
 #include <type_traits>
 
 #include "quadmap/geometry/StepResidual.h"
+#include "quadmap/geometry/Whitening.h"
 #include "quadmap/graph/GraphState.h"
 
 namespace quadmap
@@ -28,16 +28,6 @@ Parts<T, D> partsOf(const T* block)
     return {Eigen::Rotation2D<T>(block[2]), Vector<T, 2>(block)};
   else
     return {Eigen::Quaternion<T>(block), Vector<T, 3>(block + 4)};
-}
-
-/** The matrix W with W^t W = covariance^-1. */
-template <int N>
-Eigen::Matrix<double, N, N> whitening(const Eigen::Matrix<double, N, N>& covariance)
-{
-  const Eigen::LLT<Eigen::Matrix<double, N, N>> llt(covariance);
-  if (llt.info() != Eigen::Success)
-    throw std::invalid_argument("a covariance of the points is not positive definite");
-  return llt.matrixL().solve(Eigen::Matrix<double, N, N>::Identity());
 }
 
 template <int D>
@@ -135,7 +125,7 @@ template <int D>
 std::unique_ptr<ceres::CostFunction> createSightFactor(const typename PointGraph<D>::Sight& sight)
 {
   return std::make_unique<ceres::AutoDiffCostFunction<SightResidual<D>, D, kBlock<D>, D>>(
-      new SightResidual<D>{sight.position, whitening<D>(sight.covariance)});
+      new SightResidual<D>{sight.position, whiteningOf<D>(sight.covariance)});
 }
 
 template <int D>
@@ -145,7 +135,7 @@ std::unique_ptr<ceres::CostFunction> createPointStepFactor(const PointOdometry<D
   using Factor = ceres::AutoDiffCostFunction<Residual, kPoseIncrement<D>, kBlock<D>, kBlock<D>>;
   return std::make_unique<Factor>(new Residual{
       partsOf<D>(pointBlockOf<D>(step.T_from_to).data()),
-      whitening<kPoseIncrement<D>>(step.covariance)});
+      whiteningOf<kPoseIncrement<D>>(step.covariance)});
 }
 
 template <int D>

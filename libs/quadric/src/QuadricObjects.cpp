@@ -108,8 +108,8 @@ Eigen::MatrixXd QuadricObjects::likelihoods(
       double& value = log(static_cast<Eigen::Index>(k), i++);
       value = boxLogLikelihoodRatio(
           seen, object.record.object, object.covariance, poseCovariance, options_);
-      value -= options_.agreement.labelPenalty *
-               (1 - labelAgreement(object.record, view.label, labels_));
+      value += labelLogLikelihood(
+          labelAgreement(object.record, view.label, labels_), options_.agreement);
       if (options_.useInstanceIds && view.instance)
         value = view.instance == object.instance ? 1e6 : -std::numeric_limits<double>::infinity();
     }

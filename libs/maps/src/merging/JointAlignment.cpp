@@ -17,13 +17,10 @@ constexpr Eigen::Index kYaw = 3;
 
 using ByPlace = Eigen::Matrix<double, 7, 4>;
 
-/** The information in the turn of the state: a yaw means the same every full turn. */
+/** The information in the turn of the state. */
 InformationPrior inTurnOf(const UprightState& state, InformationPrior known)
 {
-  constexpr double kTurn = 2 * M_PI;
-  if (!(known.L(kYaw, kYaw) > 0)) return known;
-  const double ahead = (known.L * state - known.xi)[kYaw] / known.L(kYaw, kYaw);
-  known.xi += known.L.col(kYaw) * (kTurn * std::round(ahead / kTurn));
+  known.xi += known.L * (state - known.inItsTurn(state));
   return known;
 }
 
@@ -91,8 +88,7 @@ class JointObject
     const UprightCovariance& L = both_.other.known.L;
     const UprightState g = L * y - both_.other.known.xi;
     NormalEquations prior;
-    for (const ResidualRow& row : labelPriorRows(x_.tail<3>(), label_, options_))
-      prior.add(row.r, row.byUprightState(), RobustKernel::quadratic());
+    addLabelPrior(x_, label_, options_, prior);
     prior.H += freeInformation();
     g_ = prior.g + both_.own.known.L * x_ - both_.own.known.xi + shift.D * g;
     inverse_ = (prior.H + both_.own.known.L + shift.D * L * shift.D.transpose()).inverse();

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "quadmap/estimation/EstimatorOptions.h"
+#include "quadmap/estimation/NormalEquations.h"
 #include "quadmap/estimation/ResidualRow.h"
 #include "quadmap/obs/LabelTable.h"
 
@@ -19,6 +20,13 @@ constexpr std::size_t kLabelPriorRows = 4;
  * \param logSizes (ln a, ln b, ln c). */
 std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
     const Eigen::Vector3d& logSizes, const LabelProperties& label, const EstimatorOptions& options);
+
+/** Adds these rows to the normal equations of an upright object. */
+void addLabelPrior(
+    const UprightState& x,
+    const LabelProperties& label,
+    const EstimatorOptions& options,
+    NormalEquations& equations);
 
 /** Largest deviation of a size from the label's typical one, in spreads: doc/mathematics.md, (9.5)
  * without its sign. Which horizontal axis of an upright object is x is arbitrary, and so are all

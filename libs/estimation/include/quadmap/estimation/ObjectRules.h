@@ -39,6 +39,10 @@ double labelAgreement(const MapObject& object, const std::string& label, const L
  * taken for each other. */
 double labelAgreement(const MapObject& a, const MapObject& b, const LabelTable& labels);
 
+/** What an agreement of labels in [0, 1] says of a measurement being the object's:
+ * doc/mathematics.md, (12.9). */
+double labelLogLikelihood(double agreement, const AgreementOptions& options);
+
 /** Do two map objects overlap so that they must be one? Two things cannot share their space, but a
  * cup stands within the cuboid of a table with its chairs: only labels a detector takes for each
  * other count, unless the cuboids are nearly the same. */

@@ -19,6 +19,9 @@ struct InformationPrior
   unsigned complete = 0, yawDefined = 0;  //!< Measurements behind it
 
   bool empty() const { return L.isZero(0.0); }
+  /** The state with its yaw in that full turn in which it agrees best with what is known: a yaw
+   * means the same every turn. */
+  UprightState inItsTurn(const UprightState& x) const;
 };
 
 /** Fuses the measurements of one object: state (x, y, z, yaw, ln a, ln b, ln c) in the map. */
