@@ -32,7 +32,8 @@ struct MergeOptions
  * surer of? \param k Index of the box. \param duplicateIoU As in AgreementOptions. */
 bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU);
 
-/** Share of the object's measurements whose label a detector takes for this one, in [0, 1]. */
+/** Share of the object's measurements whose label a detector takes for this one, in [0, 1]:
+ * doc/mathematics.md, (12.10). */
 double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels);
 
 /** The same between two objects: probability that two of their labels, drawn at random, can be
