@@ -22,8 +22,8 @@ struct LineHeading
 using SideLine = std::function<std::optional<LineFit>(double)>;
 
 /** Corrects a heading by the weighted mean of the lines of all four sides, equation (8.4), and once
- * more about the corrected one: lines of real sides stay where they are.
- * \return Nothing when no side has a line. */
+ * more about the corrected one, if it still has lines: those of real sides stay where they are.
+ * \return Nothing when no side has a line within 10 degrees of the heading. */
 std::optional<LineHeading> headingByLines(double yaw, const SideLine& lineOf);
 
 }  // namespace quadmap
