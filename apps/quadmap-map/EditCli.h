@@ -22,8 +22,8 @@ struct EditCli
   {
   }
 
-  /** \return As CommandLine::parse(). \exception cli::UsageError Also for a name that would be read
-   * as another kind of file. */
+  /** \return As CommandLine::parse(). \exception cli::UsageError Also when the output has another
+   * ending than .quadmap, as what is called .json or .simplemap is not read as a map. */
   bool parse(int argc, char** argv)
   {
     if (!line.parse(argc, argv)) return false;
@@ -49,7 +49,7 @@ struct EditCli
 
   cli::CommandLine line;
   TCLAP::UnlabeledValueArg<std::string> file{"MAP", kMapHelp, true, "", "MAP", line.args()};
-  Text output{"o",           "output",   "The changed map; may be the same file.", true, "",
+  Text output{"o",           "output",   "The map that results (.quadmap).", true, "",
               "out.quadmap", line.args()};
 };
 

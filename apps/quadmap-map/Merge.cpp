@@ -94,18 +94,24 @@ void requireNewFile(const TwoMaps& maps, const std::string& output)
 {
   if (!fs::exists(output)) return;
   for (const std::string* name : {&maps.ownName, &maps.otherName})
-    for (const std::string& file : {mapFileOf(*name), framesFileOf(*name)})
-      if (!file.empty() && fs::equivalent(output, file))
-        throw cli::UsageError("-o: must not be one of the two maps, which stay as they are");
+    if (fs::equivalent(output, mapFileOf(*name)))
+      throw cli::UsageError("-o: must not be one of the two maps, which stay as they are");
+}
+
+std::string checksumOf(const std::string& file)
+{
+  return file.empty() ? std::string() : sha256OfFile(file);
 }
 
 /** Merged with itself, a map would count all its frames twice.
- * \exception cli::UsageError If the two files are one, or are equal. */
+ * \exception cli::UsageError If the maps, or the frames beside them, are the same file. */
 void requireTwoMaps(const TwoMaps& maps)
 {
-  if (sha256OfFile(mapFileOf(maps.ownName)) == sha256OfFile(mapFileOf(maps.otherName)))
+  const std::string frames = checksumOf(framesFileOf(maps.ownName));
+  if (checksumOf(mapFileOf(maps.ownName)) == checksumOf(mapFileOf(maps.otherName)) ||
+      (!frames.empty() && frames == checksumOf(framesFileOf(maps.otherName))))
     throw cli::UsageError(
-        "merge: " + maps.ownName + " and " + maps.otherName + " are the same map");
+        "merge: " + maps.ownName + " and " + maps.otherName + " are maps of the same frames");
 }
 
 std::string quantity(std::size_t n, const char* thing)

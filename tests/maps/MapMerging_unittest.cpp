@@ -379,6 +379,25 @@ TEST(MapMerging, KeepsDoubtsOfBothMapsInEitherOrder)
   }
 }
 
+TEST(MapMerging, WhatTheOtherMapDoubtsItsOwnOptionsDecide)
+{
+  std::mt19937 rng(10);
+  const Room room = randomRoom(rng);
+  Room later = room;
+  later.push_back(thing(22, "sink", CPose3D(0, 4.6, 0.3, 0.2, 0, 0)));
+  later.back().existenceLogOdds = 4;
+  CQuadricObjectMap a = mapOf(room, CPose3D(), rng), strict;
+  strict.insertionOptions.existence.confirmLogOdds = 5;
+  const CQuadricObjectMap usual = mapOf(later, kOther, rng, kNewer);
+  for (const auto& [id, object] : usual.objects()) strict.addObject(object);
+  ASSERT_TRUE(usual.withLabel("sink").size() == 1 && strict.withLabel("sink").empty());
+  CQuadricObjectMap both = a;
+  ASSERT_TRUE(both.mergeMap(strict));
+  EXPECT_TRUE(both.withLabel("sink").empty());
+  ASSERT_TRUE(a.mergeMap(usual));
+  EXPECT_EQ(a.withLabel("sink").size(), 1u);
+}
+
 TEST(MapMerging, AStoredResultIsTheSameAndCanBeExtended)
 {
   std::mt19937 rng(9);

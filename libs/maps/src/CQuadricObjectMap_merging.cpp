@@ -60,6 +60,8 @@ std::optional<MapMerge> CQuadricObjectMap::mergeMap(
     origins[id] = {id, planned.origin.own, planned.origin.other};
     come[*planned.origin.other] = id;
     take(id, planned);
+    // What only the other map has is as sure as that map is of it, whatever this one asks for.
+    if (!planned.origin.own) objects_[id].confirmed = planned.object.confirmed;
   }
   for (auto& conflict : report.conflicts)
     if (conflict.origin.id == 0 && conflict.origin.other)

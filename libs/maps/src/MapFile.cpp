@@ -72,9 +72,8 @@ CQuadricObjectMap readMap(const std::string& path)
   if (extension == ".simplemap") return mapAnew(file);
   if (extension == ".json")
     throw std::runtime_error(
-        file +
-        ": is no object map, which knows more than a list: give a .quadmap, the folder of a " +
-        "run, or a .simplemap");
+        file + ": is no object map but a list: give a .quadmap, the folder of a run, or a " +
+        ".simplemap");
   CQuadricObjectMap map;
   map.loadFromFile(file);
   return map;

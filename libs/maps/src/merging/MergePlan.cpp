@@ -146,7 +146,7 @@ class Planner
   void judge(const MergeSide& older, const MergeSide& newer)
   {
     const std::set<ObjectId> gone = absent(older, newer), fresh = absent(newer, older);
-    Objects left;
+    std::vector<const MapObject*> left;
     for (const MapObject* object : older.unpaired)
       if (gone.count(object->id) != 0) left.push_back(object);
     std::set<ObjectId> from, to;

@@ -4,7 +4,7 @@
 
 namespace quadmap
 {
-MapRegion::MapRegion(const Objects& objects)
+MapRegion::MapRegion(const std::vector<const MapObject*>& objects)
 {
   std::vector<Eigen::Vector2d> corners;
   for (const MapObject* object : objects)

@@ -8,13 +8,11 @@
 
 namespace quadmap
 {
-using Objects = std::vector<const MapObject*>;
-
 /** The outline, from above, of where a map has objects. */
 class MapRegion
 {
  public:
-  explicit MapRegion(const Objects& objects);
+  explicit MapRegion(const std::vector<const MapObject*>& objects);
   bool contains(const Eigen::Vector2d& p) const;
 
  private:
@@ -24,9 +22,13 @@ class MapRegion
 /** A map and the frames it was made of; all in the frame of the own map. */
 struct MergeSide
 {
+  MergeSide() = default;
+  MergeSide(MergeSide&&) = default;  // a copy would point into the original
+  MergeSide& operator=(MergeSide&&) = default;
+
   bool isOwn = false;
-  std::vector<MapObject> copies;  //!< Confirmed objects
-  Objects confirmed, unpaired;    //!< Of these
+  std::vector<MapObject> copies;                      //!< Confirmed objects
+  std::vector<const MapObject*> confirmed, unpaired;  //!< Of these
   mrpt::poses::CPose3D T_own_map;
   const MatchedFrames* frames = nullptr;
 };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "quadmap/estimation/MapObject.h"
@@ -36,16 +36,20 @@ struct MergedMap
     throw std::out_of_range("no such object");
   }
 
-  /** When the map ends, and how many measurements it is of. */
-  std::pair<mrpt::Clock::time_point, unsigned> age() const
+  /** When the map ends, how many measurements it is of, and how sure it is of its objects: of two
+   * maps the newer one has more of the first that differs. */
+  std::tuple<mrpt::Clock::time_point, unsigned, double> age() const
   {
-    std::pair<mrpt::Clock::time_point, unsigned> age;
+    mrpt::Clock::time_point end;
+    unsigned measurements = 0;
+    double logOdds = 0;
     for (const Object& o : objects)
     {
-      age.first = std::max(age.first, o.object.lastSeen);
-      age.second += o.object.observations();
+      end = std::max(end, o.object.lastSeen);
+      measurements += o.object.observations();
+      logOdds += o.object.existenceLogOdds;
     }
-    return age;
+    return {end, measurements, logOdds};
   }
 };
 

@@ -27,8 +27,8 @@ struct MapEdit
 /** An edit list as a page saves it. */
 struct MapEditList
 {
-  std::string
-      mapSha256;  //!< Of the file of the map it was made for, as hexadecimal digits; or empty
+  /** Checksum of the file of the map that it was made for, as hexadecimal digits, or empty. */
+  std::string mapSha256;
   std::vector<MapEdit> edits;  //!< In their order
 };
 
