@@ -89,11 +89,14 @@ std::vector<PageObject> pageObjectsOf(const CQuadricObjectMap& map)
   return objects;
 }
 
-/** What a page calls a file or folder: pages are passed on, and whose folders these are is nobody
- * else's business. */
+/** What a page calls a map or a truth: its folder, or a file with a name of its own. Pages are
+ * passed on, and in whose folders they were made is nobody else's business. */
 std::string shownName(const std::string& path)
 {
-  return fs::weakly_canonical(path).filename().string();
+  fs::path whole = fs::absolute(path).lexically_normal();
+  if (whole.filename().empty()) whole = whole.parent_path();  // of "home/"
+  const bool isUsualName = whole.stem() == "objects" && whole.extension() != ".json";
+  return (isUsualName ? whole.parent_path() : whole).filename().string();
 }
 
 /** Fills in the truth or the second map. */

@@ -82,6 +82,23 @@ TEST_F(QuadmapExport, TakesAMapInAnyOfItsForms)
   }
 }
 
+TEST_F(QuadmapExport, PagesDoNotTellFolders)
+{
+  if (!std::filesystem::exists("/usr/share/javascript/three/three.min.js"))
+    GTEST_SKIP() << "libjs-three is not installed";
+  const std::string name = folder_.folder().filename().string();
+  for (const char* input : {"DIR", "DIR/", "DIR/objects.quadmap"})
+  {
+    const auto result =
+        run(std::string(input) + " --html DIR/p.html --compare DIR/objects.quadmap");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const std::string page = readFile(folder_.path("p.html"));
+    EXPECT_NE(page.find("\"title\":\"" + name + "\""), kNotFound) << input;
+    EXPECT_NE(page.find("\"comparedName\":\"" + name + "\""), kNotFound) << input;
+    EXPECT_EQ(page.find(folder_.folder().string()), kNotFound) << input;
+  }
+}
+
 TEST_F(QuadmapExport, MakesNoSheetWithoutImages)
 {
   for (const char* arguments : {"DIR/objects.quadmap", "DIR --no-cloud"})

@@ -213,6 +213,7 @@ TEST(Questions, DoNotFindWhatIsSurelyNotThere)
   EXPECT_EQ(asked("cups", room), Ids{"8"});
   EXPECT_EQ(ask(room, "cup near the tv").whyNothing, "there is no \"tv\"");
   EXPECT_EQ(asked("cup 5", room), Ids{"5"}) << "by its number it is";
+  EXPECT_EQ(asked("cup 5 near tv 1", room), asked("cup 5 near tv 1", livingRoom()));
 }
 
 TEST(Questions, KeepWithinLimits)

@@ -57,7 +57,7 @@ Answer Answering::answer() const
 
 bool Answering::isMeant(const InventoryItem& item, const Noun& noun) const
 {
-  if (noun.id ? *noun.id != item.record.id : item.isRefuted()) return false;
+  if (noun.id && *noun.id != item.record.id) return false;
   return noun.labels.empty() || noun.labels.count(vocabulary_.keyOf(item.record.label)) != 0;
 }
 

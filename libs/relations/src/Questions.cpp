@@ -2,6 +2,8 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
+
 #include "Answering.h"
 #include "QuestionParser.h"
 #include "Vocabulary.h"
@@ -9,6 +11,29 @@
 
 namespace quadmap
 {
+namespace
+{
+bool isNamed(const ObjectRecord& object, const Question& question)
+{
+  const auto names = [&](const Noun& noun) { return noun.id && *noun.id == object.id; };
+  const auto namesEither = [&](const Clause& clause)
+  { return names(clause.object) || (clause.second && names(*clause.second)); };
+  return names(question.subject) || (question.extremeTo && names(*question.extremeTo)) ||
+         std::any_of(question.clauses.begin(), question.clauses.end(), namesEither);
+}
+
+/** What a question is about: objects that are there, and those that it names by their numbers. */
+Inventory askedOf(const Inventory& inventory, const Question& question)
+{
+  Inventory asked;
+  asked.labels = inventory.labels;
+  for (const InventoryItem& item : inventory.items)
+    if (!item.isRefuted() || isNamed(item.record, question)) asked.items.push_back(item);
+  return asked;
+}
+
+}  // namespace
+
 Answer ask(const Inventory& inventory, const std::string& question, const AnswerLimits& limits)
 {
   const Vocabulary vocabulary(inventory);
@@ -17,7 +42,8 @@ Answer ask(const Inventory& inventory, const std::string& question, const Answer
     throw QuestionError(
         std::string("\"") + textOf(*parsed.extreme) +
         "\" to what? Ask for example \"nearest chair to the tv\", or give a place");
-  return Answering(inventory, vocabulary, parsed, limits).answer();
+  const Inventory asked = askedOf(inventory, parsed);
+  return Answering(asked, vocabulary, parsed, limits).answer();
 }
 
 Answer ask(const CQuadricObjectMap& map, const std::string& question, const AnswerLimits& limits)

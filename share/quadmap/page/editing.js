@@ -66,7 +66,9 @@ Page.editing = (function () {
     for (const label of Page.data.labels) Page.element("option", names).value = label.name;
     Page.button(row, "Relabel", function () {
       const label = text.value.trim();
-      if (label && label !== object.label) add({op: "relabel", id: object.id, label: label});
+      if (!label || label === object.label) return;
+      add({op: "relabel", id: object.id, label: label});
+      if (!Page.data.labels.some((l) => l.name === label)) Page.note("The map does not know \"" + label + "\": quadmap-map apply takes it with --any-label.");
     }).id = "relabel";
   }
   function mergeRow(object) {

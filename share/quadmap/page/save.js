@@ -40,7 +40,7 @@ Page.save = (function () {
     for (const edit of edits) Page.element("li", list, textOf(edit));
     if (!edits.length) Page.element("span", panel, "Nothing was changed.", "dim");
     if (edits.some((edit) => edit.op === "merge"))
-      Page.element("p", panel, "A merged object keeps the size and the place of the one that stays here and in a truth. Applying the edits to the map estimates it anew from what both were measured by.", "dim");
+      Page.element("p", panel, "Here, and in a saved truth, a merged object has the place and the size of the one that stays. quadmap-map apply estimates them anew from the measurements of both.", "dim");
     const row = Page.element("div", panel, null, "row");
     Page.button(row, "Undo", () => Page.editing.undo()).id = "undo";
     Page.button(row, "Save edits", () => download("edits.json", editList())).id = "save-edits";

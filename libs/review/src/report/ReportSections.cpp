@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -75,6 +76,11 @@ std::map<std::string, ReasonCount> reasonsOf(const Json& byLabel)
   return reasons;
 }
 
+std::string fileName(const std::string& path)
+{
+  return std::filesystem::path(path).filename().string();
+}
+
 /** Square root of the largest variance of the centre along an axis of the map [m]. */
 std::string centreSigma(const ObjectRecord& object)
 {
@@ -91,7 +97,8 @@ std::string runSection(const Json& report)
   const auto row = [&](const char* name, const std::vector<std::string>& path) {
     table.addRow({name, text(report, path)});
   };
-  row("recording", {"input", "file"});
+  // Pages are passed on: in whose folder the recording was is for report.json.
+  table.addRow({"recording", fileName(text(report, {"input", "file"}))});
   row("odometry", {"input", "odometry"});
   row("method", {"configuration", "slam", "method"});
   row("frames", {"input", "frames"});
@@ -148,7 +155,7 @@ std::string warningSection(const Json& report)
   HtmlTable dropped({"left out", "#record", "sensor", "why"});
   for (const Json& what : arrayOrEmpty(at(report, {"dropped"})))
     dropped.addRow(
-        {text(what, {"file"}), text(what, {"record"}), text(what, {"sensor"}),
+        {fileName(text(what, {"file"})), text(what, {"record"}), text(what, {"sensor"}),
          text(what, {"what"})});
   return dropped.isEmpty() ? html : html + dropped.toHtml();
 }

@@ -18,7 +18,7 @@ struct InventoryItem
   /** Not confirmed, or it exists with a probability below 0.9. */
   bool isDoubtful() const { return !confirmed || quadmap::isDoubtful(record); }
 
-  /** As surely not there as others are there: it exists with a probability below 0.1. */
+  /** It exists with a probability below 0.1: as sure as others exist, it does not. */
   bool isRefuted() const { return record.existence && *record.existence < 1 - kSureExistence; }
 };
 
