@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "GraphProblem.h"
+#include "quadmap/geometry/CuboidExtent.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 // Things that stand on one floor: (16.8) and (16.10) to (16.12) of doc/mathematics.md.
@@ -41,7 +42,7 @@ StandingThing GraphProblem::standingThing(ObjectId id) const
   const auto& object = graph_.objects_.at(id);
   const Ellipsoid solid = objectOf(object.block, object.freedom);
   StandingThing thing;
-  thing.bottom = solid.cuboidCorners().row(2).minCoeff();
+  thing.bottom = cuboidBottom(solid);
   thing.place = solid.center().head<2>();
   // A bottom that nobody saw is anywhere within the height of the thing: a uniform distribution.
   double information = 12 / std::pow(object.label.typicalSize.z(), 2);

@@ -7,6 +7,7 @@
 
 #include "FreeSpace.h"
 #include "quadmap/base/OptionList.h"
+#include "quadmap/geometry/CuboidExtent.h"
 #include "quadmap/relations/Relations.h"
 
 namespace quadmap
@@ -203,14 +204,12 @@ std::size_t footprintInto(
 {
   const auto objects = map.confirmedObjects();
   double floor = std::numeric_limits<double>::infinity();
-  const auto bottom = [](const MapObject& o)
-  { return o.object.center().z() - o.object.semiAxes().z(); };
-  for (const auto* object : objects) floor = std::min(floor, bottom(*object));
+  for (const auto* object : objects) floor = std::min(floor, cuboidBottom(object->object));
   const double half = 0.5 * static_cast<double>(grid.getResolution());
   std::size_t written = 0;
   for (const auto* object : objects)
   {
-    if (bottom(*object) > floor + options.robotHeight) continue;
+    if (cuboidBottom(object->object) > floor + options.robotHeight) continue;
     const auto outline = map.footprint(object->id);
     mrpt::math::TPoint2D lower, upper;
     outline.getBoundingBox(lower, upper);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "quadmap/geometry/ConvexHull.h"
+#include "quadmap/geometry/CuboidExtent.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
@@ -23,12 +24,6 @@ constexpr double kLeastDirection = 0.01;  // to what it faces, below which there
 constexpr double kDetour = 0.1;           // longer way by what is between, as a share
 
 Eigen::Vector2d flat(const Eigen::Vector3d& v) { return v.head<2>(); }
-
-/** Half extent of the cuboid along a unit direction, (23.1) [m]. */
-double halfExtent(const Ellipsoid& object, const Eigen::Vector3d& n)
-{
-  return (object.rotation().transpose() * n).cwiseAbs().dot(object.semiAxes());
-}
 
 Footprint footprintOf(const Ellipsoid& object)
 {
@@ -90,7 +85,7 @@ Geometry::Solid Geometry::solidOf(const InventoryItem& item, const LabelTable& l
   solid.object = item.record.object;
   solid.footprint = footprintOf(solid.object);
   solid.area = areaOf(solid.footprint);
-  const double half = halfExtent(solid.object, Eigen::Vector3d::UnitZ());
+  const double half = cuboidHalfExtent(solid.object, Eigen::Vector3d::UnitZ());
   solid.bottom = solid.object.center().z() - half;
   solid.top = solid.object.center().z() + half;
   // (23.3): chairs and beds rise above what things stand on.
@@ -209,7 +204,7 @@ std::optional<double> Geometry::onSide(const Solid& subject, const Solid& object
   const Eigen::Vector2d n = sign * object.front;
   if (n.isZero()) return std::nullopt;
   const auto halfAlong = [&](const Eigen::Vector2d& direction) {
-    return halfExtent(object.object, {direction.x(), direction.y(), 0});
+    return cuboidHalfExtent(object.object, {direction.x(), direction.y(), 0});
   };
   const Eigen::Vector2d across(-n.y(), n.x());
   const Eigen::Vector2d way = flat(subject.object.center() - object.object.center());

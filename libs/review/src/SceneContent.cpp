@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "quadmap/geometry/CuboidExtent.h"
 #include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
@@ -25,8 +26,7 @@ double SceneContent::floorHeight() const
   constexpr double kLow = 0.1;  // a few objects may reach below the floor
   std::vector<double> heights;
   for (const auto& list : {objects, truth})
-    for (const ObjectRecord& record : list)
-      heights.push_back(record.object.cuboidCorners().row(2).minCoeff());
+    for (const ObjectRecord& record : list) heights.push_back(cuboidBottom(record.object));
   if (heights.empty())
     for (const CloudPoint& p : cloud) heights.push_back(static_cast<double>(p.position.z()));
   if (heights.empty())
