@@ -31,6 +31,14 @@ void requireSameMap(
         "it all the same");
 }
 
+/** \exception std::runtime_error If the list gives a label that the map does not know. */
+void requireLabels(
+    const MapEditList& edits, const Inventory& inventory, const std::string& listPath)
+{
+  for (const MapEdit& edit : edits.edits)
+    if (edit.kind == MapEdit::Kind::Relabel) requireLabel(inventory, edit.label, listPath);
+}
+
 /** When the confirmed objects were seen, as a line; empty when there is none. */
 std::string timesSeen(const CQuadricObjectMap& map)
 {
@@ -117,10 +125,7 @@ void applyCommand(int argc, char** argv)
   const MapEditList edits = readMapEdits(list.getValue());
   CQuadricObjectMap map = readMap(cli.file.getValue());
   if (!anyMap.getValue()) requireSameMap(edits, list.getValue(), cli.file.getValue());
-  if (!anyLabel.getValue())
-    for (const MapEdit& edit : edits.edits)
-      if (edit.kind == MapEdit::Kind::Relabel)
-        requireLabel(inventoryOf(map), edit.label, list.getValue());
+  if (!anyLabel.getValue()) requireLabels(edits, inventoryOf(map), list.getValue());
   try
   {
     applyEdits(edits.edits, map);
