@@ -1,5 +1,6 @@
 #include "quadmap/base/GzipStream.h"
 
+#include <libdeflate.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
@@ -14,27 +15,19 @@ namespace quadmap
 namespace
 {
 constexpr int kGzipFormat = 16;  //!< Added to zlib's window bits: gzip header and checksum
-constexpr int kMemoryLevel = 8;  //!< zlib's default
 constexpr std::size_t kPendingLimit = 1 << 20;  //!< Compressed in pieces of this size [bytes]
 
 }  // namespace
 
 std::vector<std::uint8_t> gzipMember(const std::vector<std::uint8_t>& bytes, int compressionLevel)
 {
-  z_stream z{};
-  if (deflateInit2(
-          &z, compressionLevel, Z_DEFLATED, MAX_WBITS + kGzipFormat, kMemoryLevel,
-          Z_DEFAULT_STRATEGY) != Z_OK)
-    throw std::runtime_error("zlib: out of memory");
-  std::vector<std::uint8_t> member(deflateBound(&z, static_cast<uLong>(bytes.size())));
-  z.next_in = const_cast<Bytef*>(bytes.data());
-  z.avail_in = static_cast<uInt>(bytes.size());
-  z.next_out = member.data();
-  z.avail_out = static_cast<uInt>(member.size());
-  const int state = deflate(&z, Z_FINISH);
-  member.resize(z.total_out);
-  deflateEnd(&z);
-  if (state != Z_STREAM_END) throw std::logic_error("zlib: compression did not end");
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(compressionLevel), &libdeflate_free_compressor);
+  if (!compressor) throw std::runtime_error("gzip: out of memory");
+  std::vector<std::uint8_t> member(libdeflate_gzip_compress_bound(compressor.get(), bytes.size()));
+  member.resize(libdeflate_gzip_compress(
+      compressor.get(), bytes.data(), bytes.size(), member.data(), member.size()));
+  if (member.empty()) throw std::logic_error("gzip: compression did not end");
   return member;
 }
 
