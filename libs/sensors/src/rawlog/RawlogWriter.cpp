@@ -11,7 +11,7 @@
 #include "quadmap/base/GzipStream.h"
 #include "quadmap/base/OutputSet.h"
 #include "rawlog/ExternalImages.h"
-#include "rawlog/ScanBytes.h"
+#include "rawlog/ScanWithJpeg.h"
 
 namespace quadmap
 {
@@ -106,8 +106,7 @@ void RawlogWriter::write(
     impl_->images->moveOut(scan, jpeg);
     return writeTo(impl_->rawlog, scan);
   }
-  const auto bytes = scanBytes(scan, jpeg);
-  impl_->rawlog.Write(bytes.data(), bytes.size());
+  writeWithJpeg(scan, jpeg, impl_->rawlog);
   impl_->rawlog.requireWritten();
 }
 

@@ -36,7 +36,8 @@ class RawlogWriter
   void write(mrpt::obs::CObservation3DRangeScan& scan);
 
   /** Writes a scan whose colour image is this JPEG file, as it is.
-   *  \param scan Without colour pixels; it has the names of external files afterwards.
+   *  \param scan Without colour pixels, and without a colour image to be read afterwards; with
+   *  external images it keeps the names of their files.
    *  \param jpeg Of 3 x 8 bits, of the size that the scan's cameraParamsIntensity state. */
   void write(mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg);
 

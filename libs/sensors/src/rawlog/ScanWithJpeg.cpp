@@ -1,10 +1,11 @@
-#include "rawlog/ScanBytes.h"
+#include "rawlog/ScanWithJpeg.h"
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-
-#include "quadmap/base/GzipStream.h"
 
 namespace quadmap
 {
@@ -42,22 +43,27 @@ std::vector<std::uint8_t> embeddedImage(
 }
 }  // namespace
 
-std::vector<std::uint8_t> scanBytes(
-    const mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg)
+void writeWithJpeg(
+    mrpt::obs::CObservation3DRangeScan& scan,
+    const std::vector<std::uint8_t>& jpeg,
+    mrpt::io::CStream& to)
 {
-  mrpt::obs::CObservation3DRangeScan marked = scan;
-  marked.hasIntensityImage = true;
-  marked.intensityImage.setExternalStorage(kPlaceholder);
-  std::vector<std::uint8_t> bytes = archiveBytes(marked);
+  scan.hasIntensityImage = true;
+  scan.intensityImage.setExternalStorage(kPlaceholder);
+  mrpt::io::CMemoryStream memory;
+  mrpt::serialization::archiveFrom(memory) << scan;
 
+  const auto* first = static_cast<const std::uint8_t*>(memory.getRawBufferData());
+  const auto* last = first + memory.getTotalBytesCount();
   const auto external = externalImage();
   // Depth comes first and is long, so that looking from the end is quicker.
-  const auto at = std::find_end(bytes.begin(), bytes.end(), external.begin(), external.end());
-  if (at == bytes.end()) throw std::logic_error("MRPT archives images in another form");
+  const auto* place = std::find_end(first, last, external.begin(), external.end());
+  if (place == last) throw std::logic_error("MRPT archives images in another form");
+  const auto* rest = place + external.size();
   const auto embedded = embeddedImage(scan.cameraParamsIntensity, jpeg);
-  const auto rest = bytes.erase(at, at + static_cast<std::ptrdiff_t>(external.size()));
-  bytes.insert(rest, embedded.begin(), embedded.end());
-  return bytes;
+  to.Write(first, static_cast<std::size_t>(place - first));
+  to.Write(embedded.data(), embedded.size());
+  to.Write(rest, static_cast<std::size_t>(last - rest));
 }
 
 }  // namespace quadmap

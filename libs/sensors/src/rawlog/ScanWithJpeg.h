@@ -1,0 +1,19 @@
+#pragma once
+
+#include <mrpt/io/CStream.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace quadmap
+{
+/** Writes a scan as MRPT archives it, with this JPEG file as its colour image. MRPT itself would
+ * have to decode the file and to encode it anew, which takes time and loses quality.
+ * \param scan Without colour pixels; afterwards it has a colour image that can no more be read. */
+void writeWithJpeg(
+    mrpt::obs::CObservation3DRangeScan& scan,
+    const std::vector<std::uint8_t>& jpeg,
+    mrpt::io::CStream& to);
+
+}  // namespace quadmap
