@@ -52,6 +52,7 @@ TEST(CameraPreset, RefusesWrongFilesByName)
   expect("fx = 500\n", "fy must not be 0");
   expect("fx = 500\nfy = 500\nfz = 1\n", "fz");
   expect("fx = 500\nfy = 500\ndepthFx = 500\n", "depthFx must be > 0 and depthFy not 0");
+  expect("fx = 500\nfy = 500\ndepthWidth = 640\n", "depthWidth and depthHeight must both be");
   expect("fx = 500\nfy = 500\ndepthFactor = 0.5\n", "depthFactor must be 0 or in 1..1e7");
   expect(
       "fx = 500\nfy = 500\nT_color_depth = 1 0 0 0 0 1 0 0 0 0 2 0\n",
@@ -74,6 +75,34 @@ TEST(CameraPreset, HasTheCentreOfTheImageWhenTheFileHasNone)
   ASSERT_TRUE(two.depth);
   EXPECT_DOUBLE_EQ(two.depth->camera.cx(), 159.5);
   EXPECT_DOUBLE_EQ(two.depth->camera.cy(), 119.5);
+}
+
+TEST(CameraPreset, KnowsDepthImagesOfAnotherSize)
+{
+  const TemporaryFolder files;
+  const std::string text =
+      "[camera]\nwidth = 1296\nheight = 968\nfx = 1170\nfy = 1170\n"
+      "depthWidth = 640\ndepthHeight = 480\n";
+  const FolderCamera registered = cameraPreset(files.write("my.ini", text));
+  EXPECT_EQ(registered.color.ncols, 1296u);
+  ASSERT_TRUE(registered.depth);
+  const auto& depth = registered.depth->camera;
+  EXPECT_EQ(depth.ncols, 640u);
+  EXPECT_EQ(depth.nrows, 480u);
+  EXPECT_DOUBLE_EQ(depth.fx(), 1170 * 640 / 1296.0) << "the colour camera's view";
+  EXPECT_DOUBLE_EQ(depth.fy(), 1170 * 480 / 968.0);
+  EXPECT_DOUBLE_EQ(depth.cx(), 319.5);
+  EXPECT_NEAR(registered.depth->T_color_depth.norm(), 0, 1e-12);
+
+  const FolderCamera own =
+      cameraPreset(files.write("own.ini", text + "depthFx = 578\ndepthFy = 578\n"));
+  ASSERT_TRUE(own.depth);
+  EXPECT_EQ(own.depth->camera.nrows, 480u);
+  EXPECT_DOUBLE_EQ(own.depth->camera.fx(), 578);
+  EXPECT_DOUBLE_EQ(own.depth->camera.cy(), 239.5) << "the middle of the depth images";
+  const FolderCamera half = scaledTo(own, 648, 484);
+  EXPECT_EQ(half.depth->camera.ncols, 320u) << "the proportion of both sizes stays";
+  EXPECT_DOUBLE_EQ(half.depth->camera.fx(), 289);
 }
 
 TEST(CameraPreset, GivesBackWhatWasSaved)

@@ -123,6 +123,22 @@ TEST_F(ScanNetFolder, PosesAreOfTheDepthCameraOfAGivenCamera)
   EXPECT_NEAR(scene.frames()[2].T_world_optical->x(), 10 - 0.05, 1e-9);
 }
 
+TEST_F(ScanNetFolder, AGivenCameraMayHaveDepthOfAnotherSize)
+{
+  const FrameFolder own = openFrameFolder("scannet", folder());
+  FrameFolderOptions options;
+  options.camera = files_.write(
+      "my.ini",
+      "[camera]\nwidth = 1296\nheight = 968\nfx = 1170\nfy = 1170\n"
+      "depthWidth = 640\ndepthHeight = 480\ndepthFx = 578\ndepthFy = 578\n");
+  std::filesystem::remove_all(files_.path("intrinsic"));
+  const FrameFolder given = openFrameFolder("scannet", folder(), options);
+  const auto expected = own.scan(1), scan = given.scan(1);
+  EXPECT_EQ(scan->cameraParams, expected->cameraParams) << "as intrinsic/ said before";
+  EXPECT_TRUE(scan->rangeImage == expected->rangeImage);
+  EXPECT_EQ(scan->intensityImage.getWidth(), 640u);
+}
+
 TEST_F(ScanNetFolder, SaysHowToGiveTheCameraThatItLacks)
 {
   std::filesystem::remove_all(files_.path("intrinsic"));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "frames/ResizedCamera.h"
 #include "frames/RigidMatrix.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OptionList.h"
@@ -68,8 +69,8 @@ void CameraPreset::describe(OptionList& list)
   list.text(
       "folders", [this] { return folders; }, [this](const std::string& text) { folders = text; },
       "words", "A folder with one of these words in its name has recordings of this camera.");
-  list.integer("width", width, {1, kMostPixels}, "px", "Of the images.");
-  list.integer("height", height, {1, kMostPixels}, "px", "Of the images.");
+  list.integer("width", width, {1, kMostPixels}, "px", "Of the colour images.");
+  list.integer("height", height, {1, kMostPixels}, "px", "Of the colour images.");
   list.number("fx", color[0], {1e-3, 1e6}, "px", "Focal length of the colour camera.");
   list.number("fy", color[1], {-1e6, 1e6}, "px", "Negative where y points up in the camera.");
   list.number("cx", color[2], {-1e6, 1e6}, "px", "Centre of the colour camera.");
@@ -83,6 +84,9 @@ void CameraPreset::describe(OptionList& list)
       "depthFactor", depthFactor, {0, 1 / kSmallestDepthUnit}, "1/m",
       "Depth [m] = pixel value / depthFactor. 0: as usual in the layout of the folder.");
   list.integer("noDepth", noDepth, {0, 65535}, "", "Pixel value without depth, as 0 always is.");
+  list.integer(
+      "depthWidth", depthWidth, {0, kMostPixels}, "px", "Of the depth images. 0: as of colour.");
+  list.integer("depthHeight", depthHeight, {0, kMostPixels}, "px", "As depthWidth.");
   const char* const depthNames[] = {"depthFx", "depthFy", "depthCx", "depthCy"};
   for (std::size_t i = 0; i < depth.size(); ++i)
     list.number(
@@ -100,6 +104,9 @@ void CameraPreset::describe(OptionList& list)
   list.require(
       [this] { return isZero(depth.data(), 4) || (depth[0] > 0 && depth[1] != 0); },
       "depthFx must be > 0 and depthFy not 0, or both must be missing");
+  list.require(
+      [this] { return (depthWidth == 0) == (depthHeight == 0); },
+      "depthWidth and depthHeight must both be there or both be missing");
   list.require(
       [this] { return depthFactor == 0 || isPlausibleDepthUnit(1 / depthFactor); },
       "depthFactor must be 0 or in 1..1e7");
@@ -119,14 +126,31 @@ CameraPreset CameraPreset::fromFile(const std::string& path)
     if (!has("cx")) preset.color[2] = 0.5 * (preset.width - 1);
     if (!has("cy")) preset.color[3] = 0.5 * (preset.height - 1);
     const bool hasDepth = preset.depth[0] > 0;
-    if (hasDepth && !has("depthCx")) preset.depth[2] = 0.5 * (preset.width - 1);
-    if (hasDepth && !has("depthCy")) preset.depth[3] = 0.5 * (preset.height - 1);
+    const auto [width, height] = preset.depthSize();
+    if (hasDepth && !has("depthCx")) preset.depth[2] = 0.5 * (width - 1);
+    if (hasDepth && !has("depthCy")) preset.depth[3] = 0.5 * (height - 1);
   }
   catch (const std::invalid_argument& e)
   {
     throw std::invalid_argument(path + ": " + e.what());
   }
   return preset;
+}
+
+std::pair<int, int> CameraPreset::depthSize() const
+{
+  return depthWidth > 0 ? std::pair(depthWidth, depthHeight) : std::pair(width, height);
+}
+
+std::optional<DepthCamera> CameraPreset::depthCamera() const
+{
+  const auto [columns, rows] = depthSize();
+  if (!isZero(depth.data(), depth.size()))
+    return DepthCamera{pinhole(depth, columns, rows), poseOf(T_color_depth)};
+  if (columns == width && rows == height) return std::nullopt;
+  const auto own = resized(
+      pinhole(color, width, height), static_cast<unsigned>(columns), static_cast<unsigned>(rows));
+  return DepthCamera{own, {}};
 }
 
 FolderCamera CameraPreset::camera(const std::string& origin) const
@@ -139,8 +163,7 @@ FolderCamera CameraPreset::camera(const std::string& origin) const
     c.color.distortion = mrpt::img::DistortionModel::plumb_bob;
   c.depthFactor = depthFactor;
   c.noDepth = static_cast<std::uint16_t>(noDepth);
-  if (!isZero(depth.data(), depth.size()))
-    c.depth = DepthCamera{pinhole(depth, width, height), poseOf(T_color_depth)};
+  c.depth = depthCamera();
   c.posesAreOfDepth = posesAreOfDepth && c.depth;
   const Eigen::Vector3d up(worldUp[0], worldUp[1], worldUp[2]);
   if (up.norm() > 0) c.worldUp = up.normalized();

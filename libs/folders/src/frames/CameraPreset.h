@@ -2,7 +2,9 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quadmap/base/OptionGroup.h"
@@ -19,6 +21,7 @@ struct CameraPreset : public OptionGroup
   std::array<double, 5> distortion{0, 0, 0, 0, 0};  //!< k1, k2, p1, p2, k3
   double depthFactor = 0;                           //!< 0: as usual in the layout of the folder
   int noDepth = 0;
+  int depthWidth = 0, depthHeight = 0;      //!< [px]; 0: those of the colour images
   std::array<double, 4> depth{0, 0, 0, 0};  //!< As `color`; zero when registered
   Eigen::Matrix4d T_color_depth = Eigen::Matrix4d::Identity();
   bool posesAreOfDepth = false;
@@ -36,6 +39,12 @@ struct CameraPreset : public OptionGroup
 
  private:
   void describe(OptionList& list) override;
+
+  /** Width and height of the depth images [px]. */
+  std::pair<int, int> depthSize() const;
+
+  /** The camera of depth images that have a pose or a size of their own. */
+  std::optional<DepthCamera> depthCamera() const;
 };
 
 }  // namespace quadmap

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "frames/CameraPreset.h"
+#include "frames/ResizedCamera.h"
 #include "quadmap/base/ShareFiles.h"
 
 namespace quadmap
@@ -34,18 +35,6 @@ std::set<std::string> wordsOf(const std::string& name)
     else if (!word.empty())
       words.insert(std::exchange(word, {}));
   return words;
-}
-
-mrpt::img::TCamera scaled(mrpt::img::TCamera camera, unsigned width, unsigned height)
-{
-  // A pixel's number is that of its centre, so that the image begins at -0.5.
-  const double s = static_cast<double>(width) / camera.ncols;
-  camera.setIntrinsicParamsFromValues(
-      s * camera.fx(), s * camera.fy(), s * (camera.cx() + 0.5) - 0.5,
-      s * (camera.cy() + 0.5) - 0.5);
-  camera.ncols = width;
-  camera.nrows = height;
-  return camera;
 }
 }  // namespace
 
@@ -96,8 +85,12 @@ FolderCamera scaledTo(FolderCamera camera, unsigned width, unsigned height)
     throw std::runtime_error(mrpt::format(
         "%s is for %ux%u, the images are %ux%u", camera.origin.c_str(), own.ncols, own.nrows, width,
         height));
-  camera.color = scaled(camera.color, width, height);
-  if (camera.depth) camera.depth->camera = scaled(camera.depth->camera, width, height);
+  if (camera.depth)
+  {
+    auto& depth = camera.depth->camera;
+    depth = resized(depth, depth.ncols * width / own.ncols, depth.nrows * height / own.nrows);
+  }
+  camera.color = resized(camera.color, width, height);
   return camera;
 }
 

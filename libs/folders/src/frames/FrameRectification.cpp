@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "frames/ResizedCamera.h"
+
 namespace quadmap
 {
 namespace
@@ -67,15 +69,7 @@ mrpt::img::TCamera rectifiedCameraOf(const FolderCamera& camera)
   mrpt::img::TCamera c = camera.color;
   c.distortion = mrpt::img::DistortionModel::none;
   c.dist.fill(0);
-  if (!camera.depth) return c;
-  const unsigned columns = camera.depth->camera.ncols, rows = camera.depth->camera.nrows;
-  const double sx = static_cast<double>(columns) / c.ncols,
-               sy = static_cast<double>(rows) / c.nrows;
-  c.setIntrinsicParamsFromValues(
-      sx * c.fx(), sy * c.fy(), sx * (c.cx() + 0.5) - 0.5, sy * (c.cy() + 0.5) - 0.5);
-  c.ncols = columns;
-  c.nrows = rows;
-  return c;
+  return camera.depth ? resized(c, camera.depth->camera.ncols, camera.depth->camera.nrows) : c;
 }
 
 FrameRectification::FrameRectification(const FolderCamera& camera) :
