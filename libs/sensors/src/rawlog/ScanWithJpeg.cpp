@@ -46,8 +46,9 @@ std::vector<std::uint8_t> embeddedImage(
 void writeWithJpeg(
     mrpt::obs::CObservation3DRangeScan& scan,
     const std::vector<std::uint8_t>& jpeg,
-    mrpt::io::CStream& to)
+    GzipFileWriter& to)
 {
+  constexpr int kStored = 0;  // a JPEG gets no smaller
   scan.hasIntensityImage = true;
   scan.intensityImage.setExternalStorage(kPlaceholder);
   mrpt::io::CMemoryStream memory;
@@ -62,7 +63,7 @@ void writeWithJpeg(
   const auto* rest = place + external.size();
   const auto embedded = embeddedImage(scan.cameraParamsIntensity, jpeg);
   to.Write(first, static_cast<std::size_t>(place - first));
-  to.Write(embedded.data(), embedded.size());
+  to.appendMember(gzipMember(embedded, kStored));
   to.Write(rest, static_cast<std::size_t>(last - rest));
 }
 

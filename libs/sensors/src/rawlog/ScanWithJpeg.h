@@ -1,10 +1,11 @@
 #pragma once
 
-#include <mrpt/io/CStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <cstdint>
 #include <vector>
+
+#include "quadmap/base/GzipStream.h"
 
 namespace quadmap
 {
@@ -14,6 +15,6 @@ namespace quadmap
 void writeWithJpeg(
     mrpt::obs::CObservation3DRangeScan& scan,
     const std::vector<std::uint8_t>& jpeg,
-    mrpt::io::CStream& to);
+    GzipFileWriter& to);
 
 }  // namespace quadmap
