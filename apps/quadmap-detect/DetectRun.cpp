@@ -66,7 +66,7 @@ class DetectRun
   }
 
  private:
-  static constexpr int kCompression = 6;  // of zlib; boxes are small
+  static constexpr int kCompression = 6;  // boxes are small
 
   struct ReadFrame
   {

@@ -16,7 +16,6 @@ namespace
 {
 constexpr int kGzipFormat = 16;  //!< Added to zlib's window bits: gzip header and checksum
 constexpr std::size_t kPendingLimit = 1 << 20;  //!< Compressed in pieces of this size [bytes]
-
 }  // namespace
 
 std::vector<std::uint8_t> gzipMember(const std::vector<std::uint8_t>& bytes, int compressionLevel)

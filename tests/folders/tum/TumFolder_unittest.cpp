@@ -186,6 +186,33 @@ TEST(TumFolder, TakesTheDistortionOutOfImagesAndBoxes)
   EXPECT_TRUE(dataset.recorded(0).jpeg.empty());
 }
 
+TEST(TumFolder, TakesRegisteredDepthOfAnotherSize)
+{
+  const SampleRecording recording;
+  for (int i = 0; i < SampleRecording::kFrames; ++i) recording.writeColor(i, 128, 96);
+  FrameFolderOptions options;
+  const auto readWith = [&](const std::string& keys)
+  {
+    options.camera = recording.files.write(
+        "my.ini",
+        "[camera]\nwidth = 128\nheight = 96\nfx = 120\nfy = 120\n"
+        "depthWidth = 64\ndepthHeight = 48\n" +
+            keys);
+    return openFrameFolder("tum", recording.folder(), options);
+  };
+  for (const char* keys : {"", "depthFx = 70\ndepthFy = 70\n"})
+  {
+    const auto scan = readWith(keys).scan(1);
+    EXPECT_EQ(scan->cameraParams.ncols, 64u) << keys;
+    EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 60) << "depth is registered, whatever the file says";
+    EXPECT_EQ(scan->intensityImage.getWidth(), 64u) << keys;
+    EXPECT_EQ(scan->rangeImage(7, 9), 10000) << keys;
+    EXPECT_EQ(scan->rangeImage.rows(), 48) << keys;
+  }
+  const auto error = errorOf([&] { readWith("depthFx = 70\ndepthFy = 70\nk1 = 0.1\n"); });
+  expectInOneLine(error, "registered depth images of another size cannot be rectified");
+}
+
 TEST(TumFolder, NamesTheCamerasWhenNothingTellsWhichItIs)
 {
   const SampleRecording recording;

@@ -138,6 +138,7 @@ TEST(RawlogWriter, WritesAJpegAsItIs)
       EXPECT_EQ(frame.scan->rangeImage, sample->rangeImage);
     }
     EXPECT_NE(unpacked(file).find(jpeg), std::string::npos);
+    EXPECT_NE(readFile(file).find(jpeg), std::string::npos) << "stored, as it gets no smaller";
   }
 }
 

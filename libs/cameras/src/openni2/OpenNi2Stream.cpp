@@ -129,7 +129,7 @@ mrpt::img::TCamera OpenNi2Stream::calibration(const CameraOptions& options) cons
     camera.setIntrinsicParamsFromValues(fx, fy, cx, cy);
     return camera;
   }
-  if (options.calibration) return scaledTo(*options.calibration, camera.ncols, camera.nrows).color;
+  if (options.calibration) return scaledTo(*options.calibration, camera.ncols, camera.nrows);
   const double horizontal = static_cast<double>(stream_.getHorizontalFieldOfView()),
                vertical = static_cast<double>(stream_.getVerticalFieldOfView());
   if (!(horizontal > 0 && horizontal < M_PI && vertical > 0 && vertical < M_PI))

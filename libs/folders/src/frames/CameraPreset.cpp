@@ -10,6 +10,7 @@
 #include "frames/RigidMatrix.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OptionList.h"
+#include "quadmap/sensors/CheckedReader.h"
 #include "quadmap/sensors/DepthUnit.h"
 
 namespace quadmap
@@ -105,8 +106,23 @@ void CameraPreset::describe(OptionList& list)
       [this] { return isZero(depth.data(), 4) || (depth[0] > 0 && depth[1] != 0); },
       "depthFx must be > 0 and depthFy not 0, or both must be missing");
   list.require(
+      [this] { return !isZero(depth.data(), 4) || T_color_depth.isIdentity(0); },
+      "T_color_depth needs depthFx and depthFy");
+  list.require(
       [this] { return (depthWidth == 0) == (depthHeight == 0); },
       "depthWidth and depthHeight must both be there or both be missing");
+  list.require(
+      [this]
+      { return depthWidth == 0 || !isZero(depth.data(), 4) || isZero(distortion.data(), 5); },
+      "depthWidth with a lens that distorts needs depthFx and depthFy");
+  list.require(
+      [this]
+      {
+        const auto [columns, rows] = depthSize();
+        const auto most = static_cast<double>(RecordLimits().imagePixels);
+        return double(width) * height <= most && double(columns) * rows <= most;
+      },
+      "images may have 16 million pixels");
   list.require(
       [this] { return depthFactor == 0 || isPlausibleDepthUnit(1 / depthFactor); },
       "depthFactor must be 0 or in 1..1e7");

@@ -27,8 +27,8 @@ struct CameraPreset : public OptionGroup
   bool posesAreOfDepth = false;
   std::array<double, 3> worldUp{0, 0, 0};  //!< Zero: not known
 
-  /** Centres that the file does not have are those of the images, (width - 1) / 2 and
-   *  (height - 1) / 2. \exception std::runtime_error If it cannot be read.
+  /** Centres that the file does not have are those of the images: cx = (width - 1) / 2,
+   *  depthCx = (depthWidth - 1) / 2. \exception std::runtime_error If it cannot be read.
    *  \exception std::invalid_argument For wrong values. Both messages start with its name. */
   static CameraPreset fromFile(const std::string& path);
 

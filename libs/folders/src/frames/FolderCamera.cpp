@@ -78,20 +78,14 @@ std::optional<std::string> presetOfFolder(const std::string& folder)
   return std::nullopt;
 }
 
-FolderCamera scaledTo(FolderCamera camera, unsigned width, unsigned height)
+mrpt::img::TCamera scaledTo(const FolderCamera& camera, unsigned width, unsigned height)
 {
   const auto& own = camera.color;
   if (std::uint64_t{width} * own.nrows != std::uint64_t{height} * own.ncols)
     throw std::runtime_error(mrpt::format(
         "%s is for %ux%u, the images are %ux%u", camera.origin.c_str(), own.ncols, own.nrows, width,
         height));
-  if (camera.depth)
-  {
-    auto& depth = camera.depth->camera;
-    depth = resized(depth, depth.ncols * width / own.ncols, depth.nrows * height / own.nrows);
-  }
-  camera.color = resized(camera.color, width, height);
-  return camera;
+  return resized(own, width, height);
 }
 
 }  // namespace quadmap

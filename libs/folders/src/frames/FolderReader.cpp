@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "frames/ResizedCamera.h"
 #include "frames/RigidMatrix.h"
 #include "quadmap/obs/Trajectory.h"
 #include "text/TextLines.h"
@@ -76,6 +77,18 @@ FolderCamera cameraOfFolder(
   FolderCamera camera = findCamera(folder, options, usual);
   if (camera.depthFactor == 0) camera.depthFactor = depthFactor;
   return camera;
+}
+
+void takeDepthAsRegistered(FolderCamera& camera)
+{
+  if (!camera.depth) return;
+  const unsigned columns = camera.depth->camera.ncols, rows = camera.depth->camera.nrows;
+  if (columns == camera.color.ncols && rows == camera.color.nrows) return camera.depth.reset();
+  if (camera.isDistorted())
+    throw std::runtime_error(
+        camera.origin +
+        ": its lens distorts, and registered depth images of another size cannot be rectified");
+  camera.depth = DepthCamera{resized(camera.color, columns, rows), {}};
 }
 
 void takePoses(FolderContent& content, const std::string& file, double maxGap)

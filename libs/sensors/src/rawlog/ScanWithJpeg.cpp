@@ -65,6 +65,7 @@ void writeWithJpeg(
   to.Write(first, static_cast<std::size_t>(place - first));
   to.appendMember(gzipMember(embedded, kStored));
   to.Write(rest, static_cast<std::size_t>(last - rest));
+  scan.intensityImage = mrpt::img::CImage();
 }
 
 }  // namespace quadmap

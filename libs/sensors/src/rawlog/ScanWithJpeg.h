@@ -11,7 +11,7 @@ namespace quadmap
 {
 /** Writes a scan as MRPT archives it, with this JPEG file as its colour image. MRPT itself would
  * have to decode the file and to encode it anew, which takes time and loses quality.
- * \param scan Without colour pixels; afterwards it has a colour image that can no more be read. */
+ * \param scan Without colour pixels, before and after. */
 void writeWithJpeg(
     mrpt::obs::CObservation3DRangeScan& scan,
     const std::vector<std::uint8_t>& jpeg,

@@ -14,7 +14,7 @@
 namespace quadmap
 {
 /** A whole gzip file (a "member") of these bytes. The same bytes give the same result.
- *  \param compressionLevel 1 (fastest) to 9 (smallest). */
+ *  \param compressionLevel 0 (none) to 9 (smallest). */
 std::vector<std::uint8_t> gzipMember(const std::vector<std::uint8_t>& bytes, int compressionLevel);
 
 /** \exception std::runtime_error If it is damaged. */

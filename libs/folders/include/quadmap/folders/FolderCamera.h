@@ -11,7 +11,7 @@
 
 namespace quadmap
 {
-/** A depth camera whose images are not registered to the colour camera. */
+/** A depth camera whose images are not registered to the colour images, or have another size. */
 struct DepthCamera
 {
   mrpt::img::TCamera camera;           //!< Without distortion
@@ -27,7 +27,7 @@ struct FolderCamera
   double depthFactor = 5000;  //!< Depth [m] = pixel value / depthFactor
   /** A pixel value that means no measurement, as 0 always does. */
   std::uint16_t noDepth = 0;
-  /** Set when the depth images are not registered to the colour images. */
+  /** Set when the depth images are not registered to the colour images, or have another size. */
   std::optional<DepthCamera> depth;
   bool posesAreOfDepth = false;            //!< The poses of the recording are those of `depth`
   std::optional<Eigen::Vector3d> worldUp;  //!< Unit vector in the world of the recording's poses
@@ -50,8 +50,8 @@ std::vector<std::string> cameraPresetNames();
  * rgbd_dataset_freiburg1_xyz. The folders above are looked at as well. */
 std::optional<std::string> presetOfFolder(const std::string& folder);
 
-/** The same camera with images of another size. \exception std::runtime_error If the proportions
+/** The colour camera with images of another size. \exception std::runtime_error If the proportions
  * are others. The message starts with the camera's origin. */
-FolderCamera scaledTo(FolderCamera camera, unsigned width, unsigned height);
+mrpt::img::TCamera scaledTo(const FolderCamera& camera, unsigned width, unsigned height);
 
 }  // namespace quadmap

@@ -16,9 +16,10 @@ namespace quadmap
 /** How a rawlog is written. */
 struct RawlogWriterOptions
 {
-  int compressionLevel = 1;  //!< 0 (none) to 9 (smallest); depth images pack well at 1
-  int jpegQuality = 95;      //!< 1 to 100; 95 has no visible loss
-  bool external = false;     //!< Write images to NAME_Images/ (JPEG and MRPT's .bin) instead
+  /** 0 (none) to 9 (smallest); depth images pack well at 1. JPEG files are stored. */
+  int compressionLevel = 1;
+  int jpegQuality = 95;   //!< 1 to 100; 95 has no visible loss
+  bool external = false;  //!< Write images to NAME_Images/ (JPEG and MRPT's .bin) instead
 };
 
 /** Writes a rawlog of stock MRPT classes in observation format, and the boxes into its sidecar (see
@@ -36,8 +37,7 @@ class RawlogWriter
   void write(mrpt::obs::CObservation3DRangeScan& scan);
 
   /** Writes a scan whose colour image is this JPEG file, as it is.
-   *  \param scan Without colour pixels, and without a colour image to be read afterwards; with
-   *  external images it keeps the names of their files.
+   *  \param scan Without colour pixels; it has the names of external files afterwards.
    *  \param jpeg Of 3 x 8 bits, of the size that the scan's cameraParamsIntensity state. */
   void write(mrpt::obs::CObservation3DRangeScan& scan, const std::vector<std::uint8_t>& jpeg);
 
