@@ -52,8 +52,7 @@ Linearised linearised(
 
 double scaleOf(const StepFit::Sums& sums, double claimWeight)
 {
-  return std::sqrt(
-      std::max(1.0, (claimWeight + sums.squares) / (claimWeight + sums.redundancy)));  // (16.22)
+  return std::sqrt((claimWeight + sums.squares) / (claimWeight + sums.redundancy));  // (16.22)
 }
 
 /** Blocks of H^-1 of the few poses that are asked for, which take less time than its sparse
@@ -82,8 +81,7 @@ class SolvedColumns
 
 }  // namespace
 
-mrpt::poses::CPose3DPDFGaussian enlarged(
-    mrpt::poses::CPose3DPDFGaussian step, const StepNoise& noise)
+mrpt::poses::CPose3DPDFGaussian scaled(mrpt::poses::CPose3DPDFGaussian step, const StepNoise& noise)
 {
   Vector6 scale;
   scale << Eigen::Vector3d::Constant(noise.position), Eigen::Vector3d::Constant(noise.angle);
@@ -98,6 +96,11 @@ StepFit& StepFit::operator+=(const StepFit& other)
   angle.squares += other.angle.squares;
   angle.redundancy += other.angle.redundancy;
   return *this;
+}
+
+StepNoise StepNoise::atLeastClaimed() const
+{
+  return {std::max(1.0, position), std::max(1.0, angle)};
 }
 
 StepNoise stepNoiseOf(const StepFit& fit, double claimWeight)
@@ -116,7 +119,7 @@ StepFit GraphProblem::stepFit(
     {
       const std::array<std::size_t, 2> ends = {step.from, step.to};
       const auto at = linearised(
-          enlarged(step.T_from_to, graph_.stepNoise_), *poseManifold_,
+          scaled(step.T_from_to, graph_.stepNoise_), *poseManifold_,
           {graph_.poses_[ends[0]].data(), graph_.poses_[ends[1]].data()});
       Matrix6 known = Matrix6::Zero();  // J Z J^t of (16.21)
       for (std::size_t a = 0; a < 2; ++a)

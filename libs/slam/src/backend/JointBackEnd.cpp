@@ -122,7 +122,8 @@ CPose3D JointBackEnd::addKeyframe(
   const bool isFull = graph_.poses() > window;
   const auto fit = graph_.windowFit(firstFree, {firstFree + 1, firstFree + (isFull ? 2 : 1)});
   stepFit_ += fit.steps;
-  graph_.setStepNoise(stepNoiseOf(stepFit_, options_.claimWeight));
+  // What is taken for certain too early makes wrong associations.
+  graph_.setStepNoise(stepNoiseOf(stepFit_, options_.claimWeight).atLeastClaimed());
 
   insertIntoMap(*boxes, pose, graph_.pose(pose), result, noiseOf(fit.lastPose));
   followMerged(map, graph_, cameras_);
@@ -222,8 +223,9 @@ void JointBackEnd::estimate(
   for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);
   const std::size_t first = graph.poses() - result.keyframes.size();
+  const auto atThesePoses = graph.objectMarginals();
   for (const auto& [id, marginal] : graph.alignedObjectMarginals(first))
-    result.map.setSharedError(id, withoutNegative(marginal - result.map.find(id)->covariance));
+    result.map.setSharedError(id, withoutNegative(marginal - atThesePoses.at(id)));
 }
 
 void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)

@@ -20,8 +20,7 @@ void JointOptions::describe(OptionList& list)
   list.number(
       "claimWeight", claimWeight, {1e-3, 1e12}, "",
       "The noise that odometry claims counts as much as this number of residuals of its steps, "
-      "which "
-      "tell in the run whether it is more. 1e12 believes the claim.");
+      "which tell in the run whether it is more or less. 1e12 believes the claim.");
   list.integer(
       "maxIterations", maxIterations, {1, 1000}, "", "Most iterations of one optimisation.");
   list.angle(

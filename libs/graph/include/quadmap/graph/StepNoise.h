@@ -4,15 +4,18 @@
 
 namespace quadmap
 {
-/** By how much the standard deviations of steps of odometry are larger than the odometry claims
+/** How many times as large as the odometry claims the standard deviations of its steps are
  * (doc/mathematics.md, "What odometry errs by"). */
 struct StepNoise
 {
   double position = 1, angle = 1;
+
+  /** The same, but for odometry that is better than it claims. */
+  StepNoise atLeastClaimed() const;
 };
 
-/** The step with its covariance enlarged. */
-mrpt::poses::CPose3DPDFGaussian enlarged(
+/** The step with its covariance scaled. */
+mrpt::poses::CPose3DPDFGaussian scaled(
     mrpt::poses::CPose3DPDFGaussian step, const StepNoise& noise);
 
 /** How the residuals of steps compare with what is to be expected of them. Both in claimed standard
@@ -29,8 +32,7 @@ struct StepFit
   StepFit& operator+=(const StepFit& other);
 };
 
-/** The noise that explains the residuals, doc/mathematics.md, (16.22). It is never less than what
- * the odometry claims: views whose errors are alike would make it look better than it is.
+/** The noise that explains the residuals, doc/mathematics.md, (16.22).
  * \param claimWeight As how many residuals the claim itself counts, > 0. */
 StepNoise stepNoiseOf(const StepFit& fit, double claimWeight);
 

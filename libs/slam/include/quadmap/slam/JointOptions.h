@@ -12,7 +12,7 @@ struct JointOptions : public OptionGroup
   int rounds = 5;            //!< Of association and optimisation at the end, at most, >= 0
   double smallMove = 0.002;  //!< The rounds end when no keyframe moved farther [m], > 0
   /** What the odometry claims to err by counts as much as this number of residuals of its steps;
-   * these tell in the run whether it is more. Large: the claim is believed. > 0. */
+   * these tell in the run whether it is more or less. Large: the claim is believed. > 0. */
   double claimWeight = 20;
   int maxIterations = 30;  //!< Of one optimisation, >= 1
 
