@@ -172,7 +172,7 @@ TEST(FactorGraph, AgreesWithTheObjectMapWhenPosesAreFixed)
   }
   graph.optimise();
   EstimatorOptions independent;  // the graph takes the errors of views as such
-  independent.repeatedThere = independent.repeatedAnywhere = 0;
+  independent.repeatedThere = independent.repeatedAnywhere = independent.depthScaleSigma = 0;
   const auto expected = estimator.estimate(uprightStateOf(cabinet.object), label, independent);
   const UprightState x = uprightStateOf(graph.object(1));
   // The estimator weighs views against their medians, the graph here against the truth.

@@ -126,6 +126,94 @@ TEST(ObjectEstimator, RecoversACabinetFromJitteringPoses)
   EXPECT_LT(std::sqrt(result.covariance(0, 0)), 0.01);
 }
 
+TEST(ObjectEstimator, ClaimsWhatOneErrorOfAllDepthMoves)
+{
+  // All faces of views from one side and above move away from their cameras by one share.
+  SyntheticCamera camera(17);
+  auto views = viewsAround(camera, kCabinet, 60);
+  views.resize(15);
+  for (auto& view : views) view.edges.clear();
+  constexpr double kShare = 1e-4;
+  auto scaled = views;
+  for (auto& view : scaled)
+  {
+    const ObjectView before = view;
+    std::array<double, kFaces> fromCenter;
+    for (std::size_t f = 0; f < kFaces; ++f)
+    {
+      const Eigen::Vector3d n = before.faceNormal(f);
+      const double ofFace = before.faceOffset(f) - n.dot(before.camera);
+      fromCenter[f] = before.halfSizes[static_cast<Eigen::Index>(f / 2)] + kShare * ofFace;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      view.center +=
+          0.5 * (fromCenter[2 * axis] - fromCenter[2 * axis + 1]) * before.faceNormal(2 * axis);
+      view.halfSizes[static_cast<Eigen::Index>(axis)] =
+          0.5 * (fromCenter[2 * axis] + fromCenter[2 * axis + 1]);
+    }
+  }
+  EstimatorOptions options, exact;
+  exact.depthScaleSigma = 0;
+  options.huber = exact.huber = 1e6;  // the estimate moves linearly
+  options.maxIterations = exact.maxIterations = 200;
+  const UprightState start = uprightStateOf(kCabinet.object);
+  const auto estimate = [&](const std::vector<ObjectView>& of, const EstimatorOptions& with)
+  { return estimatorOf(of, with).estimate(start, boxy("suitcase"), with); };
+  const auto here = estimate(views, options);
+  const UprightState perShare = (estimate(scaled, options).state - here.state) / kShare;
+  const UprightCovariance expected =
+      std::pow(options.depthScaleSigma, 2) * perShare * perShare.transpose();
+  const UprightCovariance found = here.covariance - estimate(views, exact).covariance;
+  EXPECT_GT(perShare.head<3>().norm(), 0.5) << "[m]: seen from one side";
+  EXPECT_LT((found - expected).norm(), 0.1 * expected.norm()) << found << "\n\n" << expected;
+}
+
+TEST(ObjectEstimator, ClaimsASideWhereViewsContradictIt)
+{
+  SyntheticCamera camera(19);
+  auto views = viewsAround(camera, kCabinet, 40);
+  const UprightState truth = uprightStateOf(kCabinet.object);
+  constexpr double kFarther = 0.08;  // [m], many sigmas, and yet of some weight
+  const std::size_t contradicting = 10;
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    ObjectView& view = views[i];
+    view.center = kCabinet.object.center();
+    view.halfSizes = kCabinet.object.semiAxes();
+    view.yaw = truth[3];
+    view.edges.clear();
+    for (auto& face : view.faces) face = {FaceKind::Measured, 0.01};
+    if (i >= contradicting) continue;
+    view.faces[0].kind = FaceKind::AtLeast;
+    view.center += 0.5 * kFarther * view.faceNormal(0);
+    view.halfSizes.x() += 0.5 * kFarther;
+  }
+  const auto label = boxy("suitcase");
+  const auto estimator = estimatorOf(views, {});
+  const UprightState at = estimator.estimate(truth, label, {}).state;
+  const UprightCovariance C = estimator.contradictions(at, label, {});
+  const Eigen::Vector3d x = views[0].faceNormal(0);
+  const double variance = x.dot(C.topLeftCorner<3, 3>() * x);
+  // A quarter of the views, of a little less weight than the others: the side is 8 cm farther with
+  // that probability, and the centre half as far.
+  EXPECT_LT(variance, 0.25 * std::pow(0.5 * kFarther, 2));
+  EXPECT_GT(variance, 0.1 * std::pow(0.5 * kFarther, 2));
+  const Eigen::Vector3d y = views[0].faceNormal(2);
+  EXPECT_NEAR(y.dot(C.topLeftCorner<3, 3>() * y), 0, 1e-12);
+  EXPECT_NEAR(C(2, 2), 0, 1e-12);
+  EXPECT_EQ(C(3, 3), 0);
+
+  // The other side stays: its place is the centre less the half size.
+  UprightState otherSide = UprightState::Zero();
+  otherSide.head<3>() = x;
+  otherSide[4] = -std::exp(at[4]);
+  EXPECT_NEAR(otherSide.dot(C * otherSide), 0, 1e-12);
+  EXPECT_TRUE(estimatorOf({views.begin() + contradicting, views.end()}, {})
+                  .contradictions(at, label, {})
+                  .isZero(0));
+}
+
 TEST(ObjectEstimator, ClaimsWhatViewsErrByTogether)
 {
   // Views from all around whose sides err by one standard normal number for all views of a side,
@@ -188,10 +276,12 @@ TEST(ObjectEstimator, ManyViewsFromOnePlaceKnowLittleMoreThanOne)
   view.pose = {0, 0};
   for (auto& face : view.faces)
     if (face.kind != FaceKind::Support) face = {FaceKind::Measured, 0.02};
+  EstimatorOptions options;
+  options.depthScaleSigma = 0;  // a matter of all views, too
   const auto sigmaOf = [&](std::size_t count)
   {
-    const auto e = estimatorOf(std::vector<ObjectView>(count, view), {});
-    return std::sqrt(e.estimate({}, boxy("suitcase"), {}).covariance(0, 0));
+    const auto e = estimatorOf(std::vector<ObjectView>(count, view), options);
+    return std::sqrt(e.estimate({}, boxy("suitcase"), options).covariance(0, 0));
   };
   EXPECT_LT(sigmaOf(100), sigmaOf(3));
   EXPECT_GT(sigmaOf(100), 0.8 * sigmaOf(3)) << "0.17 if they were independent";

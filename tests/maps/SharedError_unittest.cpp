@@ -51,6 +51,31 @@ TEST(SharedError, IsThereHoweverManyMeasurementsCome)
   EXPECT_THROW(map.setSharedError(99, error), std::out_of_range);
 }
 
+TEST(Contradictions, AreClaimedOnceAndOnlyUntilTheNextEstimate)
+{
+  SyntheticCamera camera(4);
+  CQuadricObjectMap map;
+  const TrueObject cabinet = cuboid("suitcase", {0, 0, 0.28}, {0.78, 0.43, 0.56}, 0.3);
+  walkAround(map, camera, {cabinet}, 40);
+  // Seen wider now and then: the sides that look away are at least so far out.
+  TrueObject wider = cabinet;
+  wider.object = Ellipsoid(cabinet.object.pose(), {0.52, 0.215, 0.28});
+  walkAround(map, camera, {wider}, 8);
+  map.consolidate();
+  const MapObject before = onlyObject(map);
+  ASSERT_TRUE(before.confirmed);
+  map.claimContradictions();
+  const UprightCovariance more = onlyObject(map).covariance - before.covariance;
+  EXPECT_GT(more.trace(), 0);
+  EXPECT_GE(more.diagonal().minCoeff(), 0);
+  EXPECT_EQ((onlyObject(map).object.center() - before.object.center()).norm(), 0);
+  EXPECT_TRUE(onlyObject(map).confirmed);
+  map.claimContradictions();
+  EXPECT_LT((onlyObject(map).covariance - before.covariance - more).norm(), 1e-15);
+  map.consolidate();
+  EXPECT_LT((onlyObject(map).covariance - before.covariance).norm(), 1e-6);
+}
+
 TEST(SharedError, AMapWithANegativeVarianceIsNotRead)
 {
   SyntheticCamera camera(3);

@@ -92,17 +92,7 @@ void RepeatedErrors::add(
   const auto place = placeOf(view.camera, object_.t);
   const double weight = measurement.weight;
   const auto huber = RobustKernel::huber(options_.huber);
-  for (std::size_t f = 0; view.complete && f < kFaces; ++f)
-  {
-    // Supports are surfaces of the room, which many frames have measured already.
-    const auto& face = view.faces[f];
-    if (face.kind != FaceKind::Measured && face.kind != FaceKind::AtLeast) continue;
-    Side& side = sides_[sideAlong(object_, view.faceNormal(f))];
-    const ResidualRow row = placed.face(f, object_);
-    addRow(
-        row, {face.sigma, common}, ViewAtPose::kernelOf(face.kind, options_.huber), weight, place,
-        side);
-  }
+  if (view.complete) addFaces(view, weight, common, placed);
   if (view.complete && view.yawDefined)
   {
     const ResidualRow row = placed.yaw(object_);
@@ -116,6 +106,31 @@ void RepeatedErrors::add(
     Side& side = sides_[edgeSide(edge.normal, view.center - view.camera)];
     const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
     addRow(row, {edge.sigma, std::hypot(common, edge.shared)}, huber, weight, place, side);
+  }
+}
+
+void RepeatedErrors::addFaces(
+    const ObjectView& view, double weight, double common, const ViewAtPose& placed)
+{
+  constexpr double kContradicts = 3;  // [sigmas]
+  const auto place = placeOf(view.camera, object_.t);
+  const auto normals = view.faceNormals();
+  for (std::size_t f = 0; f < kFaces; ++f)
+  {
+    const auto& face = view.faces[f];
+    if (face.kind == FaceKind::Unknown) continue;
+    const ResidualRow row = placed.face(f, object_);
+    const RobustKernel kernel = ViewAtPose::kernelOf(face.kind, options_.huber);
+    const double fromCamera = view.faceOffset(f) - normals[f].dot(view.camera);  // along the normal
+    const double w = weight * kernel.weight(row.r / face.sigma) / (face.sigma * face.sigma);
+    ofDepth_ += w * fromCamera * row.byUprightState();
+    // Supports are surfaces of the room, which many frames have measured already.
+    if (face.kind == FaceKind::Support) continue;
+    Side& side = sides_[sideAlong(object_, normals[f])];
+    addRow(row, {face.sigma, common}, kernel, weight, place, side);
+    side.weight += weight;
+    if (face.kind == FaceKind::AtLeast && row.r > kContradicts * face.sigma)
+      side.beyond += weight * row.r * row.r;
   }
 }
 
@@ -153,7 +168,24 @@ UprightCovariance RepeatedErrors::crossTerms() const
       const UprightCovariance cross = side.excess() * side.rows[i].influence * others.transpose();
       X += cross + cross.transpose();
     }
-  return X;
+  const double sigma = options_.depthScaleSigma;
+  return X + sigma * sigma * ofDepth_ * ofDepth_.transpose();  // (11.24)
+}
+
+UprightCovariance RepeatedErrors::contradictions() const
+{
+  UprightCovariance P = UprightCovariance::Zero();
+  for (std::size_t f = 0; f < kFaces; ++f)
+  {
+    const auto side = sides_.find(static_cast<int>(f));
+    if (side == sides_.end() || side->second.beyond <= 0) continue;
+    const auto axis = static_cast<Eigen::Index>(f / 2);
+    UprightState move = UprightState::Zero();  // of the state, by a metre of that side
+    move.head<3>() = (f % 2 == 0 ? 0.5 : -0.5) * object_.R.col(axis);
+    move[4 + axis] = 0.5 / object_.s[axis];
+    P += side->second.beyond / side->second.weight * move * move.transpose();
+  }
+  return P;
 }
 
 }  // namespace quadmap

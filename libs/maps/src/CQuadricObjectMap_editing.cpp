@@ -105,6 +105,18 @@ const UprightCovariance& CQuadricObjectMap::sharedError(ObjectId id) const
   return objects_.at(id).estimator.sharedError();
 }
 
+void CQuadricObjectMap::claimContradictions()
+{
+  for (auto& [id, object] : objects_)
+  {
+    object.covariance -= object.contradicted;
+    object.contradicted = object.estimator.contradictions(
+        uprightStateOf(object.object), labels().properties(object.label()),
+        insertionOptions.estimator);
+    object.covariance += object.contradicted;
+  }
+}
+
 void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
 {
   Entry& object = require(id);
@@ -122,6 +134,7 @@ void CQuadricObjectMap::place(ObjectId id, const Ellipsoid& object)
   entry.estimator = ObjectEstimator::fromEstimate(
       {uprightStateOf(entry.object), entry.covariance, 0, entry.orientationDefined},
       labels().properties(entry.label()), insertionOptions.estimator);
+  entry.contradicted.setZero();  // the estimator knows no more than the whole covariance says
 }
 
 void CQuadricObjectMap::remove(ObjectId id)
@@ -145,6 +158,7 @@ void CQuadricObjectMap::estimate(Entry& object, bool restart)
       insertionOptions.estimator, restart || object.observations() < kFewMeasurements);
   object.object = ellipsoidOf(result.state);
   object.covariance = result.covariance;
+  object.contradicted.setZero();
   object.orientationDefined = result.orientationDefined;
   object.confirmed = isConfirmed(object);
   object.estimatedFrom = object.observations();

@@ -81,7 +81,7 @@ bool CQuadricObjectMap::isShownByAFreeBox(const MapObject& object, const Frame& 
 }
 
 /** The list after (13.3). */
-bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
+bool CQuadricObjectMap::isConfirmed(const Entry& object) const
 {
   const auto& existence = insertionOptions.existence;
   const bool manyComplete = object.completeCount >= static_cast<unsigned>(existence.minComplete);
@@ -89,12 +89,10 @@ bool CQuadricObjectMap::isConfirmed(const MapObject& object) const
       object.observations() >= static_cast<unsigned>(existence.minPartial) &&
       sizeDeviation(object.object, labels().properties(object.label()), ObjectFreedom::Upright) <=
           existence.maxSizeDeviation;
-  const double centerSigma = std::sqrt(object.covariance.diagonal().head<3>().maxCoeff());
-  const double sizeSigma = object.covariance.diagonal()
-                               .tail<3>()
-                               .cwiseSqrt()
-                               .cwiseProduct(object.object.semiAxes())
-                               .maxCoeff();
+  const UprightState variances = (object.covariance - object.contradicted).diagonal();
+  const double centerSigma = std::sqrt(variances.head<3>().maxCoeff());
+  const double sizeSigma =
+      variances.tail<3>().cwiseSqrt().cwiseProduct(object.object.semiAxes()).maxCoeff();
   return object.existenceLogOdds > existence.confirmLogOdds && (manyComplete || manyPartial) &&
          labelAgreement(object, object.label(), labels()) >= existence.minLabelShare &&
          centerSigma < existence.maxCenterSigma && sizeSigma < existence.maxSizeSigma;

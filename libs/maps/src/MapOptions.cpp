@@ -86,6 +86,10 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "repeatedAngle_deg", o.estimator.repeatedAngle, {0.001, 180},
       "The one becomes the other when the camera moves this far around the object: by 1 - 1/e.");
   list.number(
+      "depthScaleSigma", o.estimator.depthScaleSigma, {0, 1}, "",
+      "Relative error of all depth of a sensor, as its calibration leaves it. Many views do not "
+      "average it out.");
+  list.number(
       "posePositionSigma", o.poseNoise.position, {0, 10}, "m",
       "Uncertainty of each coordinate of a pose, or what remains of it where poses are "
       "estimated.");

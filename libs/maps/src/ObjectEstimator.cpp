@@ -67,13 +67,13 @@ class Evidence
     return eq;
   }
 
-  /** X of doc/mathematics.md, (11.22): what the views repeat. */
-  UprightCovariance repeated(const UprightState& x, double shapeExponent) const
+  /** What the views do not average out. */
+  RepeatedErrors repeated(const UprightState& x, double shapeExponent) const
   {
     RepeatedErrors errors(x, shapeExponent, options_);
     for (std::size_t i = 0; i < placed_.size(); ++i)
       errors.add(views_[i], measurements_[i], placed_[i]);
-    return errors.crossTerms();
+    return errors;
   }
 
  private:
@@ -199,7 +199,7 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   e.cost = best.cost;
   const UprightCovariance information = best.H + freeInformation();
   const UprightCovariance independent = information.ldlt().solve(UprightCovariance::Identity());
-  const UprightCovariance repeated = evidence.repeated(x, label.shapeExponent);  // (11.22)
+  const UprightCovariance repeated = evidence.repeated(x, label.shapeExponent).crossTerms();
   e.covariance = independent + independent * repeated * independent + sharedError_;
   double complete = prior_.complete, defined = prior_.yawDefined;
   for (const auto& v : views_)
@@ -209,6 +209,12 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   }
   e.orientationDefined = label.dominantDirection && defined > 0 && defined >= kYawShare * complete;
   return e;
+}
+
+UprightCovariance ObjectEstimator::contradictions(
+    const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
+{
+  return Evidence(views_, prior_, at, options).repeated(at, label.shapeExponent).contradictions();
 }
 
 void ObjectEstimator::absorb(
@@ -239,12 +245,13 @@ InformationPrior ObjectEstimator::summary(
   InformationPrior all = prior_;
   // (H^-1 + H^-1 X H^-1 + S)^-1 = (1 + G S)^-1 G, G = H (H + X)^-1 H, also where H knows nothing in
   // some direction.
-  const UprightCovariance repeated = evidence.repeated(at, label.shapeExponent);
+  const RepeatedErrors errors = evidence.repeated(at, label.shapeExponent);
+  const UprightCovariance repeated = errors.crossTerms();
   UprightCovariance share = UprightCovariance::Identity();  // (H + X)^-1 H
   if (!repeated.isZero(0.0))  // what a file knew stays as it is, to the last bit
     share = (eq.H + repeated + kLeast * UprightCovariance::Identity()).ldlt().solve(eq.H);
   const Eigen::PartialPivLU<UprightCovariance> weaken(
-      UprightCovariance::Identity() + eq.H * share * sharedError_);
+      UprightCovariance::Identity() + eq.H * share * (sharedError_ + errors.contradictions()));
   const UprightCovariance L = weaken.solve(UprightCovariance(eq.H * share));
   all.L = 0.5 * (L + L.transpose());
   all.xi = weaken.solve(UprightState(share.transpose() * (eq.H * at - eq.g)));

@@ -153,6 +153,7 @@ void ObjectSlam::finish()
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
   const auto scope = times_.measure("consolidation");
   backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
+  result_.map.claimContradictions();
   warnOfNoisyOdometry();
 }
 
@@ -162,6 +163,7 @@ void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
   continueMap(
       map, backEnd_.backEnd(), [this](std::size_t k) { return spool_.objects(k); },
       configuration_.relocalization, result_);
+  result_.map.claimContradictions();
   const auto& match = result_.continuation->match;
   MRPT_LOG_INFO_FMT(
       "localised: %zu of the map's %zu objects found again (ln odds %.1f, next best place %.1f)",

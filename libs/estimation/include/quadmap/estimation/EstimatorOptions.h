@@ -25,6 +25,9 @@ struct EstimatorOptions
   /** The same of views from anywhere, [0, repeatedThere]. */
   double repeatedAnywhere = 0.25;
   double repeatedAngle = 0.4;  //!< How fast the one becomes the other [rad], > 0
+  /** Standard deviation of the relative error of all depth of a sensor, >= 0: what is left of it
+   * after a usual calibration. Many views do not average it out. */
+  double depthScaleSigma = 0.005;
 };
 
 }  // namespace quadmap

@@ -25,9 +25,10 @@ double repeatedShare(
  * leaves it, with its weight. */
 void shareEdgeErrors(std::vector<BoxMeasurement>& views);
 
-/** The errors that views of one object repeat: the same side is cut, hidden, bent by the lens and
- * drawn by the detector alike in all images from about one place, and a little so from everywhere.
- * However many such views there are, what they repeat does not average out. */
+/** What many views of one object do not average out. They repeat errors: the same side is cut,
+ * hidden, bent by the lens and drawn by the detector alike in all images from about one place, and
+ * a little so from everywhere; and all depth of a sensor is too long or too short by one share. And
+ * some views see the object reach farther than the others say, who may be wrong. */
 class RepeatedErrors
 {
  public:
@@ -38,8 +39,12 @@ class RepeatedErrors
   void add(const ObjectView& view, const BoxMeasurement& measurement, const ViewAtPose& placed);
 
   /** What the views' normal matrix H lacks for the errors that repeat: the estimate errs by
-   * H^-1 + H^-1 X H^-1, (11.22). \return X, symmetric. */
+   * H^-1 + H^-1 X H^-1, (11.22) and (11.24). \return X, symmetric. */
   UprightCovariance crossTerms() const;
+
+  /** What the estimate errs by in case those are right who see a side farther out, (11.25).
+   * \return A covariance. */
+  UprightCovariance contradictions() const;
 
  private:
   struct Sigmas
@@ -57,10 +62,13 @@ class RepeatedErrors
   {
     std::vector<Row> rows;
     double found = 0, claimed = 0;  // of headings: sums of squared own errors
+    double weight = 0,
+           beyond = 0;  // of faces: of all views; times the squares of contradicting gaps
 
     double excess() const;  // by which headings scatter more than they claim, >= 1
   };
 
+  void addFaces(const ObjectView& view, double weight, double common, const ViewAtPose& placed);
   static void addRow(
       const ResidualRow& row,
       const Sigmas& sigmas,
@@ -73,6 +81,8 @@ class RepeatedErrors
   double shapeExponent_;
   const EstimatorOptions& options_;
   std::map<int, Side> sides_;
+  UprightState ofDepth_ =
+      UprightState::Zero();  // on the gradient, of a relative error of all depth
 };
 
 }  // namespace quadmap

@@ -156,6 +156,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
     ObjectEstimator estimator;
     ExistenceLooks looks;
     unsigned estimatedFrom = 0;  // number of measurements of the latest estimate
+    UprightCovariance contradicted = UprightCovariance::Zero();  // part of the covariance
   };
   using Objects = std::map<ObjectId, Entry>;
 
@@ -230,6 +231,12 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void setSharedError(ObjectId id, const UprightCovariance& error);
   /** \exception std::out_of_range If there is no such object. */
   const UprightCovariance& sharedError(ObjectId id) const;
+
+  /** Adds to the covariance of each object what it errs by in case those measurements are right
+   * that saw it reach farther than the others (doc/mathematics.md, (11.25)). For the end of a run:
+   * the next estimate of an object leaves it out again, as a guess of what belongs together would
+   * take such an object for its neighbours. Which objects are confirmed stays as it is. */
+  void claimContradictions();
 
   /** Makes all measurements of an object say this label, in its canonical spelling.
    *  \exception std::out_of_range If there is no such object. */
@@ -326,7 +333,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void mergeOverlapping(std::set<ObjectId> touched);
   void estimate(Entry& object, bool restart);
   bool isDue(const Entry& object) const;  // for another estimate
-  bool isConfirmed(const MapObject& object) const;
+  bool isConfirmed(const Entry& object) const;
   Entry& require(ObjectId id);
   MergedMap contents() const;
   void take(ObjectId id, const PlannedObject& planned);

@@ -49,6 +49,12 @@ class ObjectEstimator
       const EstimatorOptions& options,
       bool restart = false) const;
 
+  /** What an estimate errs by in case those measurements are right that saw the object reach
+   * farther, (11.25) of doc/mathematics.md. estimate() leaves it out: the likelier case is that
+   * they are wrong. */
+  UprightCovariance contradictions(
+      const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
+
   /** Takes over everything another estimator of the same object knows, but for redundant
    * measurements beyond the limit.
    *  \param here, there The states of this and of the other one; axes are matched between them. */
