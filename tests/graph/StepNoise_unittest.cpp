@@ -99,6 +99,28 @@ TEST(StepNoise, IsNotBelowTheClaimWhereThatIsAskedFor)
   EXPECT_EQ(noise.angle, 2);
 }
 
+TEST(StepNoise, WhatIsKnownFromElsewhereIsNoOdometry)
+{
+  FactorGraph graph(gaussian());
+  const mrpt::poses::CPose3D ahead(1, 0, 0, 0, 0, 0);
+  mrpt::poses::CPose3DPDFGaussian step(ahead);
+  for (int i = 0; i < 6; ++i) step.cov(i, i) = 0.01;
+  graph.addPose({});
+  graph.addPose(ahead);
+  graph.addPose(ahead + ahead);
+  graph.addKnownStep(0, 1, step);
+  graph.addStep(1, 2, step);
+  graph.setStepNoise({0.1, 0.1});
+  graph.optimise();
+  const auto marginals = graph.poseMarginals();
+  EXPECT_NEAR(marginals[1](5, 5), 0.01, 1e-6);  // x of (turn, move) comes at 3
+  EXPECT_NEAR(marginals[1](3, 3), 0.01, 1e-6);
+  EXPECT_NEAR(marginals[2](3, 3) - marginals[1](3, 3), 0.01 * 0.01, 1e-6);
+  EXPECT_NEAR(graph.stepFit().position.redundancy, 0, 1e-6);
+  graph.addKnownStep(0, 2, step);  // what it contradicts or confirms counts for the odometry alone
+  EXPECT_LT(graph.stepFit().position.redundancy, 3);
+}
+
 TEST(StepNoise, AWindowTellsTheSameOfItsSteps)
 {
   StepFit sum;

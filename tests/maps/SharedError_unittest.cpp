@@ -72,6 +72,27 @@ TEST(Contradictions, AreClaimedOnceAndOnlyUntilTheNextEstimate)
   EXPECT_TRUE(onlyObject(map).confirmed);
   map.claimContradictions();
   EXPECT_LT((onlyObject(map).covariance - before.covariance - more).norm(), 1e-15);
+
+  // They take no part in what is confirmed, whoever asks.
+  const auto sigmaOf = [](const UprightCovariance& P)
+  { return std::sqrt(P.diagonal().head<3>().maxCoeff()); };
+  const UprightCovariance claimed = onlyObject(map).covariance;
+  ASSERT_GT(sigmaOf(claimed), 1.1 * sigmaOf(before.covariance));
+  map.insertionOptions.existence.maxCenterSigma =
+      0.5 * (sigmaOf(claimed) + sigmaOf(before.covariance));
+  map.setSharedError(before.id, UprightCovariance::Zero());
+  EXPECT_TRUE(onlyObject(map).confirmed);
+
+  // A stored map knows no more than it claims.
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << map;
+  stream.Seek(0);
+  CQuadricObjectMap stored;
+  archive >> stored;
+  stored.consolidate();
+  EXPECT_LT((onlyObject(stored).covariance - claimed).norm(), 0.02 * claimed.norm());
+
   map.consolidate();
   EXPECT_LT((onlyObject(map).covariance - before.covariance).norm(), 1e-6);
 }

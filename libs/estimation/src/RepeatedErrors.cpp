@@ -92,7 +92,7 @@ void RepeatedErrors::add(
   const auto place = placeOf(view.camera, object_.t);
   const double weight = measurement.weight;
   const auto huber = RobustKernel::huber(options_.huber);
-  if (view.complete) addFaces(view, weight, common, placed);
+  if (view.complete) addFaces(view, weight, common, place, placed);
   if (view.complete && view.yawDefined)
   {
     const ResidualRow row = placed.yaw(object_);
@@ -110,10 +110,13 @@ void RepeatedErrors::add(
 }
 
 void RepeatedErrors::addFaces(
-    const ObjectView& view, double weight, double common, const ViewAtPose& placed)
+    const ObjectView& view,
+    double weight,
+    double common,
+    const Eigen::Vector4d& place,
+    const ViewAtPose& placed)
 {
   constexpr double kContradicts = 3;  // [sigmas]
-  const auto place = placeOf(view.camera, object_.t);
   const auto normals = view.faceNormals();
   for (std::size_t f = 0; f < kFaces; ++f)
   {
@@ -123,14 +126,14 @@ void RepeatedErrors::addFaces(
     const RobustKernel kernel = ViewAtPose::kernelOf(face.kind, options_.huber);
     const double fromCamera = view.faceOffset(f) - normals[f].dot(view.camera);  // along the normal
     const double w = weight * kernel.weight(row.r / face.sigma) / (face.sigma * face.sigma);
-    ofDepth_ += w * fromCamera * row.byUprightState();
+    byDepth_ += w * fromCamera * row.byUprightState();
     // Supports are surfaces of the room, which many frames have measured already.
     if (face.kind == FaceKind::Support) continue;
     Side& side = sides_[sideAlong(object_, normals[f])];
     addRow(row, {face.sigma, common}, kernel, weight, place, side);
-    side.weight += weight;
+    side.weights += weight;
     if (face.kind == FaceKind::AtLeast && row.r > kContradicts * face.sigma)
-      side.beyond += weight * row.r * row.r;
+      side.squaredGaps += weight * row.r * row.r;
   }
 }
 
@@ -169,7 +172,7 @@ UprightCovariance RepeatedErrors::crossTerms() const
       X += cross + cross.transpose();
     }
   const double sigma = options_.depthScaleSigma;
-  return X + sigma * sigma * ofDepth_ * ofDepth_.transpose();  // (11.24)
+  return X + sigma * sigma * byDepth_ * byDepth_.transpose();  // (11.24)
 }
 
 UprightCovariance RepeatedErrors::contradictions() const
@@ -178,12 +181,12 @@ UprightCovariance RepeatedErrors::contradictions() const
   for (std::size_t f = 0; f < kFaces; ++f)
   {
     const auto side = sides_.find(static_cast<int>(f));
-    if (side == sides_.end() || side->second.beyond <= 0) continue;
+    if (side == sides_.end() || side->second.squaredGaps <= 0) continue;
     const auto axis = static_cast<Eigen::Index>(f / 2);
     UprightState move = UprightState::Zero();  // of the state, by a metre of that side
     move.head<3>() = (f % 2 == 0 ? 0.5 : -0.5) * object_.R.col(axis);
     move[4 + axis] = 0.5 / object_.s[axis];
-    P += side->second.beyond / side->second.weight * move * move.transpose();
+    P += side->second.squaredGaps / side->second.weights * move * move.transpose();
   }
   return P;
 }

@@ -27,7 +27,13 @@ void FactorGraph::setPose(std::size_t index, const mrpt::poses::CPose3D& T_map_r
 void FactorGraph::addStep(
     std::size_t from, std::size_t to, const mrpt::poses::CPose3DPDFGaussian& T_from_to)
 {
-  stepsByPose_.at(std::max(from, to)).push_back({from, to, T_from_to});
+  stepsByPose_.at(std::max(from, to)).push_back({from, to, T_from_to, true});
+}
+
+void FactorGraph::addKnownStep(
+    std::size_t from, std::size_t to, const mrpt::poses::CPose3DPDFGaussian& T_from_to)
+{
+  stepsByPose_.at(std::max(from, to)).push_back({from, to, T_from_to, false});
 }
 
 void FactorGraph::setObject(

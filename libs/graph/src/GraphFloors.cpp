@@ -29,7 +29,7 @@ HeightDrift GraphProblem::heightDrift() const
   {
     std::optional<mrpt::poses::CPose3DPDFGaussian> fromLast;
     for (const auto& step : graph_.stepsByPose_[k])
-      if (k > 0 && step.from == k - 1) fromLast = scaled(step.T_from_to, graph_.stepNoise_);
+      if (k > 0 && step.from == k - 1) fromLast = step.believed(graph_.stepNoise_);
     drift.add(
         Eigen::Map<const Eigen::Vector2d>(graph_.poses_[k].data() + 4),
         fromLast ? &*fromLast : nullptr);

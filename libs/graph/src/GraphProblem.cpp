@@ -41,7 +41,7 @@ void GraphProblem::addStep(const FactorGraph::Step& step)
   double* from = poseBlock(step.from);
   double* to = poseBlock(step.to);
   problem_.AddResidualBlock(
-      createOdometryFactor(scaled(step.T_from_to, graph_.stepNoise_)).release(), nullptr, from, to);
+      createOdometryFactor(step.believed(graph_.stepNoise_)).release(), nullptr, from, to);
 }
 
 void GraphProblem::addView(std::size_t pose, const FactorGraph::View& view)

@@ -52,7 +52,9 @@ Linearised linearised(
 
 double scaleOf(const StepFit::Sums& sums, double claimWeight)
 {
-  return std::sqrt((claimWeight + sums.squares) / (claimWeight + sums.redundancy));  // (16.22)
+  // Rounding leaves redundancies below zero where nothing but the odometry says anything.
+  return std::sqrt(
+      (claimWeight + sums.squares) / (claimWeight + std::max(0.0, sums.redundancy)));  // (16.22)
 }
 
 /** Blocks of H^-1 of the few poses that are asked for, which take less time than its sparse
@@ -117,9 +119,10 @@ StepFit GraphProblem::stepFit(
   for (std::size_t k = std::max(steps.first, firstFree_); k < steps.second; ++k)
     for (const auto& step : graph_.stepsByPose_.at(k))
     {
+      if (!step.isOdometry) continue;
       const std::array<std::size_t, 2> ends = {step.from, step.to};
       const auto at = linearised(
-          scaled(step.T_from_to, graph_.stepNoise_), *poseManifold_,
+          step.believed(graph_.stepNoise_), *poseManifold_,
           {graph_.poses_[ends[0]].data(), graph_.poses_[ends[1]].data()});
       Matrix6 known = Matrix6::Zero();  // J Z J^t of (16.21)
       for (std::size_t a = 0; a < 2; ++a)

@@ -237,7 +237,10 @@ void ObjectEstimator::absorb(
 }
 
 InformationPrior ObjectEstimator::summary(
-    const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
+    const UprightState& at,
+    const LabelProperties& label,
+    const EstimatorOptions& options,
+    const UprightCovariance& contradicted) const
 {
   constexpr double kLeast = 1e-9;  // of what nothing is known about
   const Evidence evidence(views_, prior_, at, options);
@@ -245,13 +248,12 @@ InformationPrior ObjectEstimator::summary(
   InformationPrior all = prior_;
   // (H^-1 + H^-1 X H^-1 + S)^-1 = (1 + G S)^-1 G, G = H (H + X)^-1 H, also where H knows nothing in
   // some direction.
-  const RepeatedErrors errors = evidence.repeated(at, label.shapeExponent);
-  const UprightCovariance repeated = errors.crossTerms();
+  const UprightCovariance repeated = evidence.repeated(at, label.shapeExponent).crossTerms();
   UprightCovariance share = UprightCovariance::Identity();  // (H + X)^-1 H
   if (!repeated.isZero(0.0))  // what a file knew stays as it is, to the last bit
     share = (eq.H + repeated + kLeast * UprightCovariance::Identity()).ldlt().solve(eq.H);
   const Eigen::PartialPivLU<UprightCovariance> weaken(
-      UprightCovariance::Identity() + eq.H * share * (sharedError_ + errors.contradictions()));
+      UprightCovariance::Identity() + eq.H * share * (sharedError_ + contradicted));
   const UprightCovariance L = weaken.solve(UprightCovariance(eq.H * share));
   all.L = 0.5 * (L + L.transpose());
   all.xi = weaken.solve(UprightState(share.transpose() * (eq.H * at - eq.g)));

@@ -110,9 +110,9 @@ std::string runSection(const Json& report)
   row("rounds of the correction", {"correction", "rounds"});
   row("last move of a keyframe [m]", {"correction", "last_move_m"});
   row("converged", {"correction", "converged"});
-  row("odometry errs more than it claims, position [times]",
+  row("odometry errs by, in positions [times what it claims]",
       {"correction", "odometry_noise", "position"});
-  row("odometry errs more than it claims, angle [times]",
+  row("odometry errs by, in angles [times what it claims]",
       {"correction", "odometry_noise", "angle"});
   return table.toHtml();
 }

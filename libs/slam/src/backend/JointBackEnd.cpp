@@ -160,7 +160,7 @@ FactorGraph JointBackEnd::globalGraph(
     const Keyframe& keyframe = result.keyframes[k];
     const std::size_t pose = graph.addPose(keyframe.T_map_robot);
     if (pose == first && mayTilt)
-      graph.addStep(0, pose, tiltOf(keyframe.T_map_robot, options_.upSigma));
+      graph.addKnownStep(0, pose, tiltOf(keyframe.T_map_robot, options_.upSigma));
     if (pose > first && keyframe.odometryStep)
       graph.addStep(pose - 1, pose, stiffAtRest(*keyframe.odometryStep));
     const auto boxes = boxesOf(k);
@@ -223,8 +223,10 @@ void JointBackEnd::estimate(
   for (auto& edge : result.edges) edge.pose -= graph.poses() - result.keyframes.size();
   noteMarginals(graph, result.keyframes);
   const std::size_t first = graph.poses() - result.keyframes.size();
+  const auto marginals = graph.alignedObjectMarginals(first);
+  if (marginals.empty()) return;
   const auto atThesePoses = graph.objectMarginals();
-  for (const auto& [id, marginal] : graph.alignedObjectMarginals(first))
+  for (const auto& [id, marginal] : marginals)
     result.map.setSharedError(id, withoutNegative(marginal - atThesePoses.at(id)));
 }
 

@@ -138,7 +138,7 @@ void ObjectSlam::settle()
   takeFinished();
 }
 
-void ObjectSlam::finish()
+void ObjectSlam::finish(const CQuadricObjectMap* earlier)
 {
   const std::size_t missing = result_.counts().framesWithoutPose;
   if (missing > 0 && missing == result_.counts().frames)
@@ -151,10 +151,13 @@ void ObjectSlam::finish()
   warnOfMissingDepth();
   warnOfDroppedFloors();
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
-  const auto scope = times_.measure("consolidation");
-  backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
-  result_.map.claimContradictions();
+  {
+    const auto scope = times_.measure("consolidation");
+    backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
+  }
   warnOfNoisyOdometry();
+  if (earlier) continueFrom(*earlier);
+  result_.map.claimContradictions();
 }
 
 void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
@@ -163,7 +166,6 @@ void ObjectSlam::continueFrom(const CQuadricObjectMap& map)
   continueMap(
       map, backEnd_.backEnd(), [this](std::size_t k) { return spool_.objects(k); },
       configuration_.relocalization, result_);
-  result_.map.claimContradictions();
   const auto& match = result_.continuation->match;
   MRPT_LOG_INFO_FMT(
       "localised: %zu of the map's %zu objects found again (ln odds %.1f, next best place %.1f)",

@@ -72,13 +72,11 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void requireAllPosesUsed() const { odometry_.requireAllUsed(); }
 
   /** Call it after the last frame. It makes the final estimate.
+   *  \param earlier Map of an earlier run that goes on in this one; null: there is none.
    *  \exception As in addFrame().
-   *  \exception std::runtime_error If there were frames, but none had a pose. */
-  void finish();
-
-  /** Continues the map of an earlier run. Call it after finish().
-   * \exception NotLocalised If the run cannot be found in the map. */
-  void continueFrom(const CQuadricObjectMap& map);
+   *  \exception std::runtime_error If there were frames, but none had a pose.
+   *  \exception NotLocalised If the run cannot be found in the map. */
+  void finish(const CQuadricObjectMap* earlier = nullptr);
 
   /** For a camera, which does not wait: a frame is no keyframe while the threads that work on the
    * keyframes before are busy, and a later one takes its place. */
@@ -100,6 +98,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void tellOdometry(const RgbdFrame& frame);
   void addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
   void placeFramesWithoutPose();
+  void continueFrom(const CQuadricObjectMap& map);
   void warnOfMissingDepth();
   void warnOfDroppedFloors();
   void warnOfNoisyOdometry();

@@ -211,8 +211,7 @@ class RawlogRun
   {
     try
     {
-      slam_.finish();
-      if (request_.map) slam_.continueFrom(*request_.map);
+      slam_.finish(request_.map.get());
     }
     catch (const BadFrame&)
     {

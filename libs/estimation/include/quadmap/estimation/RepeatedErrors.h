@@ -28,7 +28,7 @@ void shareEdgeErrors(std::vector<BoxMeasurement>& views);
 /** What many views of one object do not average out. They repeat errors: the same side is cut,
  * hidden, bent by the lens and drawn by the detector alike in all images from about one place, and
  * a little so from everywhere; and all depth of a sensor is too long or too short by one share. And
- * some views see the object reach farther than the others say, who may be wrong. */
+ * some views see the object reach farther than the estimate says, and may be right. */
 class RepeatedErrors
 {
  public:
@@ -62,13 +62,18 @@ class RepeatedErrors
   {
     std::vector<Row> rows;
     double found = 0, claimed = 0;  // of headings: sums of squared own errors
-    double weight = 0,
-           beyond = 0;  // of faces: of all views; times the squares of contradicting gaps
+    double weights = 0;             // of all views of a face
+    double squaredGaps = 0;         // of the faces that contradict, times their weights [m^2]
 
     double excess() const;  // by which headings scatter more than they claim, >= 1
   };
 
-  void addFaces(const ObjectView& view, double weight, double common, const ViewAtPose& placed);
+  void addFaces(
+      const ObjectView& view,
+      double weight,
+      double common,
+      const Eigen::Vector4d& place,
+      const ViewAtPose& placed);
   static void addRow(
       const ResidualRow& row,
       const Sigmas& sigmas,
@@ -81,8 +86,8 @@ class RepeatedErrors
   double shapeExponent_;
   const EstimatorOptions& options_;
   std::map<int, Side> sides_;
-  UprightState ofDepth_ =
-      UprightState::Zero();  // on the gradient, of a relative error of all depth
+  UprightState byDepth_ =
+      UprightState::Zero();  // of the gradient, by a relative error of all depth
 };
 
 }  // namespace quadmap

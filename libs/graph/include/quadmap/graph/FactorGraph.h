@@ -48,9 +48,13 @@ class FactorGraph
   std::size_t poses() const { return poses_.size(); }
   mrpt::poses::CPose3D pose(std::size_t index) const { return poseOf(poses_.at(index)); }
   void setPose(std::size_t index, const mrpt::poses::CPose3D& T_map_robot);
+  /** A step of odometry. */
   void addStep(std::size_t from, std::size_t to, const mrpt::poses::CPose3DPDFGaussian& T_from_to);
-  /** By how much the steps err more than they claim, for all of them; at first they are believed.
-   */
+  /** What is known of two poses from elsewhere. It is no odometry and errs by what it claims. */
+  void addKnownStep(
+      std::size_t from, std::size_t to, const mrpt::poses::CPose3DPDFGaussian& T_from_to);
+  /** How many times as much as it claims the odometry errs by, in all its steps; at first it is
+   * believed. */
   void setStepNoise(const StepNoise& noise) { stepNoise_ = noise; }
 
   /** A new object, or another first guess or label for a known one. */
@@ -155,6 +159,13 @@ class FactorGraph
   {
     std::size_t from = 0, to = 0;
     mrpt::poses::CPose3DPDFGaussian T_from_to;
+    bool isOdometry = true;
+
+    /** With the covariance that it really has. */
+    mrpt::poses::CPose3DPDFGaussian believed(const StepNoise& noise) const
+    {
+      return isOdometry ? scaled(T_from_to, noise) : T_from_to;
+    }
   };
   struct View
   {

@@ -10,7 +10,7 @@ struct StepNoise
 {
   double position = 1, angle = 1;
 
-  /** The same, but for odometry that is better than it claims. */
+  /** The same, with what is below 1 raised to 1. */
   StepNoise atLeastClaimed() const;
 };
 

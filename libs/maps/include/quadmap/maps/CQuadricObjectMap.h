@@ -233,9 +233,10 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   const UprightCovariance& sharedError(ObjectId id) const;
 
   /** Adds to the covariance of each object what it errs by in case those measurements are right
-   * that saw it reach farther than the others (doc/mathematics.md, (11.25)). For the end of a run:
-   * the next estimate of an object leaves it out again, as a guess of what belongs together would
-   * take such an object for its neighbours. Which objects are confirmed stays as it is. */
+   * that saw it reach farther than it says (doc/mathematics.md, (11.25)). For the end of a run: the
+   * next estimate of an object leaves it out again, because so wide a covariance would let the
+   * boxes of neighbours join it. Which objects are confirmed stays as it is. A stored map keeps it
+   * as a part of what is known. */
   void claimContradictions();
 
   /** Makes all measurements of an object say this label, in its canonical spelling.

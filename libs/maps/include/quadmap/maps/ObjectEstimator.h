@@ -69,9 +69,13 @@ class ObjectEstimator
   void setSharedError(const UprightCovariance& error) { sharedError_ = error; }
   const UprightCovariance& sharedError() const { return sharedError_; }
 
-  /** Everything as one prior, linearised at a state: what a file keeps. */
+  /** Everything as one prior, linearised at a state: what a file keeps.
+   * \param contradicted What else the state may err by. */
   InformationPrior summary(
-      const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
+      const UprightState& at,
+      const LabelProperties& label,
+      const EstimatorOptions& options,
+      const UprightCovariance& contradicted = UprightCovariance::Zero()) const;
   static ObjectEstimator fromSummary(const InformationPrior& prior);
 
   /** An estimator whose estimate(), started there, returns this state, and this covariance unless
