@@ -28,6 +28,17 @@ UprightCovariance errorOf(double meters, double radians)
   return error;
 }
 
+CQuadricObjectMap storedAndRead(const CQuadricObjectMap& map)
+{
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << map;
+  stream.Seek(0);
+  CQuadricObjectMap read;
+  archive >> read;
+  return read;
+}
+
 const MapObject& onlyObject(const CQuadricObjectMap& map) { return map.objects().begin()->second; }
 
 }  // namespace
@@ -93,12 +104,7 @@ TEST(Contradictions, AreClaimedOnceAndOnlyUntilTheNextEstimate)
   EXPECT_TRUE(onlyObject(map).confirmed);
 
   // A stored map knows no more than it claims.
-  mrpt::io::CMemoryStream stream;
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  archive << map;
-  stream.Seek(0);
-  CQuadricObjectMap stored;
-  archive >> stored;
+  CQuadricObjectMap stored = storedAndRead(map);
   stored.consolidate();
   EXPECT_LT((onlyObject(stored).covariance - claimed).norm(), 0.02 * claimed.norm());
 
@@ -159,12 +165,7 @@ TEST(SharedError, StaysWithAStoredMap)
   SyntheticCamera camera(2);
   CQuadricObjectMap map = mapOfACabinet(camera);
   map.setSharedError(onlyObject(map).id, errorOf(0.05, 0.02));
-  mrpt::io::CMemoryStream stream;
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  archive << map;
-  stream.Seek(0);
-  CQuadricObjectMap loaded;
-  archive >> loaded;
+  CQuadricObjectMap loaded = storedAndRead(map);
   loaded.consolidate();
   const auto &stored = onlyObject(map), &read = onlyObject(loaded);
   EXPECT_LT((uprightStateOf(read.object) - uprightStateOf(stored.object)).norm(), 1e-3);
