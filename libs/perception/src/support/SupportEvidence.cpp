@@ -169,7 +169,7 @@ RoughObject roughObject(
       const double dv = (v - box.centerY()) / (kCentrality * box.height());
       all.push_back({p, std::exp(-0.5 * (du * du + dv * dv))});
     }
-  const double width = label.typicalSize.head<2>().norm() * (1.0 + 0.5 * label.sizeSpread);
+  const double width = label.typicalSize.head<2>().norm();
   out.points = atMainDepth(std::move(all), width);
   sortAlong(planes.up, out.points);
   constexpr std::size_t kFewest = 12;
@@ -275,13 +275,10 @@ std::vector<Eigen::Vector3d> connectedTo(
     std::vector<Eigen::Vector3d> points,
     const PerceptionOptions& options)
 {
-  constexpr double kReach = 1.0;  // [m]
   points.erase(
       std::remove_if(
           points.begin(), points.end(),
-          [&](const auto& p) {
-            return !surface.extent.isWithin(p, kReach) || looksPastRim(cloud, surface, p, options);
-          }),
+          [&](const auto& p) { return looksPastRim(cloud, surface, p, options); }),
       points.end());
   return points;
 }
