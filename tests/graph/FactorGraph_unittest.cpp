@@ -5,6 +5,7 @@
 #include "../geometry/Algebra.h"
 #include "../maps/SyntheticScene.h"
 #include "GraphWorld.h"
+#include "quadmap/estimation/RepeatedErrors.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/maps/ObjectEstimator.h"
 
@@ -150,6 +151,7 @@ TEST(FactorGraph, AgreesWithTheObjectMapWhenPosesAreFixed)
   SyntheticCamera camera(1);
   ObjectEstimator estimator;
   FactorGraph graph(plain());
+  std::vector<BoxMeasurement> views;
   for (int i = 0; i < 30; ++i)
   {
     const double angle = 2 * M_PI * i / 30;
@@ -168,8 +170,10 @@ TEST(FactorGraph, AgreesWithTheObjectMapWhenPosesAreFixed)
     if (pose == 0) graph.setObject(1, cabinet.object, label);
     BoxMeasurement inGraph = measurementFromRobot(obs.objects[0], *view, used, CPose3D(), {}, 0);
     inGraph.weight = viewWeight(*view, uprightStateOf(cabinet.object));
-    graph.addView(pose, 1, inGraph);
+    views.push_back(inGraph);
   }
+  shareEdgeErrors(views);  // as the estimator does
+  for (std::size_t pose = 0; pose < views.size(); ++pose) graph.addView(pose, 1, views[pose]);
   graph.optimise();
   EstimatorOptions independent;  // the graph takes the errors of views as such
   independent.repeatedThere = independent.repeatedAnywhere = independent.depthScaleSigma = 0;

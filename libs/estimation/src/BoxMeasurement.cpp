@@ -4,16 +4,29 @@
 #include <cmath>
 
 #include "quadmap/geometry/PosePosition.h"
+#include "quadmap/geometry/Support.h"
 #include "quadmap/geometry/Whitening.h"
 
 namespace quadmap
 {
 namespace
 {
-/** The part of an edge's sigma by which all views of one side of a box err alike [m]. */
-double edgeShapeSigma(const ObjectView& view, const EstimatorOptions& options)
+/** Standard deviation of where an outline is that may be anywhere between that of an ellipsoid and
+ * that of its cuboid [m]. \param view Complete. \param n Of a plane that touches it, in the map. */
+double outlineSigma(const ObjectView& view, const Eigen::Vector3d& n)
 {
-  return options.edgeShapeShare * view.halfSizes.mean();
+  const auto normals = view.faceNormals();
+  const Eigen::Vector3d n_obj(n.dot(normals[0]), n.dot(normals[2]), n.dot(normals[4]));
+  const Eigen::Vector3d& s = view.halfSizes;
+  return (supportFunction(n_obj, s, 1.0) - supportFunction(n_obj, s, 2.0)) / std::sqrt(12.0);
+}
+
+/** The part of an edge's sigma by which all views of one side of a box err alike [m]. */
+double edgeShapeSigma(
+    const ObjectView& view, const ObjectView::Edge& edge, const EstimatorOptions& options)
+{
+  const double drawn = options.edgeShapeShare * view.halfSizes.mean();
+  return view.complete ? std::hypot(drawn, outlineSigma(view, edge.plane.n)) : drawn;
 }
 
 /** The measurement with the map's axes turned by R and its origin moved.
@@ -37,7 +50,7 @@ BoxMeasurement measurementIn(
   for (const auto& edge : view.edges)
     m.edges.push_back(
         {R_frame_map * edge.plane.n, edgeSigma(view, edge, options),
-         edgeShapeSigma(view, options)});
+         edgeShapeSigma(view, edge, options)});
   return m;
 }
 
@@ -77,7 +90,7 @@ double edgeSigma(
 {
   return std::hypot(
       (view.center - view.camera).norm() * edge.angle + view.pose.position + options.edgeFloor,
-      edgeShapeSigma(view, options));
+      edgeShapeSigma(view, edge, options));
 }
 
 Eigen::Matrix3d seedWhitening(const Eigen::Matrix3d& covariance, const EstimatorOptions& options)

@@ -9,8 +9,8 @@ struct EstimatorOptions
   /** Residuals beyond this many sigmas lose weight, lower bounds of sizes most of it, > 0. */
   double huber = 1.5;
   double edgeFloor = 0.002;  //!< Fixed part of what is added to an edge's sigma [m], >= 0
-  /** By this share of the mean half size all edges of one side of an object err alike, >= 0: no
-   * outline is quite that of an h_q, and a detector draws its boxes alike in all images. */
+  /** By this share of the mean half size all edges of one side of an object err alike, >= 0: a
+   * detector draws its boxes alike in all images. */
   double edgeShapeShare = 0.06;
   bool edgesOfComplete =
       true;  //!< Use the box edges of complete measurements with unseen sides too
