@@ -22,12 +22,16 @@ void expectSuccess(const std::string& program, const std::string& arguments)
   ASSERT_EQ(result.status, 0) << program << " " << arguments << "\n" << result.err;
 }
 
-/** Imports a recording with its poses as odometry and maps it. */
-void importAndMap(const std::string& recording, const TemporaryFolder& folder)
+/** Imports a recording with its poses as odometry and maps it. \param boxes A folder in it. */
+void importAndMap(
+    const std::string& recording,
+    const TemporaryFolder& folder,
+    const std::string& boxes = "detections")
 {
   const auto rawlog = quoted(folder.path("x.rawlog"));
-  ASSERT_NO_FATAL_FAILURE(
-      expectSuccess("quadmap-import", "tum " + quoted(recording) + " -o " + rawlog));
+  ASSERT_NO_FATAL_FAILURE(expectSuccess(
+      "quadmap-import", "tum " + quoted(recording) + " --detections " +
+                            quoted(recording + "/" + boxes) + " -o " + rawlog));
   ASSERT_NO_FATAL_FAILURE(
       expectSuccess("quadmap-slam", rawlog + " -o " + quoted(folder.path("out"))));
 }
@@ -38,6 +42,14 @@ json figures(const TemporaryFolder& folder, const std::string& arguments)
   expectSuccess(
       "quadmap-evaluate", quoted(folder.path("out")) + " --json " + quoted(file) + " " + arguments);
   return json::parse(readFile(file));
+}
+
+/** The figures of a recording whose truth is in the frame of its true trajectory. */
+json objectFigures(const std::string& recording, const TemporaryFolder& folder)
+{
+  return figures(
+      folder, "--objects " + quoted(recording + "/objects_gt.json") + " --trajectory " +
+                  quoted(recording + "/groundtruth.txt"))["objects"];
 }
 
 json report(const TemporaryFolder& folder)
@@ -90,9 +102,39 @@ TEST(Recordings, Kitchen)
   EXPECT_EQ(counts["cup"], 2);
   EXPECT_GE(counts["chair"], 3);
   EXPECT_GE(counts["tv"], 1);
-  EXPECT_LE(objects.size(), 16u) << "the scene has about a dozen things a detector knows";
+  const json f = objectFigures(recording, folder);
+  EXPECT_GE(f["matched"], 10) << "no detector boxed the other four at least five times";
+  EXPECT_LE(f["estimated"], f["matched"].get<int>() + 1);
+  EXPECT_LE(f["trans_m"], 0.06);
+  EXPECT_GE(f["shape_iou"], 0.60);
   // Some ten times the figure of doc/benchmarks.md: machines differ, and share their cores.
   EXPECT_LE(report(folder)["timing"]["modules"]["perception"]["cpu_mean_ms"], 60.0);
+}
+
+TEST(Recordings, KitchenWithAnotherDetector)
+{
+  const auto recording = testData("kitchen_a");
+  if (recording.empty()) GTEST_SKIP() << "recording kitchen_a is not there";
+  const TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(importAndMap(recording, folder, "detections_yolov8n"));
+  const json f = objectFigures(recording, folder);
+  EXPECT_GE(f["matched"], 10);
+  EXPECT_LE(f["estimated"], f["matched"].get<int>() + 1);
+  EXPECT_LE(f["trans_m"], 0.065);
+  EXPECT_GE(f["shape_iou"], 0.54);
+}
+
+TEST(Recordings, DeskOfTumFr2FromOneSide)
+{
+  const auto recording = testData("tum_fr2_desk");
+  if (recording.empty()) GTEST_SKIP() << "recording tum_fr2_desk is not there";
+  const TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(importAndMap(recording, folder));
+  const json f = objectFigures(recording, folder);
+  EXPECT_GE(f["matched"], 4);
+  EXPECT_EQ(f["estimated"], f["matched"]) << "the plant, cut by the image, is right or not there";
+  EXPECT_LE(f["trans_m"], 0.08) << "where the plant is, it is a quarter of a metre off at most";
+  EXPECT_GE(f["shape_iou"], 0.50);
 }
 
 TEST(Recordings, SampleRawlogsOfMrpt)
