@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cuboid/CuboidFit.h"
 #include "quadmap/geometry/Projection.h"
 
 namespace quadmap
@@ -15,9 +16,8 @@ Ellipsoid visiblePart(const Ellipsoid& cuboid, const ObjectCloud& object)
   double lowest = cuboid.semiAxes().z();
   for (const auto& p : object.points) lowest = std::min(lowest, up.dot(p - cuboid.center()));
   const double raise = 0.5 * (std::max(lowest, -cuboid.semiAxes().z()) + cuboid.semiAxes().z());
-  constexpr double kMinHalfHeight = 0.008;  // [m]
   Eigen::Vector3d semiAxes = cuboid.semiAxes();
-  semiAxes.z() = std::max(kMinHalfHeight, semiAxes.z() - raise);
+  semiAxes.z() = std::max(kMinHalfSize, semiAxes.z() - raise);
   mrpt::poses::CPose3D pose = cuboid.pose();
   const Eigen::Vector3d center = cuboid.center() + up * raise;
   pose.x(center.x());

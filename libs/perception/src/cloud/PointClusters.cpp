@@ -33,7 +33,7 @@ class DepthScale
   }
 
  private:
-  static constexpr double kNearest = 0.4;  // where PerceptionOptions::depthSigma begins to grow [m]
+  static constexpr double kNearest = PerceptionOptions::kDepthSigmaGrowsFrom;
   double gap_;
   double from_ = 1e9;  // depth from which the noise decides [m]
   double width_ = 0, slope_ = 0, offset_ = 0;

@@ -13,7 +13,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kMinHalfSize = 0.008;  // [m]; thinner things are not measured by these sensors
 constexpr std::size_t kSides = 4;
 
 /** Completes the faces of a round thing (cup, ball). Its near side and its width are seen, and it

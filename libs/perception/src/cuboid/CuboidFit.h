@@ -8,6 +8,9 @@
 
 namespace quadmap
 {
+/** Thinner things are not measured by these sensors [m]. */
+inline constexpr double kMinHalfSize = 0.008;
+
 /** The upright cuboid around an object's cloud, with what each face is worth (doc/mathematics.md,
  * 8). Its frame is the optical one (object_sensor must still be transformed).
  * \param object Not empty. */

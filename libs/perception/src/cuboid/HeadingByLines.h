@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -8,7 +9,7 @@
 namespace quadmap
 {
 /** Depth images are bent by their calibration: no direction is better than this [rad]. */
-constexpr double kHeadingFloor = 0.2 * 3.14159265358979323846 / 180.0;
+constexpr double kHeadingFloor = 0.2 * M_PI / 180.0;
 
 /** A heading by the lines that the sides of a thing make seen from above. */
 struct LineHeading

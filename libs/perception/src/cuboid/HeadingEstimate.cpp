@@ -12,8 +12,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
-
 /** The histogram of the normals of vertical surfaces, with what its peak is worth. */
 struct NormalPeak
 {
@@ -54,7 +52,7 @@ NormalPeak peakOfNormals(const UprightCloud& cloud)
 /** The line that the face with a normal near `heading` makes seen from above. */
 std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
 {
-  constexpr double kMaxNormalAngle = 20.0 * kPi / 180.0, kShell = 0.04;  // [m]
+  constexpr double kMaxNormalAngle = 20.0 * M_PI / 180.0, kShell = 0.04;  // [m]
   const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
   std::vector<Eigen::Vector2d> points;
   points.reserve(cloud.points.size());
@@ -100,7 +98,7 @@ Rectangle smallestRectangle(const UprightCloud& cloud)
   double bestArea = 1e9;
   for (int degree = 0; degree < 90;)
   {
-    const double yaw = degree * kPi / 180.0, c = std::cos(yaw), s = std::sin(yaw);
+    const double yaw = degree * M_PI / 180.0, c = std::cos(yaw), s = std::sin(yaw);
     std::vector<double> along, across;
     along.reserve(kMaxPoints);
     across.reserve(kMaxPoints);
@@ -113,14 +111,14 @@ Rectangle smallestRectangle(const UprightCloud& cloud)
     if (x.most * y.most < bestArea)
     {
       bestArea = x.most * y.most;
-      best = x.most >= y.most ? Rectangle{yaw, x.most} : Rectangle{yaw + kPi / 2, y.most};
+      best = x.most >= y.most ? Rectangle{yaw, x.most} : Rectangle{yaw + M_PI / 2, y.most};
     }
     // The next heading whose rectangle may be smaller.
     double turn = 0;
     do
     {
       degree += kStep;
-      turn += kStep * kPi / 180.0;
+      turn += kStep * M_PI / 180.0;
     } while (degree < 90 && x.turnedBy(turn, y) * y.turnedBy(turn, x) > bestArea);
   }
   return best;

@@ -13,8 +13,9 @@ struct SurfaceOptions : public OptionGroup
 
   /** Depth noise of a structured-light camera, sigma(z) = floor + growth (z - 0.4 m)^2, after
    * Nguyen, Izadi, Lovell, 3DIMPVT 2012. */
-  double depthSigmaFloor = 0.0012;   //!< [m], > 0
-  double depthSigmaGrowth = 0.0019;  //!< [1/m], >= 0
+  double depthSigmaFloor = 0.0012;                     //!< [m], > 0
+  double depthSigmaGrowth = 0.0019;                    //!< [1/m], >= 0
+  static constexpr double kDepthSigmaGrowsFrom = 0.4;  //!< [m]
 
   double planeMinArea = 0.008;  //!< Smallest plane worth a support, share of the image, in (0, 1)
   double planeMaxTilt = 0.17;   //!< A horizontal plane's normal to up [rad]; INI `planeMaxTilt_deg`
@@ -26,7 +27,7 @@ struct SurfaceOptions : public OptionGroup
   /** Standard deviation of a depth [m]. */
   double depthSigma(double z) const
   {
-    const double far = z > 0.4 ? z - 0.4 : 0.0;
+    const double far = z > kDepthSigmaGrowsFrom ? z - kDepthSigmaGrowsFrom : 0.0;
     return depthSigmaFloor + depthSigmaGrowth * far * far;
   }
 
