@@ -45,11 +45,11 @@ json figures(const TemporaryFolder& folder, const std::string& arguments)
 }
 
 /** The figures of a recording whose truth is in the frame of its true trajectory. */
-json objectFigures(const std::string& recording, const TemporaryFolder& folder)
+json figuresByTrajectory(const std::string& recording, const TemporaryFolder& folder)
 {
   return figures(
       folder, "--objects " + quoted(recording + "/objects_gt.json") + " --trajectory " +
-                  quoted(recording + "/groundtruth.txt"))["objects"];
+                  quoted(recording + "/groundtruth.txt"));
 }
 
 json report(const TemporaryFolder& folder)
@@ -102,7 +102,7 @@ TEST(Recordings, Kitchen)
   EXPECT_EQ(counts["cup"], 2);
   EXPECT_GE(counts["chair"], 3);
   EXPECT_GE(counts["tv"], 1);
-  const json f = objectFigures(recording, folder);
+  const json f = figuresByTrajectory(recording, folder)["objects"];
   EXPECT_GE(f["matched"], 10) << "no detector boxed the other four at least five times";
   EXPECT_LE(f["estimated"], f["matched"].get<int>() + 1);
   EXPECT_LE(f["trans_m"], 0.06);
@@ -117,7 +117,7 @@ TEST(Recordings, KitchenWithAnotherDetector)
   if (recording.empty()) GTEST_SKIP() << "recording kitchen_a is not there";
   const TemporaryFolder folder;
   ASSERT_NO_FATAL_FAILURE(importAndMap(recording, folder, "detections_yolov8n"));
-  const json f = objectFigures(recording, folder);
+  const json f = figuresByTrajectory(recording, folder)["objects"];
   EXPECT_GE(f["matched"], 10);
   EXPECT_LE(f["estimated"], f["matched"].get<int>() + 1);
   EXPECT_LE(f["trans_m"], 0.065);
@@ -130,11 +130,16 @@ TEST(Recordings, DeskOfTumFr2FromOneSide)
   if (recording.empty()) GTEST_SKIP() << "recording tum_fr2_desk is not there";
   const TemporaryFolder folder;
   ASSERT_NO_FATAL_FAILURE(importAndMap(recording, folder));
-  const json f = objectFigures(recording, folder);
+  const json all = figuresByTrajectory(recording, folder);
+  const json f = all["objects"];
   EXPECT_GE(f["matched"], 4);
   EXPECT_EQ(f["estimated"], f["matched"]) << "the plant, cut by the image, is right or not there";
-  EXPECT_LE(f["trans_m"], 0.08) << "where the plant is, it is a quarter of a metre off at most";
   EXPECT_GE(f["shape_iou"], 0.50);
+  for (const auto& match : all["matches"])
+  {
+    if (match["truth_id"] == "plant_0") continue;  // the images show a part of it
+    EXPECT_LE(match["trans_m"], 0.07) << match["truth_id"];
+  }
 }
 
 TEST(Recordings, SampleRawlogsOfMrpt)
