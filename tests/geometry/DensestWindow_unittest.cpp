@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <random>
-#include <stdexcept>
 
 using namespace quadmap;
 
@@ -26,31 +24,6 @@ TEST(DensestWindow, IsThatOfAllPairsOfEnds)
     EXPECT_EQ(window.count, most);
     EXPECT_LE(values[window.first + window.count - 1] - values[window.first], 1.5);
   }
-}
-
-TEST(DensestWindow, HoldsMostWeight)
-{
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(0, 10);
-  for (int trial = 0; trial < 50; ++trial)
-  {
-    std::vector<double> values(40), weights(40);
-    for (double& v : values) v = uniform(random);
-    for (double& w : weights) w = uniform(random);
-    std::sort(values.begin(), values.end());
-    double most = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      double sum = 0;
-      for (std::size_t j = i; j < values.size() && values[j] - values[i] <= 1.5; ++j)
-        most = std::max(most, sum += weights[j]);
-    }
-    const Window window = densestWindow(values, weights, 1.5);
-    const auto begin = weights.begin() + static_cast<std::ptrdiff_t>(window.first);
-    EXPECT_NEAR(std::accumulate(begin, begin + std::ptrdiff_t(window.count), 0.0), most, 1e-9);
-    EXPECT_LE(values[window.first + window.count - 1] - values[window.first], 1.5);
-  }
-  EXPECT_THROW(densestWindow({1.0}, {}, 1.5), std::invalid_argument);
 }
 
 TEST(DensestWindow, TheLowestOfEquallyDenseOnesIsChosen)

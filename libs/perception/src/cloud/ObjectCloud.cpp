@@ -110,25 +110,14 @@ class Segmenter
         });
   }
 
-  /** Is what box i holds nearly all a part of what suits box j better? Not for a box within the
-   * other: that may be a thing on a thing. */
+  /** Does box i hold some of what suits box j better? */
   bool tookThingOf(std::size_t i, std::size_t j, const std::vector<Cut>& cuts) const
   {
-    constexpr double kMinShare = 0.8, kMaxInside = 0.8;
-    const ObjectCloud &mine = cuts[i].object, &theirs = cuts[j].object;
-    if (isSameThing(i, j) || mine.empty() || cuts[j].quality() <= cuts[i].quality()) return false;
-    const ImageBox &a = boxOf(i), &b = boxOf(j);
-    const ImageBox both = {
-        std::max(a.x1, b.x1), std::max(a.y1, b.y1), std::min(a.x2, b.x2), std::min(a.y2, b.y2)};
-    if (both.area() == 0 || both.area() > kMaxInside * a.area()) return false;
-    int all = 0, common = 0;
-    mine.mask.forEach(
-        [&](int c, int r)
-        {
-          ++all;
-          common += theirs.mask.contains(c, r) ? 1 : 0;
-        });
-    return common > kMinShare * all;
+    if (isSameThing(i, j) || cuts[j].quality() <= cuts[i].quality()) return false;
+    bool hasCommon = false;
+    cuts[i].object.mask.forEach([&](int c, int r)
+                                { hasCommon = hasCommon || cuts[j].object.mask.contains(c, r); });
+    return hasCommon;
   }
   bool containsOthers(std::size_t i, const ObjectCloud& object)
   {

@@ -136,8 +136,7 @@ double FaceEstimator::outlineSigmaOf(std::size_t face, double perCell) const
  * rim, as the top of a cabinet for its back; the back of a chair hides what is behind it. */
 bool FaceEstimator::leadsUp(std::size_t face, double position) const
 {
-  constexpr double kMinProfile = 0.3, kMinDepth = 0.05;  // share, [m]
-  constexpr double kMinBreadth = 0.35;                   // of the width across
+  constexpr double kMinProfile = 0.3, kMinBreadth = 0.35;  // shares, of the rim and of the width
   int profile = 0, rim = 0;
   std::vector<double> depth;
   depth.reserve(size());
@@ -151,8 +150,7 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
     profile += inProfile ? 1 : 0;
   }
   if (profile <= kMinProfile * rim) return false;
-  const double deep = spread(std::move(depth));
-  return deep > kMinDepth && deep > kMinBreadth * spread(acrossOf(face));
+  return spread(std::move(depth)) > kMinBreadth * spread(acrossOf(face));
 }
 
 /** The part of the image in which depth is measured: that of a camera registered to another one

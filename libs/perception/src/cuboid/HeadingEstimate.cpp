@@ -129,9 +129,8 @@ std::optional<LineFit> flatHeading(
     const UprightCloud& cloud, const Rectangle& rectangle, const PerceptionOptions& options)
 {
   constexpr double kMinShare = 0.75, kMinWidth = 6.0;  // of the points; in shells
-  constexpr double kMaxShell = 0.05;  // [m]; in thicker ones any corner passes for a line
   const double shell = 0.02 + 2.0 * options.depthSigma(cloud.medianRange);
-  if (shell > kMaxShell || rectangle.width < kMinWidth * shell) return {};
+  if (rectangle.width < kMinWidth * shell) return {};
   const Eigen::Vector2d t(std::cos(rectangle.yaw), std::sin(rectangle.yaw)), n(-t.y(), t.x());
   std::vector<Eigen::Vector2d> points;
   for (const auto& p : cloud.points) points.emplace_back(p.head<2>().dot(t), p.head<2>().dot(n));

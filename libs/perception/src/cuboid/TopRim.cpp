@@ -75,9 +75,9 @@ struct RimSearch
       if (last >= 0 && i - last <= kMaxGap + 1)
       {
         if (before == Shows::Top && now == Shows::Past)
-          out.push_back(between(previous, cell, step));
+          out.push_back(rimPast(previous, step));
         else if (before == Shows::Past && now == Shows::Top)
-          out.push_back(between(cell, previous, -step));
+          out.push_back(rimPast(cell, -step));
       }
       last = i;
       before = now;
@@ -85,15 +85,13 @@ struct RimSearch
   }
 
   /** Equation (8.10). \param outwards Step to the next cell. */
-  RimPoint between(const Cell& onTop, const Cell& past, const Cell& outwards) const
+  RimPoint rimPast(const Cell& onTop, const Cell& outwards) const
   {
-    const Eigen::Vector2d p = seenAt(onTop), q = seenAt(past);
+    const Eigen::Vector2d p = seenAt(onTop);
     const Eigen::Vector2d out = onPlane(onTop + outwards) - onPlane(onTop);
     // Towards the camera the top ends in a side, of which the last cell may show the upper part.
     const bool isNear = out.dot(p) < 0;
-    const bool showsSide = (q - p).norm() < out.norm();
-    const Eigen::Vector2d beyond = showsSide ? q : isNear ? p : Eigen::Vector2d(p + out);
-    return {0.5 * (p + beyond), out};
+    return {isNear ? p : Eigen::Vector2d(p + 0.5 * out), out};
   }
   Eigen::Vector2d seenAt(const Cell& cell) const
   {
@@ -116,13 +114,7 @@ TopRim::TopRim(
     const Eigen::Matrix3d& R_upright_optical,
     const PerceptionOptions& options)
 {
-  constexpr std::size_t kSample = 400;
-  const RimSearch search{cloud, object, top, R_upright_optical, options};
-  rim_ = search.rim();
-  const std::size_t step = 1 + object.points.size() / kSample;
-  for (std::size_t i = 0; i < object.points.size(); i += step)
-    if (search.shows(object.cells[i].c, object.cells[i].r) == Shows::Top)
-      surface_.push_back((R_upright_optical * object.points[i]).head<2>());
+  rim_ = RimSearch{cloud, object, top, R_upright_optical, options}.rim();
 }
 
 std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
@@ -180,28 +172,19 @@ std::optional<HeadingEstimate> TopRim::heading() const
 
 std::optional<TopRim::Side> TopRim::side(const Eigen::Vector2d& normal) const
 {
-  constexpr double kMinShare = 0.25;   // of the top's extent along the side
-  constexpr double kMaxBeyond = 0.05;  // share of the top's points
   const Eigen::Vector2d along(-normal.y(), normal.x());
   const auto points = sidePoints(normal);
-  if (points.size() < kMinPoints || surface_.empty()) return {};
+  if (points.size() < kMinPoints) return {};
   Side out;
-  std::vector<double> positions, shifts, extent;
+  std::vector<double> positions, shifts;
   for (const auto& q : points)
   {
     positions.push_back(q.p.dot(normal));
     shifts.push_back(q.p.dot(along));
     out.perCell += std::abs(q.out.dot(normal)) / static_cast<double>(points.size());
   }
-  for (const auto& p : surface_) extent.push_back(p.dot(along));
   out.position = median(positions);
   out.shift = median(shifts);
-  if (quantileRange(shifts, 0.05).width() < kMinShare * quantileRange(extent, 0.05).width())
-    return {};
-  const auto beyond = std::count_if(
-      surface_.begin(), surface_.end(),
-      [&](const auto& p) { return p.dot(normal) > out.position + kWindow; });
-  if (static_cast<double>(beyond) > kMaxBeyond * static_cast<double>(surface_.size())) return {};
   return out;
 }
 

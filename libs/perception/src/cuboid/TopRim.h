@@ -54,7 +54,6 @@ class TopRim
   std::vector<RimPoint> sidePoints(const Eigen::Vector2d& normal) const;
 
   std::vector<RimPoint> rim_;
-  std::vector<Eigen::Vector2d> surface_;  // a sample of the top's points
 };
 
 }  // namespace quadmap

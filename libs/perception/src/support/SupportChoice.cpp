@@ -16,14 +16,13 @@ namespace
 {
 // Evidence is added up in natural logarithms of odds; each kind is bounded, so that no single one
 // decides against all others.
-constexpr double kCovered = 4.0;    // the surface reaches under the object
-constexpr double kBelow = -8.0;     // per share of the object that lies under the surface
-constexpr double kGap = -1.5;       // a gap between them: something nearer may carry it
-constexpr double kGapScale = 0.10;  // [m]
-constexpr double kAbsent = -4.0;    // the object would show in the gap, and does not
-constexpr double kTouching = 1.5;   // the surface shows around the object's foot
-constexpr double kUsual = 4.0;      // it is where such objects usually stand
-constexpr double kUnusual = -1.5;
+constexpr double kCovered = 4.0;          // the surface reaches under the object
+constexpr double kBelow = -8.0;           // per share of the object that lies under the surface
+constexpr double kGap = -1.5;             // a gap between them: something nearer may carry it
+constexpr double kGapScale = 0.10;        // [m]
+constexpr double kAbsent = -4.0;          // the object would show in the gap, and does not
+constexpr double kTouching = 1.5;         // the surface shows around the object's foot
+constexpr double kUsual = 4.0;            // it is where such objects usually stand
 constexpr double kTooTall = -2.0;         // for its kind, from the surface up, at most
 constexpr double kTooLow = -0.5;          // its top may be hidden or cut off
 constexpr double kTooLowOffFloor = -4.0;  // the same of what stands on floors, above anything else
@@ -36,8 +35,8 @@ constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs 
  *  adds. */
 double heightPenalty(double height, const LabelProperties& label, double tooLow)
 {
-  constexpr double kMinSpread = 0.3, kMinHeight = 0.01;
-  const double ratio = std::log(std::max(kMinHeight, height) / label.typicalSize.z());
+  constexpr double kMinSpread = 0.3;
+  const double ratio = std::log(std::max(0.0, height) / label.typicalSize.z());
   const double deviation = ratio / std::max(kMinSpread, label.sizeSpread);
   return (ratio > 0 ? kTooTall : tooLow) * std::min(1.0, 0.25 * deviation * deviation);
 }
@@ -118,17 +117,7 @@ class SupportJudge
 
   double usual(int i) const
   {
-    switch (label_.support)
-    {
-      case UsualSupport::Floor:
-        return isFloor(i) ? kUsual : 0.0;
-      case UsualSupport::Object:
-        return isMainFloor(i) ? kUnusual : 0.0;
-      case UsualSupport::Wall:
-        return kUnusual;
-      default:
-        return 0.0;
-    }
+    return label_.support == UsualSupport::Floor && isFloor(i) ? kUsual : 0.0;
   }
 
   /** The back of a chair rises a little above the table that the chair was pushed under. */
@@ -145,7 +134,7 @@ class SupportJudge
     const auto ring = touching(plane.plane);
     SupportSurface surface = {plane.plane, plane.extent};
     if (const auto* owner = ownerOf(i)) surface.box = owner->box;
-    surface.extent = plane.extent.grown(connectedTo(cloud_, surface, ring.surface, options_));
+    surface.extent = plane.extent.grown(ring.surface);
     const auto e = standingEvidence(cloud_, surface, object_, detection_.box, label_, options_);
     // A thing's own top is in its box, too, with little above it; thin things rise little above the
     // noise.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "cloud/Cluster.h"
@@ -18,28 +17,16 @@ constexpr int kCells = 400;        // of a box that are looked at
 constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
 constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
 
-struct Weighted
-{
-  Eigen::Vector3d point;
-  double weight;
-};
-
-/** Keeps the points of the depth range of a given width that has most weight. */
-std::vector<Eigen::Vector3d> atMainDepth(std::vector<Weighted> all, double width)
+/** Keeps the points of the depth range of a given width that has most of them. */
+std::vector<Eigen::Vector3d> atMainDepth(std::vector<Eigen::Vector3d> all, double width)
 {
   std::stable_sort(
-      all.begin(), all.end(),
-      [](const auto& a, const auto& b) { return a.point.z() < b.point.z(); });
-  std::vector<double> depths, weights;
-  for (const auto& w : all)
-  {
-    depths.push_back(w.point.z());
-    weights.push_back(w.weight);
-  }
-  const Window window = densestWindow(depths, weights, width);
-  std::vector<Eigen::Vector3d> out;
-  for (std::size_t i = 0; i < window.count; ++i) out.push_back(all[window.first + i].point);
-  return out;
+      all.begin(), all.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
+  std::vector<double> depths;
+  for (const auto& p : all) depths.push_back(p.z());
+  const Window window = densestWindow(depths, width);
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(window.first);
+  return {first, first + static_cast<std::ptrdiff_t>(window.count)};
 }
 
 /** Puts points in order along a direction. */
@@ -125,19 +112,6 @@ double coverage(
   return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
 }
 
-/** The share of a surface's extent that its points fill, about. */
-double filled(const ScenePlane& surface)
-{
-  constexpr double kCell = 0.06;  // wider than the distance of points at a grazing angle [m]
-  const Eigen::Vector3d e1 = surface.plane.n.unitOrthogonal(), e2 = surface.plane.n.cross(e1);
-  std::set<std::pair<int, int>> cells;
-  for (const auto& p : surface.rim)
-    cells.emplace(
-        static_cast<int>(std::floor(e1.dot(p) / kCell)),
-        static_cast<int>(std::floor(e2.dot(p) / kCell)));
-  return static_cast<double>(cells.size()) * kCell * kCell / std::max(1e-6, surface.extent.area());
-}
-
 }  // namespace
 
 RoughObject roughObject(
@@ -152,7 +126,7 @@ RoughObject roughObject(
   RoughObject out;
   out.planeShares = planes.all.sharesWithin(range);
   const int step = stepFor(range.cells(), kCells);
-  std::vector<Weighted> all;
+  std::vector<Eigen::Vector3d> all;
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
     {
@@ -165,9 +139,7 @@ RoughObject roughObject(
       const double tolerance = options.onPlane(p.z());
       const int plane = planes.all.planeAt(cloud, c, r, tolerance);
       if (plane >= 0 && !out.owns(plane)) continue;
-      const double du = (u - box.centerX()) / (kCentrality * box.width());
-      const double dv = (v - box.centerY()) / (kCentrality * box.height());
-      all.push_back({p, std::exp(-0.5 * (du * du + dv * dv))});
+      all.push_back(p);
     }
   const double width = label.typicalSize.head<2>().norm();
   out.points = atMainDepth(std::move(all), width);
@@ -199,7 +171,7 @@ StandingEvidence standingEvidence(
     heights.push_back(height);
   }
   out.gap = std::max(0.0, quantile(heights, 0.1));
-  out.top = quantile(heights, 0.95);
+  out.top = quantile(std::move(heights), 0.95);
 
   const std::size_t low = std::max<std::size_t>(1, points.size() / 2);
   const std::size_t step = 1 + low / kMaxLowPoints;
@@ -208,8 +180,7 @@ StandingEvidence standingEvidence(
     out.covered += coverage(cloud, surface, points[i], options);
   out.covered /= looked;
 
-  constexpr double kMinGap = 0.05;  // [m]; thinner ones say nothing
-  if (out.gap < kMinGap) return out;
+  if (out.gap == 0) return out;
   const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
   const std::size_t lineStep = 1 + lowest / kMaxLines;
   int probes = 0;
@@ -236,7 +207,6 @@ std::optional<ScenePlane> topOf(
   constexpr double kFacesUp = 0.9;     // cosine
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
   constexpr std::size_t kFewest = 20;  // cells
-  constexpr double kMinFilled = 0.4;   // several things of one height are no surface
   constexpr int kFinest = 4;           // times more cells than elsewhere: tops are small
   const auto range = cloud.cellsOf(box);
   std::vector<DepthCloud::CellRange> holes;
@@ -265,22 +235,7 @@ std::optional<ScenePlane> topOf(
   out.centroid = points[layer.middle()];
   out.plane = Plane::throughPoint(planes.up, out.centroid);
   out.extent = PlaneExtent(planes.up, out.rim);
-  if (filled(out) < kMinFilled) return {};
   return out;
-}
-
-std::vector<Eigen::Vector3d> connectedTo(
-    const DepthCloud& cloud,
-    const SupportSurface& surface,
-    std::vector<Eigen::Vector3d> points,
-    const PerceptionOptions& options)
-{
-  points.erase(
-      std::remove_if(
-          points.begin(), points.end(),
-          [&](const auto& p) { return looksPastRim(cloud, surface, p, options); }),
-      points.end());
-  return points;
 }
 
 }  // namespace quadmap

@@ -79,13 +79,4 @@ std::optional<ScenePlane> topOf(
     const std::vector<ImageBox>& others,
     const PerceptionOptions& options);
 
-/** Returns the points on a surface that belong to the part of it that was seen. The segmentation
- * loses the far ends of surfaces. The surface has ended where the camera looks down past it in
- * between. */
-std::vector<Eigen::Vector3d> connectedTo(
-    const DepthCloud& cloud,
-    const SupportSurface& surface,
-    std::vector<Eigen::Vector3d> points,
-    const PerceptionOptions& options);
-
 }  // namespace quadmap

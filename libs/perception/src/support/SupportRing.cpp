@@ -16,18 +16,16 @@ struct PlanesAtPoint
   double nearest;        // distance to the plane that a point most likely lies on [m]
 };
 
-/** Horizontal planes at a point. The nearest is at its tolerance when none reaches there. */
+/** Horizontal planes at a point. The nearest is at its tolerance when none was seen there. */
 PlanesAtPoint planesAt(const ScenePlanes& planes, const RingPoint& point)
 {
-  constexpr double kReach = 0.10;  // beyond what was seen of a surface [m]
   PlanesAtPoint out = {false, point.tolerance};
   for (const int i : planes.horizontal)
   {
     const ScenePlane& plane = planes.plane(i);
     const double distance = std::abs(plane.plane.signedDistance(point.point));
     out.isOnAny = out.isOnAny || distance <= point.tolerance;
-    if (distance < out.nearest && plane.extent.isWithin(point.point, kReach))
-      out.nearest = distance;
+    if (distance < out.nearest && plane.extent.isWithin(point.point, 0.0)) out.nearest = distance;
   }
   return out;
 }
@@ -75,8 +73,7 @@ std::vector<RingPoint> ringAround(
       point.tolerance = contactTolerance(point.point.z(), options);
       const PlanesAtPoint here = planesAt(planes, point);
       point.nearest = here.nearest;
-      if (here.isOnAny && !point.inBox)
-        if (const auto normal = cloud.normal(c, r)) point.normal = normal->cast<double>();
+      point.onSurface = here.isOnAny && !point.inBox && cloud.normal(c, r);
       out.push_back(point);
     }
   return out;
@@ -96,7 +93,6 @@ void findBeside(
 
 RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ring ring)
 {
-  constexpr double kSameWay = 0.7;  // cosine; the faces of things cross a plane, too
   RingEvidence out;
   int all = 0, on = 0;
   for (const auto& p : points)
@@ -107,7 +103,7 @@ RingEvidence ringOn(const std::vector<RingPoint>& points, const Plane& plane, Ri
     if (distance > p.tolerance) continue;
     if (ring == Ring::LowerHalf && (!p.beside || distance > p.nearest + p.noise)) continue;
     ++on;
-    if (p.normal && p.normal->dot(plane.n) > kSameWay) out.surface.push_back(p.point);
+    if (p.onSurface) out.surface.push_back(p.point);
   }
   if (all > 0) out.share = static_cast<double>(on) / all;
   return out;

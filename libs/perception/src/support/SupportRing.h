@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <optional>
 #include <vector>
 
 #include "quadmap/obs/LabelTable.h"
@@ -27,20 +26,20 @@ Eigen::Vector2d downInImage(
 struct RingEvidence
 {
   double share = 0;                      //!< Of the valid depths
-  std::vector<Eigen::Vector3d> surface;  //!< Points on it, outside the box, that face as it does
+  std::vector<Eigen::Vector3d> surface;  //!< Points on it, outside the box
 };
 
 /** A point in the surroundings of a box. */
 struct RingPoint
 {
   Eigen::Vector3d point;
-  std::optional<Eigen::Vector3d> normal;  //!< Outside the box, on a horizontal plane
-  double tolerance = 0;                   //!< For lying on a plane [m]
-  double noise = 0;                       //!< Standard deviation of its depth [m]
-  double nearest = 0;  //!< To the nearest horizontal plane that reaches there [m]
-  bool inBox = false;  //!< In the lowest tenth of the box: the support shows there, too
-  bool lower = false;  //!< Below the middle of the box
-  bool beside = true;  //!< No farther from the object than such a thing is large
+  double tolerance = 0;    //!< For lying on a plane [m]
+  double noise = 0;        //!< Standard deviation of its depth [m]
+  double nearest = 0;      //!< To the nearest horizontal plane that was seen there [m]
+  bool onSurface = false;  //!< Outside the box, on a horizontal plane, where the surface is smooth
+  bool inBox = false;      //!< In the lowest tenth of the box: the support shows there, too
+  bool lower = false;      //!< Below the middle of the box
+  bool beside = true;      //!< No farther from the object than such a thing is large
 };
 
 /** The surroundings of a box: a ring around it, some hundred points. */

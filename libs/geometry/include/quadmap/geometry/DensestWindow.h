@@ -20,9 +20,4 @@ struct Window
  * difference of two values of the window, in their unit, >= 0. */
 Window densestWindow(const std::vector<double>& sorted, double width);
 
-/** The same of values that have weights: the window that holds most weight. \param weights One for
- * each value, >= 0. \exception std::invalid_argument If their number differs. */
-Window densestWindow(
-    const std::vector<double>& sorted, const std::vector<double>& weights, double width);
-
 }  // namespace quadmap
