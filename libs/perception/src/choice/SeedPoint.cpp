@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloud/BoxSurroundings.h"
+#include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
@@ -12,9 +13,6 @@ namespace
 {
 /** What returns depth in more of its box is no screen: what lacks it there are shadows of edges. */
 constexpr double kMaxScreenCoverage = 0.5;
-
-/** Fewer cells with depth tell nothing. */
-constexpr std::size_t kMinCells = 12;
 
 /** The depths in a box but not in its hole [m], and their rays, points of depth 1: on the plane
  * n . p = 1 a ray's inverse depth is n . ray. */
@@ -35,7 +33,7 @@ struct DepthsIn
         depths.push_back(p.z());
       }
   }
-  bool tellNothing() const { return depths.size() < kMinCells; }
+  bool tellNothing() const { return depths.size() < kFewestCells; }
 };
 
 /** Depth on a ray of the one plane that all depths come from; nothing when there is more than one.

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
+#include "cloud/Precision.h"
+
 namespace quadmap
 {
 bool isFragment(const Cluster& cluster, const Cluster& main)
 {
-  constexpr int kMinCount = 12;         // cells; fewer are noise
-  constexpr double kDepthSlack = 0.05;  // [m]
-  constexpr double kWhole = 0.85;       // of the box, filled by a main part that needs no others
-  return main.fill < kWhole && cluster.count >= kMinCount && cluster.leaking == 0 &&
-         cluster.nearest > main.nearest - kDepthSlack &&
-         cluster.farthest < main.farthest + kDepthSlack;
+  constexpr double kWhole = 0.85;  // of the box, filled by a main part that needs no others
+  return main.fill < kWhole && cluster.count >= static_cast<int>(kFewestCells) &&
+         cluster.leaking == 0 && cluster.nearest > main.nearest - kEndSlack &&
+         cluster.farthest < main.farthest + kEndSlack;
 }
 
 bool isFront(

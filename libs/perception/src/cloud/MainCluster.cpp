@@ -7,6 +7,7 @@
 #include "cloud/Cluster.h"
 #include "cloud/HorizontalTop.h"
 #include "cloud/PointClusters.h"
+#include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportRing.h"
@@ -142,7 +143,6 @@ class ClusterChoice
   std::vector<std::size_t> membersOf(
       const std::vector<int>& labels, const std::vector<Cluster>& clusters, int best) const
   {
-    constexpr double kSlack = 0.05;  // [m]
     const Cluster& main = clusters[static_cast<std::size_t>(best)];
     const Eigen::Vector2d down = downInImage(cloud_.camera(), planes_.up, task_.detection->box);
     std::vector<bool> isPart;
@@ -156,7 +156,7 @@ class ClusterChoice
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < candidates_.points.size(); ++i)
       if (labels[i] == best || (isPart[static_cast<std::size_t>(labels[i])] &&
-                                (!top || top->isWithin(candidates_.points[i], kSlack))))
+                                (!top || top->isWithin(candidates_.points[i], kEndSlack))))
         out.push_back(i);
     return out;
   }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cloud/BoxSurroundings.h"
+#include "cloud/Precision.h"
 #include "support/SupportRing.h"
 
 namespace quadmap
@@ -164,7 +165,6 @@ bool goesOnBehind(
     const TolerantPoints& around,
     const TolerantPoints& points)
 {
-  constexpr double kSlack = 0.05;                  // [m]
   const Eigen::Vector3d along = up.cross(wall.n);  // to the right, as walls face the camera
   const auto rangeOf = [&](const TolerantPoints& cloud)
   {
@@ -175,8 +175,8 @@ bool goesOnBehind(
   };
   const auto on = rangeOf(points), enclosing = rangeOf(around);
   if (on.isEmpty() || enclosing.isEmpty()) return false;
-  return (!seen.left || on.min()[0] > enclosing.min()[0] - kSlack) &&
-         (!seen.right || on.max()[0] < enclosing.max()[0] + kSlack);
+  return (!seen.left || on.min()[0] > enclosing.min()[0] - kEndSlack) &&
+         (!seen.right || on.max()[0] < enclosing.max()[0] + kEndSlack);
 }
 
 /** Could it be the object's own side, with most of the object on it, nothing before it, or

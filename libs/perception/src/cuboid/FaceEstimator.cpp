@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "cuboid/FaceSigmas.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -74,13 +75,13 @@ double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
 bool FaceEstimator::isFootInSight() const
 {
-  constexpr double kLowest = 0.98, kMaxHidden = 0.3;  // quantile; share of what lies below it
+  constexpr double kMaxHidden = 0.3;  // share of what lies below the lowest that is visible
   const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
   const Eigen::Vector3d lower = middle + 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
   const Eigen::Vector2d down = cloud_.camera().project(lower) - cloud_.camera().project(middle);
   std::vector<double> visible;
   for (const auto& cell : cells_) visible.push_back(down.dot(Eigen::Vector2d(cell.c, cell.r)));
-  const double lowest = quantile(std::move(visible), kLowest);
+  const double lowest = quantile(std::move(visible), 1.0 - kStrayShare);
   const double tolerance = 3.0 * options_.depthSigma(range_);
   int below = 0, hidden = 0;
   for (int r = object_.inBox.r0; r < object_.inBox.r1; ++r)
@@ -152,7 +153,8 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
     out.shift = shift / static_cast<double>(shell.size());
     out.position = median(shell);
   }
-  if (static_cast<double>(shell.size()) < std::max(20.0, 0.03 * static_cast<double>(size())))
+  if (static_cast<double>(shell.size()) <
+      std::max<double>(kFewestOfSurface, 0.03 * static_cast<double>(size())))
     return {};
   out.worth = {
       FaceKind::Measured,
@@ -192,12 +194,11 @@ void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
 /** Each point tells where the outermost one is, equation (8.7). */
 std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, double radius) const
 {
-  constexpr double kMinPoints = 20;
   std::vector<double> outermost;
   for (std::size_t i = 0; i < size(); ++i)
     if (cosine(face, i) > kFaceCosine)
       outermost.push_back(along(face, i) + radius * (1.0 - cosine(face, i)));
-  if (static_cast<double>(outermost.size()) < kMinPoints) return {};
+  if (outermost.size() < kFewestOfSurface) return {};
   FaceEstimate out;
   out.source = FaceSource::Surface;
   // Leaves lie at all depths, a vase's wall at one.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloud/Precision.h"
 #include "cuboid/FaceEstimator.h"
 #include "cuboid/FaceSigmas.h"
 #include "quadmap/geometry/RobustStatistics.h"
@@ -12,8 +13,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kRim = 0.03;  // what the end of a face may lie within [m]
-
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
 {
@@ -109,12 +108,12 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   double count = 0;
   for (const auto& line : outline.lines)
   {
-    if (line.along < outermost - kRim) break;
+    if (line.along < outermost - kEndWidth) break;
     out.shift += across[line.last];
     ++count;
   }
   out.shift /= count;
-  out.isCut = cutShare(outline, face, outermost - kRim) > kMaxCut;
+  out.isCut = cutShare(outline, face, outermost - kEndWidth) > kMaxCut;
   const bool isOpen = out.isCut || (away > kTurnedAway && !leadsUp(face, outermost));
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
   // A slanted cut leaves few lines their ends; nothing is known beyond them.
@@ -145,7 +144,7 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
     if (normals_[0][i] == 0 && normals_[1][i] == 0 && normals_[2][i] == 0) continue;
     const bool inProfile = std::abs(cosine(face, i)) < 0.5;
     if (inProfile) depth.push_back(along(face, i));
-    if (along(face, i) < position - kRim) continue;
+    if (along(face, i) < position - kEndWidth) continue;
     ++rim;
     profile += inProfile ? 1 : 0;
   }

@@ -11,6 +11,9 @@ namespace quadmap
 /** Depth images are bent by their calibration: no direction is better than this [rad]. */
 constexpr double kHeadingFloor = 0.2 * M_PI / 180.0;
 
+/** Headings are looked for in such steps, and corrected then [deg]. */
+constexpr int kHeadingStep_deg = 2;
+
 /** A heading by the lines that the sides of a thing make seen from above. */
 struct LineHeading
 {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "cuboid/HeadingByLines.h"
 #include "quadmap/geometry/HeadingHistogram.h"
 #include "quadmap/geometry/LineFit.h"
@@ -76,10 +77,9 @@ struct Extent
 
   explicit Extent(std::vector<double> values)
   {
-    constexpr double kStray = 0.02;  // share of the points, at either end
     const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
     all = *highest - *lowest;
-    most = quantileRange(std::move(values), kStray).width();
+    most = quantileRange(std::move(values), kStrayShare).width();
   }
   /** The least value that `most` may have when the axis is turned. \param across Extent across it.
    */
@@ -91,17 +91,15 @@ struct Extent
 
 Rectangle smallestRectangle(const UprightCloud& cloud)
 {
-  constexpr std::size_t kMaxPoints = 400;
-  constexpr int kStep = 2;  // [deg]
-  const std::size_t step = 1 + cloud.points.size() / kMaxPoints;
+  const std::size_t step = sampleStep(cloud.points.size());
   Rectangle best;
   double bestArea = 1e9;
   for (int degree = 0; degree < 90;)
   {
     const double yaw = degree * M_PI / 180.0, c = std::cos(yaw), s = std::sin(yaw);
     std::vector<double> along, across;
-    along.reserve(kMaxPoints);
-    across.reserve(kMaxPoints);
+    along.reserve(kSample);
+    across.reserve(kSample);
     for (std::size_t i = 0; i < cloud.points.size(); i += step)
     {
       along.push_back(c * cloud.points[i].x() + s * cloud.points[i].y());
@@ -117,8 +115,8 @@ Rectangle smallestRectangle(const UprightCloud& cloud)
     double turn = 0;
     do
     {
-      degree += kStep;
-      turn += kStep * M_PI / 180.0;
+      degree += kHeadingStep_deg;
+      turn += kHeadingStep_deg * M_PI / 180.0;
     } while (degree < 90 && x.turnedBy(turn, y) * y.turnedBy(turn, x) > bestArea);
   }
   return best;

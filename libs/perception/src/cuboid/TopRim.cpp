@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "cuboid/HeadingByLines.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
@@ -12,9 +13,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kWindow = 0.03;  // what a straight rim spreads over along its normal [m]
-constexpr std::size_t kMinPoints = 20;
-
 /** What a cell shows of a level top. */
 enum class Shows
 {
@@ -127,7 +125,7 @@ std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
   std::sort(order.begin(), order.end());
   std::vector<double> positions;
   for (const auto& o : order) positions.push_back(o.first);
-  const Window window = densestWindow(positions, kWindow);
+  const Window window = densestWindow(positions, kEndWidth);
   std::vector<RimPoint> out;
   for (std::size_t i = 0; i < window.count; ++i)
     out.push_back(rim_[order[window.first + i].second]);
@@ -137,8 +135,7 @@ std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
 std::optional<HeadingEstimate> TopRim::heading() const
 {
   constexpr double kMinStraight = 0.6;
-  constexpr int kStep = 2;  // [deg]
-  if (rim_.size() < 2 * kMinPoints) return {};
+  if (rim_.size() < 2 * kFewestOfSurface) return {};
   const auto normalAt = [](double yaw) { return Eigen::Vector2d(std::cos(yaw), std::sin(yaw)); };
   const auto straight = [&](double yaw)
   {
@@ -148,7 +145,7 @@ std::optional<HeadingEstimate> TopRim::heading() const
   };
   HeadingEstimate out;
   std::size_t most = 0;
-  for (int degree = 0; degree < 90; degree += kStep)
+  for (int degree = 0; degree < 90; degree += kHeadingStep_deg)
     if (const std::size_t sum = straight(degree * M_PI / 180.0); sum > most)
     {
       most = sum;
@@ -159,7 +156,7 @@ std::optional<HeadingEstimate> TopRim::heading() const
     const Eigen::Vector2d n = normalAt(normal), t(-n.y(), n.x());
     std::vector<Eigen::Vector2d> points;
     for (const auto& q : sidePoints(n)) points.emplace_back(q.p.dot(t), q.p.dot(n));
-    return fitLine(std::move(points), kWindow);
+    return fitLine(std::move(points), kEndWidth);
   };
   const auto heading = headingByLines(out.yaw, lineOf);
   if (!heading) return {};
@@ -174,7 +171,7 @@ std::optional<TopRim::Side> TopRim::side(const Eigen::Vector2d& normal) const
 {
   const Eigen::Vector2d along(-normal.y(), normal.x());
   const auto points = sidePoints(normal);
-  if (points.size() < kMinPoints) return {};
+  if (points.size() < kFewestOfSurface) return {};
   Side out;
   std::vector<double> positions, shifts;
   for (const auto& q : points)

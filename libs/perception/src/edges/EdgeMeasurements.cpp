@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "edges/HiddenPart.h"
 #include "edges/ObjectEnd.h"
 #include "quadmap/geometry/Projection.h"
@@ -104,7 +105,6 @@ class EdgeJudge
    * there. */
   double depthNear(BoxEdge edge) const
   {
-    constexpr std::size_t kMinCells = 10;
     constexpr double kNearPart = 0.3;
     const auto quarter = cloud_.cellsOf(quarterInside(box_, edge));
     const auto& cells = context_.object.cells;
@@ -112,7 +112,7 @@ class EdgeJudge
     for (std::size_t i = 0; i < cells.size(); i += sampleStep(cells.size()))
       if (quarter.contains(cells[i].c, cells[i].r))
         depths.push_back(cloud_.depth(cells[i].c, cells[i].r));
-    return depths.size() < kMinCells ? context_.depth : quantile(std::move(depths), kNearPart);
+    return depths.size() < kFewestCells ? context_.depth : quantile(std::move(depths), kNearPart);
   }
 
   /** Share of an edge's length along which `isIt(c, r)` for a cell of the strip outside it. */
@@ -264,7 +264,7 @@ class EdgeJudge
     std::vector<double> heights;
     for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
       heights.push_back(support.signedDistance(points[i]));
-    const auto [low, top] = quantileRange(std::move(heights), kLowestPart);
+    const auto [low, top] = quantileRange(std::move(heights), kStrayShare);
     // As much above the support was cut away with it.
     const double gap = low - occluders_.onSupport(context_.depth);
     return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;

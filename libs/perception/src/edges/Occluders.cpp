@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
 
 namespace quadmap
@@ -59,7 +60,7 @@ double Occluders::lowestHeight() const
   std::vector<double> heights;
   for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
     heights.push_back(context_.up.dot(points[i]));
-  return quantile(std::move(heights), kLowestPart);
+  return quantile(std::move(heights), kStrayShare);
 }
 
 /** Does a cell hide only what is lower than the object? Its ray descends from there, so what

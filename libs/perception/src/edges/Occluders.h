@@ -9,12 +9,6 @@
 
 namespace quadmap
 {
-/** An object's lower end is this quantile of its points' heights; some are stray ones. */
-constexpr double kLowestPart = 0.02;
-
-/** Some hundred values give a quantile as well as all do. */
-inline std::size_t sampleStep(std::size_t count) { return 1 + count / 1000; }
-
 /** Tells which cells of a frame show something in front of one object. */
 class Occluders
 {

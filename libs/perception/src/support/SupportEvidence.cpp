@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cloud/Cluster.h"
+#include "cloud/Precision.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -13,7 +14,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr int kCells = 400;        // of a box that are looked at
 constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
 constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
 
@@ -125,7 +125,7 @@ RoughObject roughObject(
   const auto range = cloud.cellsOf(box);
   RoughObject out;
   out.planeShares = planes.all.sharesWithin(range);
-  const int step = stepFor(range.cells(), kCells);
+  const int step = stepFor(range.cells(), kSample);
   std::vector<Eigen::Vector3d> all;
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
@@ -144,8 +144,7 @@ RoughObject roughObject(
   const double width = label.typicalSize.head<2>().norm();
   out.points = atMainDepth(std::move(all), width);
   sortAlong(planes.up, out.points);
-  constexpr std::size_t kFewest = 12;
-  if (out.points.size() < kFewest) out.points.clear();
+  if (out.points.size() < kFewestCells) out.points.clear();
   return out;
 }
 
@@ -206,12 +205,11 @@ std::optional<ScenePlane> topOf(
 {
   constexpr double kFacesUp = 0.9;     // cosine
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
-  constexpr std::size_t kFewest = 20;  // cells
   constexpr int kFinest = 4;           // times more cells than elsewhere: tops are small
   const auto range = cloud.cellsOf(box);
   std::vector<DepthCloud::CellRange> holes;
   for (const auto& other : others) holes.push_back(cloud.cellsOf(other));
-  const int step = stepFor(range.cells(), kFinest * kCells);
+  const int step = stepFor(range.cells(), kFinest * kSample);
   std::vector<Eigen::Vector3d> points;
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
@@ -228,7 +226,7 @@ std::optional<ScenePlane> topOf(
   std::vector<double> heights;
   for (const auto& p : points) heights.push_back(planes.up.dot(p));
   const Window layer = densestWindow(heights, kThickness);
-  if (layer.count < kFewest) return {};
+  if (layer.count < kFewestOfSurface) return {};
   ScenePlane out;
   const auto first = points.begin() + static_cast<std::ptrdiff_t>(layer.first);
   out.rim.assign(first, first + static_cast<std::ptrdiff_t>(layer.count));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloud/BoxSurroundings.h"
+#include "cloud/Precision.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
@@ -52,8 +53,7 @@ std::vector<RingPoint> ringAround(
   const Eigen::Vector2d down = downInImage(cloud.camera(), planes.up, box);
   const double halfHeight =
       0.5 * (std::abs(down.x()) * box.width() + std::abs(down.y()) * box.height());
-  constexpr int kCells = 400;  // that are looked at
-  const int step = stepFor(std::max(0, outer.cells() - inner.cells()), kCells);
+  const int step = stepFor(std::max(0, outer.cells() - inner.cells()), kSample);
   std::vector<RingPoint> out;
   for (int r = outer.r0; r < outer.r1; r += step)
     for (int c = outer.c0; c < outer.c1; c += step)

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+
+// What the points of a frame can tell, the same for all that is taken from them.
+
+namespace quadmap
+{
+/** Fewer cells of the depth image are noise. */
+constexpr std::size_t kFewestCells = 12;
+
+/** Fewer points do not tell where a surface or its rim is. */
+constexpr std::size_t kFewestOfSurface = 20;
+
+/** As many points give a share or a quantile as well as all do. */
+constexpr int kSample = 400;
+
+/** Share of an object's points that are stray ones, at either end of any direction. */
+constexpr double kStrayShare = 0.02;
+
+/** Ends of things, of their parts and of surfaces are known to this [m]. */
+constexpr double kEndSlack = 0.05;
+
+/** What a straight end, of a face or a rim, spreads over along its normal [m]. */
+constexpr double kEndWidth = 0.03;
+
+/** From one point of a sample to the next. \param count Of all points. */
+inline std::size_t sampleStep(std::size_t count) { return 1 + count / kSample; }
+
+}  // namespace quadmap
