@@ -104,8 +104,17 @@ bool FaceEstimator::isOnSupport(const Eigen::Vector3d& p, double tolerance) cons
 
 FaceEstimate FaceEstimator::face(std::size_t face) const
 {
+  constexpr double kMaxCutTop = 0.15;  // of the lines up through the object
   auto out = surface(face);
-  if (!out) out = outline(face, outlineTowards(face));
+  if (!out || face == kTop)
+  {
+    const Outline lines = outlineTowards(face);
+    if (!out) out = outline(face, lines);
+    // The upper part of a thing need not be as wide as the lower one (a chair's back): when some of
+    // it goes on beyond what is seen, its height is open.
+    if (face == kTop && cutShare(lines, face, -1e9) > kMaxCutTop)
+      out->worth.kind = FaceKind::AtLeast;
+  }
   if (endsOutsideBox(face)) out->worth.kind = FaceKind::Unknown;
   return *out;
 }
