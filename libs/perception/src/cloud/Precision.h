@@ -24,6 +24,9 @@ constexpr double kEndSlack = 0.05;
 /** What a straight end, of a face or a rim, spreads over along its normal [m]. */
 constexpr double kEndWidth = 0.03;
 
+/** By this share of their size boxes of a detector are wrong without anything being amiss. */
+constexpr double kBoxErrorShare = 0.05;
+
 /** From one point of a sample to the next. \param count Of all points. */
 inline std::size_t sampleStep(std::size_t count) { return 1 + count / kSample; }
 

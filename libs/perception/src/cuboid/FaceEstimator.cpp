@@ -181,9 +181,9 @@ void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
   const double depthSigma = options_.depthSigma(range_);
   const double count = static_cast<double>(shell.size());
   const double noise = std::max(madSigma(shell), depthSigma);
-  constexpr double kMost = 0.95, kMostSigmas = 1.64;
-  const double high =
-      quantile(std::move(shell), kMost) - kMostSigmas * std::abs(facingAway(kTop)) * depthSigma;
+  constexpr double kMost = 0.95;
+  const double high = quantile(std::move(shell), kMost) -
+                      normalQuantile(kMost) * std::abs(facingAway(kTop)) * depthSigma;
   if (high > top.position)
   {
     top.worth.sigma = std::hypot(top.worth.sigma, 0.5 * (high - top.position));

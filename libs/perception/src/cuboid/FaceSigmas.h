@@ -25,15 +25,20 @@ inline double outlineShift(double away, double perCell)
   return (away > kTurnedAway ? 1.0 : 0.5) * perCell;
 }
 
+/** Tukey's approximation of the quantile of the standard normal distribution. */
+inline double normalQuantile(double share)
+{
+  return 4.91 * (std::pow(share, 0.14) - std::pow(1.0 - share, 0.14));
+}
+
 /** How far depth noise moves the n-th outermost (0: the outermost) of `count` points along a face's
- * normal, equation (8.9) [m]. It is Blom's plotting position with Tukey's approximation of the
- * normal quantile. \param away Cosine between the face's normal and the line of sight. */
+ * normal, equation (8.9) [m]. It is Blom's plotting position. \param away Cosine between the face's
+ * normal and the line of sight. */
 inline double outlineNoise(double away, double depthSigma, std::size_t n, std::size_t count)
 {
   if (std::abs(away) < kTurnedAway) return 0.0;
   const double beyond = (static_cast<double>(n) + 0.625) / (static_cast<double>(count) + 0.25);
-  const double sigmas = 4.91 * (std::pow(1.0 - beyond, 0.14) - std::pow(beyond, 0.14));
-  return sigmas * std::abs(away) * depthSigma;
+  return normalQuantile(1.0 - beyond) * std::abs(away) * depthSigma;
 }
 
 /** How much farther the outline of something round is from the axis than it looks [m]. Its surface

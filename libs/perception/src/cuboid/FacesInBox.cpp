@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "cloud/Precision.h"
 #include "quadmap/geometry/Projection.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr double kMaxTolerances = 3.0;  // that an edge may lie outside the cuboid
-constexpr double kMaxShare = 0.05;      // added to these, as a share of the box's size
+constexpr double kMaxTolerances = 3.0;  // that an edge may lie outside the cuboid, at most
 
 }  // namespace
 
@@ -29,7 +29,7 @@ CompleteMeasurement weakenFacesInsideBox(
   for (std::size_t e = 0; e < 4; ++e)
   {
     const double size = e % 2 == 0 ? box.width() : box.height();
-    if (gaps[e] < kMaxTolerances * edgeTolerance + kMaxShare * size) continue;
+    if (gaps[e] < kMaxTolerances * edgeTolerance + kBoxErrorShare * size) continue;
     for (std::size_t f = 0; f < kFaces; ++f)
     {
       const Eigen::Vector3d n = (f % 2 == 0 ? 1.0 : -1.0) * R.col(static_cast<Eigen::Index>(f / 2));

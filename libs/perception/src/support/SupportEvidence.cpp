@@ -43,11 +43,10 @@ void sortAlong(const Eigen::Vector3d& direction, std::vector<Eigen::Vector3d>& p
 /** Does a point appear in a box? Beyond the image's border the box may go on. */
 bool appearsIn(const PinholeCamera& camera, const ImageBox& box, const Eigen::Vector3d& p)
 {
-  constexpr double kBoxError = 0.05;  // of a detector, share of the box's size
   if (p.z() < 0.1) return false;
   const Eigen::Vector2d pixel =
       camera.project(p).cwiseMax(0.0).cwiseMin(Eigen::Vector2d(camera.width, camera.height));
-  const Eigen::Vector2d error = kBoxError * Eigen::Vector2d(box.width(), box.height());
+  const Eigen::Vector2d error = kBoxErrorShare * Eigen::Vector2d(box.width(), box.height());
   return pixel.x() > box.x1 - error.x() && pixel.x() < box.x2 + error.x() &&
          pixel.y() > box.y1 - error.y() && pixel.y() < box.y2 + error.y();
 }
