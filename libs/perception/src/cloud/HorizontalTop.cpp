@@ -11,9 +11,11 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kBin = 0.01;        // [m]
-constexpr int kHalfWindow = 2;       // bins to either side that noise spreads a surface over
-constexpr double kMaxSpreads = 2.0;  // of a height from the typical one
+constexpr double kBin = 0.01;         // [m]
+constexpr int kHalfWindow = 2;        // bins to either side that noise spreads a surface over
+constexpr double kMinContrast = 2.0;  // to the windows above and below
+constexpr double kMinSlope = 0.15;    // of the view down; a flatter one shows the rim alone
+constexpr double kMaxSpreads = 2.0;   // of a height from the typical one
 
 /** The area that points cover if they lie on horizontal surfaces, by height above the support. */
 class AreaOfHeight
@@ -47,15 +49,18 @@ class AreaOfHeight
   std::vector<double> bins_;
 };
 
-/** The bin of the height with the largest area. */
+/** The bin of the height with the largest area. It must stand out from the heights beside it, as a
+ * vertical side covers all heights alike. */
 std::optional<int> largestHeight(const AreaOfHeight& areas)
 {
+  constexpr int kApart = 2 * kHalfWindow + 1;  // bins from one window to the next
   std::optional<int> best;
   double largest = 0;
   for (int i = 0; i < areas.size(); ++i)
   {
     const double area = areas.window(i);
-    if (area <= largest) continue;
+    const double beside = 0.5 * (areas.window(i - kApart) + areas.window(i + kApart));
+    if (area <= largest || area < kMinContrast * beside) continue;
     largest = area;
     best = i;
   }
@@ -96,7 +101,8 @@ std::optional<Plane> horizontalTop(
     }
   const double depth = median(std::move(depths));
   const double slope = (cameraHeight - areas.height(*top)) / depth;  // (7.2)
-  constexpr double kUneven = 0.002;                                  // [m]
+  if (slope < kMinSlope) return {};
+  constexpr double kUneven = 0.002;  // [m]
   const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
   // The rim of a table is near its top, and would move the median of all heights.
   std::sort(near.begin(), near.end());
