@@ -56,7 +56,7 @@ class Segmenter
   }
 
   /** Small boxes first: what stands alone in one of them is no part of the larger ones around it.
-   * Where two of the others took the same thing, the one that it suits less gets what is left. */
+   * Where two of the others took the same points, the one that these suit better keeps them. */
   std::vector<ObjectCloud> run()
   {
     std::vector<Cut> cuts(tasks_.size());
@@ -76,7 +76,7 @@ class Segmenter
     for (const std::size_t i : unsure)
     {
       for (const std::size_t j : unsure)
-        if (tookThingOf(i, j, cuts)) claim(j, cuts[j].object);
+        if (tookPartOf(i, j, cuts)) claim(j, cuts[j].object);
       if (containsOthers(i, cuts[i].object)) cuts[i] = cutOut(i);
     }
     std::vector<ObjectCloud> out;
@@ -111,7 +111,7 @@ class Segmenter
   }
 
   /** Does box i hold some of what suits box j better? */
-  bool tookThingOf(std::size_t i, std::size_t j, const std::vector<Cut>& cuts) const
+  bool tookPartOf(std::size_t i, std::size_t j, const std::vector<Cut>& cuts) const
   {
     if (isSameThing(i, j) || cuts[j].quality() <= cuts[i].quality()) return false;
     bool hasCommon = false;

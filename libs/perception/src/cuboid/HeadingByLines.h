@@ -11,7 +11,7 @@ namespace quadmap
 /** Depth images are bent by their calibration: no direction is better than this [rad]. */
 constexpr double kHeadingFloor = 0.2 * M_PI / 180.0;
 
-/** Headings are looked for in such steps, and corrected then [deg]. */
+/** Headings are tried in such steps [deg]; the lines correct the best of them. */
 constexpr int kHeadingStep_deg = 2;
 
 /** A heading by the lines that the sides of a thing make seen from above. */

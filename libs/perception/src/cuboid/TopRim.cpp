@@ -110,9 +110,9 @@ TopRim::TopRim(
     const ObjectCloud& object,
     const Plane& top,
     const Eigen::Matrix3d& R_upright_optical,
-    const PerceptionOptions& options)
+    const PerceptionOptions& options) :
+    rim_(RimSearch{cloud, object, top, R_upright_optical, options}.rim())
 {
-  rim_ = RimSearch{cloud, object, top, R_upright_optical, options}.rim();
 }
 
 std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const

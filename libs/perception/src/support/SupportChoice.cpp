@@ -37,6 +37,7 @@ constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs 
 double heightPenalty(double height, const LabelProperties& label, double tooLow)
 {
   constexpr double kMinSpread = 0.3;
+  // Of a top that is not above the surface it is -infinity: as much too low as can be.
   const double ratio = std::log(std::max(0.0, height) / label.typicalSize.z());
   const double deviation = ratio / std::max(kMinSpread, label.sizeSpread);
   return (ratio > 0 ? kTooTall : tooLow) * std::min(1.0, 0.25 * deviation * deviation);

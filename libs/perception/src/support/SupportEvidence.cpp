@@ -178,7 +178,7 @@ StandingEvidence standingEvidence(
     out.covered += coverage(cloud, surface, points[i], options);
   out.covered /= looked;
 
-  if (out.gap == 0) return out;
+  if (out.gap == 0) return out;  // nothing is in between
   const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
   const std::size_t lineStep = 1 + lowest / kMaxLines;
   int probes = 0;
