@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace quadmap;
 using Eigen::Vector3d;
@@ -82,4 +83,26 @@ TEST(BoxMeasurement, NothingIsKnownOfTheCornersWithoutACuboid)
   ObjectView view = viewWithEdge({1, 1, 1});
   view.complete = false;
   EXPECT_DOUBLE_EQ(sharedBy(view, options), options.edgeShapeShare * view.halfSizes.mean());
+}
+
+TEST(BoxMeasurement, SidesAreThoseOfTheMapHoweverTheRobotIsTurned)
+{
+  DetectedObject detected;
+  detected.measurement.complete.emplace();
+  for (const auto& [inward, side] :
+       {std::pair(Vector3d(0, 0, -1), BoxSide::Upper), std::pair(Vector3d(0, 0, 1), BoxSide::Lower),
+        std::pair(Vector3d(0, -1, 0), BoxSide::Left), std::pair(Vector3d(0, 1, 0), BoxSide::Right)})
+  {
+    ObjectView view = viewWithEdge(Vector3d::UnitX());
+    view.center = {0, 0, 1};  // straight ahead, along the map's x
+    view.edges.front().plane = Plane::throughPoint(inward, view.camera);
+    EXPECT_EQ(measurementInMap(view, {}).edges.at(0).side, side);
+    for (const double roll : {0.0, 0.5, 1.6, 3.0})
+    {
+      const mrpt::poses::CPose3D T_map_robot(1, 2, 3, 0.4, 0.2, roll);
+      const auto m =
+          measurementFromRobot(detected, view, T_map_robot, mrpt::poses::CPose3D(), {}, 0);
+      EXPECT_EQ(m.edges.at(0).side, side) << "roll " << roll;
+    }
+  }
 }

@@ -22,9 +22,10 @@ BoxMeasurement viewFrom(double angle, double ownSigma, double shared, bool left 
   view.camera = cameraAt(angle, 2);
   view.center = kCenter;
   const double sigma = std::hypot(ownSigma, shared);
-  view.edges.push_back({Eigen::Vector3d(0, 0, -1), sigma, shared});
+  view.edges.push_back({Eigen::Vector3d(0, 0, -1), sigma, shared, BoxSide::Upper});
   const Eigen::Vector3d ahead = (kCenter - view.camera).normalized();
-  if (left) view.edges.push_back({ahead.cross(Eigen::Vector3d::UnitZ()), sigma, shared});
+  if (left)
+    view.edges.push_back({ahead.cross(Eigen::Vector3d::UnitZ()), sigma, shared, BoxSide::Left});
   return view;
 }
 }  // namespace
@@ -74,7 +75,10 @@ TEST(ShareEdgeErrors, TheFourEdgesOfOneBoxAreFourSidesAlsoFromAbove)
     view.camera = kCenter - 2 * ahead;
     for (const Eigen::Vector3d& side :
          {right, Eigen::Vector3d(-right), down, Eigen::Vector3d(-down)})
-      view.edges.push_back({(side + 0.1 * ahead).normalized(), 0.05, 0.04});
+    {
+      const Eigen::Vector3d inward = (side + 0.1 * ahead).normalized();
+      view.edges.push_back({inward, 0.05, 0.04, boxSide(inward, ahead)});
+    }
     std::vector<BoxMeasurement> views{view};
     shareEdgeErrors(views);
     for (const auto& edge : views[0].edges) EXPECT_DOUBLE_EQ(edge.sigma, 0.05) << pitch;

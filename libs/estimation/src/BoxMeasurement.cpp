@@ -50,11 +50,23 @@ BoxMeasurement measurementIn(
   for (const auto& edge : view.edges)
     m.edges.push_back(
         {R_frame_map * edge.plane.n, edgeSigma(view, edge, options),
-         edgeShapeSigma(view, edge, options)});
+         edgeShapeSigma(view, edge, options), boxSide(edge.plane.n, view.center - view.camera)});
   return m;
 }
 
 }  // namespace
+
+BoxSide boxSide(const Eigen::Vector3d& inward, const Eigen::Vector3d& lineOfSight)
+{
+  using Eigen::Vector3d;
+  const Vector3d across = lineOfSight.cross(Vector3d::UnitZ());
+  const bool isVertical = across.norm() <= 1e-9 * lineOfSight.norm();
+  const Vector3d right = isVertical ? Vector3d(Vector3d::UnitX()) : Vector3d(across.normalized());
+  const double toRight = inward.dot(right);
+  const double downward = inward.dot(lineOfSight.cross(right).normalized());
+  if (std::abs(downward) > std::abs(toRight)) return downward > 0 ? BoxSide::Upper : BoxSide::Lower;
+  return toRight > 0 ? BoxSide::Left : BoxSide::Right;
+}
 
 BoxMeasurement measurementFromRobot(
     const DetectedObject& detected,

@@ -23,18 +23,7 @@ int sideAlong(const ObjectShape& object, const Vector3d& outward)
   return 2 * static_cast<int>(axis) + (along[axis] < 0 ? 1 : 0);
 }
 
-/** Which side of its box an edge is: upper, lower, left or right, in an image with up upwards. Of a
- * camera that looks straight down, the map's x is to the right. */
-int edgeSide(const Vector3d& inward, const Vector3d& lineOfSight)
-{
-  const Vector3d across = lineOfSight.cross(Vector3d::UnitZ());
-  const bool isVertical = across.norm() <= 1e-9 * lineOfSight.norm();
-  const Vector3d right = isVertical ? Vector3d(Vector3d::UnitX()) : Vector3d(across.normalized());
-  const double toRight = inward.dot(right);
-  const double downward = inward.dot(lineOfSight.cross(right).normalized());
-  if (std::abs(downward) > std::abs(toRight)) return kFirstEdge + (downward > 0 ? 0 : 1);
-  return kFirstEdge + (toRight > 0 ? 2 : 3);
-}
+int sideOf(const BoxMeasurement::Edge& edge) { return kFirstEdge + static_cast<int>(edge.side); }
 
 /** Where a camera is as seen from the object: the direction, and the logarithm of the distance. A
  * small move is as long as its angle. */
@@ -64,15 +53,13 @@ double repeatedShare(
 
 void shareEdgeErrors(std::vector<BoxMeasurement>& views)
 {
-  std::map<int, double> count;
-  const auto side = [](const BoxMeasurement& view, const BoxMeasurement::Edge& edge)
-  { return edgeSide(edge.normal, view.center - view.camera); };
+  std::map<BoxSide, double> count;
   for (const auto& view : views)
-    for (const auto& edge : view.edges) count[side(view, edge)] += view.weight;
+    for (const auto& edge : view.edges) count[edge.side] += view.weight;
   for (auto& view : views)
     for (auto& edge : view.edges)
     {
-      const double n = std::max(1.0, count[side(view, edge)]);
+      const double n = std::max(1.0, count[edge.side]);
       edge.sigma = std::hypot(edge.sigma, std::sqrt(n - 1) * edge.shared);
       edge.shared *= std::sqrt(n);
     }
@@ -103,7 +90,7 @@ void RepeatedErrors::add(
   }
   for (const auto& edge : measurement.edges)
   {
-    Side& side = sides_[edgeSide(edge.normal, view.center - view.camera)];
+    Side& side = sides_[sideOf(edge)];
     const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
     addRow(row, {edge.sigma, std::hypot(common, edge.shared)}, huber, weight, place, side);
   }

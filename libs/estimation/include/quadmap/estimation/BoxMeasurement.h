@@ -12,6 +12,20 @@
 
 namespace quadmap
 {
+/** Side of an object's box in an image with up upwards. */
+enum class BoxSide
+{
+  Upper,
+  Lower,
+  Left,
+  Right
+};
+
+/** Which side of its box an edge is, however the camera is rolled. Of a camera that looks straight
+ * down, the map's x is to the right. \param inward Normal of the edge's plane, towards the object,
+ * in the map. \param lineOfSight From the camera to the object, in the map [m]. */
+BoxSide boxSide(const Eigen::Vector3d& inward, const Eigen::Vector3d& lineOfSight);
+
 /** One measurement of one object as the residuals need it (doc/mathematics.md, 11 and 16). The
  * factor graph keeps it in the robot's frame, so that it stays the same when the robot's pose
  * changes. The map's estimator keeps it in the map, as if the robot were at the map's origin. */
@@ -22,6 +36,7 @@ struct BoxMeasurement : MeasuredGeometry
     Eigen::Vector3d normal;  //!< Of the plane through the camera, towards the object
     double sigma = 0;        //!< Of the tangency distance [m]
     double shared = 0;       //!< The part of it by which all views of one side err alike [m]
+    BoxSide side = BoxSide::Upper;
   };
 
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  //!< Of the cuboid, one per column

@@ -21,8 +21,7 @@ double repeatedShare(
 
 /** Tells box edges how many others err alike: of n views of one side of an object, the shared part
  * of an edge's variance counts n times, so that together they know the side as well as one that
- * errs by it, doc/mathematics.md, (11.6). \param views Of one object, each as measurementInMap()
- * leaves it, with its weight. */
+ * errs by it, doc/mathematics.md, (11.6). \param views Of one object, with their weights. */
 void shareEdgeErrors(std::vector<BoxMeasurement>& views);
 
 /** What many views of one object do not average out. They repeat errors: the same side is cut,
