@@ -56,7 +56,7 @@ class Segmenter
   }
 
   /** Small boxes first: what stands alone in one of them is no part of the larger ones around it.
-   * Where two of the others took the same points, the one that these suit better keeps them. */
+   * Of the others the one that its points suit best comes first. */
   std::vector<ObjectCloud> run()
   {
     std::vector<Cut> cuts(tasks_.size());
@@ -73,11 +73,13 @@ class Segmenter
       else
         unsure.push_back(i);
     }
+    std::stable_sort(
+        unsure.begin(), unsure.end(),
+        [&](auto a, auto b) { return cuts[a].quality() > cuts[b].quality(); });
     for (const std::size_t i : unsure)
     {
-      for (const std::size_t j : unsure)
-        if (tookPartOf(i, j, cuts)) claim(j, cuts[j].object);
       if (containsOthers(i, cuts[i].object)) cuts[i] = cutOut(i);
+      claim(i, cuts[i].object);
     }
     std::vector<ObjectCloud> out;
     for (auto& cut : cuts) out.push_back(std::move(cut.object));
@@ -110,15 +112,6 @@ class Segmenter
         });
   }
 
-  /** Does box i hold some of what suits box j better? */
-  bool tookPartOf(std::size_t i, std::size_t j, const std::vector<Cut>& cuts) const
-  {
-    if (isSameThing(i, j) || cuts[j].quality() <= cuts[i].quality()) return false;
-    bool hasCommon = false;
-    cuts[i].object.mask.forEach([&](int c, int r)
-                                { hasCommon = hasCommon || cuts[j].object.mask.contains(c, r); });
-    return hasCommon;
-  }
   bool containsOthers(std::size_t i, const ObjectCloud& object)
   {
     return std::any_of(
