@@ -121,6 +121,19 @@ TEST(ObjectCloud, LeavesTheThingInFrontToTheBoxItSuits)
   }
 }
 
+TEST(ObjectCloud, TakesNoHeightOfAFrontForItsTop)
+{
+  for (const char* label : {"nightstand", "washing machine", "coffee table"})
+  {
+    SyntheticFrame frame(1.5, 0.2);
+    frame.noise = 0.002;
+    frame.add(2.2, 0.0, 0.0, 0.0, {0.5, 0.6, 1.9});  // higher than the camera and than its label
+    const auto m = measureAll(frame, {frame.detect(0, label)}, frame.scan());
+    ASSERT_TRUE(m[0].complete) << label << ": " << m[0].reason;
+    EXPECT_GT(boundsInWorld(frame, m[0]).max().z(), 1.5) << label;
+  }
+}
+
 TEST(ObjectCloud, JoinsTheFrontOfAChairWhoseSeatIsSeenEdgeOn)
 {
   SyntheticFrame frame(0.44, 0.0);

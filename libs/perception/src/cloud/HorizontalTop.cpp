@@ -11,18 +11,23 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kBin = 0.01;         // [m]
-constexpr int kHalfWindow = 2;        // bins to either side that noise spreads a surface over
-constexpr double kMinContrast = 2.0;  // to the windows above and below
-constexpr double kMinSlope = 0.15;    // of the view down; a flatter one shows the rim alone
-constexpr double kMaxSpreads = 2.0;   // of a height from the typical one
+constexpr double kBin = 0.01;   // [m]
+constexpr int kHalfWindow = 2;  // bins to either side that noise spreads a surface over
+constexpr int kApart = 2 * kHalfWindow + 1;  // bins from one window to the next
+constexpr double kMinContrast = 2.0;         // to the windows above and below
+constexpr double kMinSlope = 0.15;           // of the view down; a flatter one shows the rim alone
+constexpr double kMaxSpreads = 2.0;          // of a height from the typical one
 
-/** The area that points cover if they lie on horizontal surfaces, by height above the support. */
+/** The area that points cover if they lie on horizontal surfaces, by height above the support. It
+ * is known in the window before the first and in that after the last bin of a range, too. */
 class AreaOfHeight
 {
  public:
   AreaOfHeight(double low, double high) :
-      low_(low), bins_(static_cast<std::size_t>(std::ceil((high - low) / kBin)), 0.0)
+      first_(kApart + kHalfWindow),
+      end_(first_ + static_cast<int>(std::ceil((high - low) / kBin))),
+      low_(low - first_ * kBin),
+      bins_(static_cast<std::size_t>(end_ + first_), 0.0)
   {
   }
 
@@ -37,14 +42,16 @@ class AreaOfHeight
   double window(int bin) const
   {
     double sum = 0;
-    for (int i = std::max(0, bin - kHalfWindow); i <= std::min(size() - 1, bin + kHalfWindow); ++i)
+    for (int i = bin - kHalfWindow; i <= bin + kHalfWindow; ++i)
       sum += bins_[static_cast<std::size_t>(i)];
     return sum;
   }
-  int size() const { return static_cast<int>(bins_.size()); }
+  int first() const { return first_; }  // bin of the range
+  int end() const { return end_; }
   double height(int bin) const { return low_ + (bin + 0.5) * kBin; }
 
  private:
+  int first_, end_;
   double low_;
   std::vector<double> bins_;
 };
@@ -53,10 +60,9 @@ class AreaOfHeight
  * vertical side covers all heights alike. */
 std::optional<int> largestHeight(const AreaOfHeight& areas)
 {
-  constexpr int kApart = 2 * kHalfWindow + 1;  // bins from one window to the next
   std::optional<int> best;
   double largest = 0;
-  for (int i = 0; i < areas.size(); ++i)
+  for (int i = areas.first(); i < areas.end(); ++i)
   {
     const double area = areas.window(i);
     const double beside = 0.5 * (areas.window(i - kApart) + areas.window(i + kApart));

@@ -13,12 +13,11 @@
 namespace quadmap
 {
 /** Finds the top of a thing that ends in a horizontal one, as a table does (doc/mathematics.md, 7):
- * the height at which the largest surface shows. It is found even when the camera sees it at too
- * flat an angle for a plane of the scene. What is above the top stands on it.
- * \param points Of every step-th cell of every step-th row in its box, optical frame [m].
- * \param support What it stands on; normal up.
- * \return Parallel to the support. Nothing when no height stands out or none is as high above the
- * support as such things are. */
+ * the height at which the largest surface shows. It is found even when the camera sees it at an
+ * angle too flat for a plane of the scene, down to a slope at which only the rim shows. What is
+ * above the top stands on it. \param points Of every step-th cell of every step-th row in its box,
+ * optical frame [m]. \param support What it stands on; normal up. \return Parallel to the support.
+ * Nothing when no height stands out or none is as high above the support as such things are. */
 std::optional<Plane> horizontalTop(
     const DepthCloud& cloud,
     const std::vector<Eigen::Vector3d>& points,
