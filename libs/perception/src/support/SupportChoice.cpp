@@ -25,8 +25,7 @@ constexpr double kAbsent = -4.0;          // the object would show in the gap, a
 constexpr double kTouching = 1.5;         // the surface shows around the object's foot
 constexpr double kUsual = 4.0;            // it is where such objects usually stand
 constexpr double kTooTall = -2.0;         // for its kind, from the surface up, at most
-constexpr double kTooLow = -0.5;          // its top may be hidden or cut off
-constexpr double kTooLowOffFloor = -4.0;  // the same of what stands on floors, above anything else
+constexpr double kTooLowOffFloor = -4.0;  // at most, of what stands on floors above anything else
 constexpr double kAnything = 2.0;  // it stands on something out of sight; a support must exceed it
 constexpr double kOnWall = 3.0;    // the wall shows around the object
 constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs on it
@@ -122,10 +121,11 @@ class SupportJudge
     return label_.support == UsualSupport::Floor && isFloor(i) ? kUsual : 0.0;
   }
 
-  /** The back of a chair rises a little above the table that the chair was pushed under. */
+  /** A low top may be hidden or cut off. But the back of a chair rises a little above the table
+   * that the chair was pushed under. */
   double tooLow(int i) const
   {
-    return label_.support == UsualSupport::Floor && !isFloor(i) ? kTooLowOffFloor : kTooLow;
+    return label_.support == UsualSupport::Floor && !isFloor(i) ? kTooLowOffFloor : 0.0;
   }
 
   /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
