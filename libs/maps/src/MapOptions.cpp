@@ -59,7 +59,7 @@ void describeEstimation(InsertionOptions& o, OptionList& list)
       "Residuals beyond this lose weight. Lower bounds of sizes lose most of it.");
   list.number(
       "edgeFloor", o.estimator.edgeFloor, {0, 10}, "m",
-      "Part of the standard deviation of every box edge that the outline adds.");
+      "Fixed part of the standard deviation of every box edge.");
   list.number(
       "edgeShapeShare", o.estimator.edgeShapeShare, {0, 1}, "",
       "All box edges of one side of an object err alike by this share of its mean half size.");

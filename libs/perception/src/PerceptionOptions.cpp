@@ -41,7 +41,8 @@ void describeChoice(PerceptionOptions& o, OptionList& list)
       "Share of the surface that makes a direction. An even spread gives 0.22.");
   list.number(
       "minCompleteIoU", o.minCompleteIoU, {0, 1}, "",
-      "Least IoU of the projected cuboid and the box for a complete measurement.");
+      "Least IoU of the projected cuboid and the box, of which each edge may move by "
+      "edgeTolerance, for a complete measurement.");
   list.number(
       "minDepthCoverage", o.minDepthCoverage, {0, 1}, "",
       "Least share of valid depth in the box for a complete measurement.");

@@ -104,13 +104,16 @@ TEST(TopRim, DoesNotEndWhereSomethingOnTheTableHidesIt)
   SyntheticFrame frame = table(0.1, 0.0);
   frame.add(1.62, 0.0, kHeight, 0.1, {0.1, 1.2, 0.4});  // a screen before the far half
   const auto m = measured(frame, "dining table");
+  int far = 0;
   forEachSide(
       frame, m, 0.1,
       [&](const FaceMeasurement& face, const Eigen::Vector2d& n, double error)
       {
         if (n.x() < 0.9) return;
+        ++far;
         EXPECT_TRUE(face.kind != FaceKind::Measured || std::abs(error) < 0.03) << error;
       });
+  EXPECT_EQ(far, 1);
 }
 
 }  // namespace quadmap

@@ -9,7 +9,7 @@ namespace quadmap
 struct BoxFit
 {
   double iou = 0;          // p of doc/mathematics.md
-  double tolerantIoU = 0;  // the same with box edges free to move by their standard deviation
+  double tolerantIoU = 0;  // the same with box edges free to move by their tolerance
   bool isSpanned = false;  // the cloud reaches about as far as the box
 };
 

@@ -8,10 +8,6 @@
 
 namespace quadmap
 {
-/** Spread of the weights of a box's cells about its middle, as a share of its size: what is near
- * the middle is mostly the object's. */
-constexpr double kCentrality = 0.35;
-
 /** An interval along an axis of the image [cells]. */
 struct Span
 {

@@ -94,6 +94,8 @@ class ClusterChoice
   /** Measures each cluster against the box. */
   std::vector<Cluster> describe(const PointClusters& parts) const
   {
+    constexpr double kCentrality =
+        0.35;  // of the box's size; what is near its middle is mostly the object's
     const double s = cloud_.stride();
     const ImageBox target =
         task_.detection->box.clipped(cloud_.camera().width, cloud_.camera().height);

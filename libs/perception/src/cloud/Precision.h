@@ -6,7 +6,7 @@
 
 namespace quadmap
 {
-/** Fewer cells of the depth image are noise. */
+/** Fewer cells of the depth image, or of a sample of them, tell nothing. */
 constexpr std::size_t kFewestCells = 12;
 
 /** Fewer points do not tell where a surface or its rim is. */

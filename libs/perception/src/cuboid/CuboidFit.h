@@ -8,7 +8,7 @@
 
 namespace quadmap
 {
-/** Thinner things are not measured by these sensors [m]. */
+/** These sensors do not measure half of the size of thinner things [m]. */
 inline constexpr double kMinHalfSize = 0.008;
 
 /** The upright cuboid around an object's cloud, with what each face is worth (doc/mathematics.md,

@@ -10,7 +10,7 @@ struct HeadingEstimate
 {
   double yaw = 0;        //!< [rad], one of the four directions of the faces
   double sigma = 0;      //!< [rad], when defined
-  double dominance = 0;  //!< Share of the normals that agree, in [0, 1]
+  double dominance = 0;  //!< Share that agrees, of the normals or of a rim, in [0, 1]
   bool defined = false;
 };
 

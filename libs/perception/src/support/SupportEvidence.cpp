@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cloud/Cluster.h"
 #include "cloud/Precision.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"

@@ -11,24 +11,18 @@ namespace quadmap
 {
 namespace
 {
-struct PlanesAtPoint
+/** Distance to the horizontal plane that a point most likely lies on [m]: its tolerance when none
+ * was seen there. */
+double nearestPlane(const ScenePlanes& planes, const RingPoint& point)
 {
-  bool isOnAny = false;  // however far the planes were seen to reach
-  double nearest;        // distance to the plane that a point most likely lies on [m]
-};
-
-/** Horizontal planes at a point. The nearest is at its tolerance when none was seen there. */
-PlanesAtPoint planesAt(const ScenePlanes& planes, const RingPoint& point)
-{
-  PlanesAtPoint out = {false, point.tolerance};
+  double nearest = point.tolerance;
   for (const int i : planes.horizontal)
   {
     const ScenePlane& plane = planes.plane(i);
     const double distance = std::abs(plane.plane.signedDistance(point.point));
-    out.isOnAny = out.isOnAny || distance <= point.tolerance;
-    if (distance < out.nearest && plane.extent.isWithin(point.point, 0.0)) out.nearest = distance;
+    if (distance < nearest && plane.extent.isWithin(point.point, 0.0)) nearest = distance;
   }
-  return out;
+  return nearest;
 }
 
 }  // namespace
@@ -71,9 +65,8 @@ std::vector<RingPoint> ringAround(
       point.point = cloud.point(c, r).cast<double>();
       point.noise = options.depthSigma(point.point.z());
       point.tolerance = contactTolerance(point.point.z(), options);
-      const PlanesAtPoint here = planesAt(planes, point);
-      point.nearest = here.nearest;
-      point.onSurface = here.isOnAny && !point.inBox && cloud.normal(c, r);
+      point.nearest = nearestPlane(planes, point);
+      point.onSurface = !point.inBox && cloud.normal(c, r);
       out.push_back(point);
     }
   return out;

@@ -36,7 +36,7 @@ struct RingPoint
   double tolerance = 0;    //!< For lying on a plane [m]
   double noise = 0;        //!< Standard deviation of its depth [m]
   double nearest = 0;      //!< To the nearest horizontal plane that was seen there [m]
-  bool onSurface = false;  //!< Outside the box, on a horizontal plane, where the surface is smooth
+  bool onSurface = false;  //!< Outside the box, where the surface is smooth
   bool inBox = false;      //!< In the lowest tenth of the box: the support shows there, too
   bool lower = false;      //!< Below the middle of the box
   bool beside = true;      //!< No farther from the object than such a thing is large

@@ -20,7 +20,7 @@ namespace quadmap
 enum class UsualSupport
 {
   Floor,
-  Object,  //!< On a table, a shelf, another object
+  Object,  //!< On a table, a shelf, another object; nothing is made of it that is not of Any
   Wall,
   Any
 };

@@ -37,7 +37,9 @@ struct CompleteMeasurement
   std::array<FaceMeasurement, kFaces> faces;
   bool yawDefined = false;  //!< False when the cloud shows no dominant direction
   double yawSigma = 0;      //!< [rad], when yawDefined
-  double yawDominance = 0;  //!< Share of the histogram of normals in its peak, in [0, 1]
+  /** Share of the histogram of normals in its peak, or of a top's rim on straight sides, in [0, 1]
+   */
+  double yawDominance = 0;
 };
 
 enum class EdgeState : std::uint8_t

@@ -30,7 +30,7 @@ struct PerceptionOptions : public SurfaceOptions
 
   ObservationModels models = ObservationModels::Both;  //!< INI: both, complete, partial
   double yawMinDominance = 0.40;   //!< Peak mass that makes a direction; even spread gives 0.22
-  double minCompleteIoU = 0.70;    //!< p of doc/mathematics.md that makes a measurement complete
+  double minCompleteIoU = 0.70;    //!< p' of doc/mathematics.md that makes a measurement complete
   double minDepthCoverage = 0.30;  //!< Least share of valid depth in the box for a complete one
 
   /** Pixels of images 640 px wide; they scale with the width. */
