@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "AllocationWatch.h"
+#include "Coverage.h"
 
 namespace quadmap
 {
@@ -38,15 +39,19 @@ void fuzz(
     const FuzzRun& run,
     const std::function<void(const std::string&)>& parse)
 {
+  Coverage::reset();
   ASSERT_NO_THROW(parse(valid)) << "the undamaged input";
+  Coverage::foundNew();
+  std::vector<std::string> corpus = {valid};
   Mutator mutator(run.seed);
   mutator.dictionary.insert(mutator.dictionary.end(), run.words.begin(), run.words.end());
   int refused = 0;
   const int count = inputsOf(run);
   for (int i = 0; i < count; ++i)
   {
-    const std::string input = mutator.mutate(valid);
+    const std::string input = mutator.mutate(mutator.choose(corpus));
     AllocationWatch::reset();
+    Coverage::reset();
     const double start = seconds();
     try
     {
@@ -61,6 +66,7 @@ void fuzz(
     {
       FAIL() << "threw something else than std::exception for " << readable(input);
     }
+    if (Coverage::foundNew()) corpus.push_back(input);
     ASSERT_LT(seconds() - start, kLong) << readable(input);
     ASSERT_LE(AllocationWatch::largest(), run.largestAllocation)
         << "mutation " << i << ": " << readable(input);

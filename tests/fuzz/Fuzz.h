@@ -18,7 +18,8 @@ struct FuzzRun
   bool mostlyHarmless = false;  // the parser is meant to put up with most damages
 };
 
-/** Gives `parse` the valid input, which it must accept, and then damaged versions of it. It may
+/** Gives `parse` the valid input, which it must accept, and then damaged versions of it, and of
+ * those by which the parser ran as it had not before, where coverage is counted. It may
  * accept them or throw a std::exception; anything else, a request for absurd amounts of memory or
  * taking long fails the test (and a crash ends it). */
 void fuzz(

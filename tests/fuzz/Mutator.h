@@ -19,6 +19,12 @@ class Mutator
                                          "0",    "[",    "]",     "\"", "=",
                                          "\\\n", "{",    "\n",    "#",  std::string(1, '\0')};
 
+  /** Any of the inputs. */
+  const std::string& choose(const std::vector<std::string>& inputs)
+  {
+    return inputs[below(inputs.size())];
+  }
+
   /** One to four damages, at random places. */
   std::string mutate(std::string bytes);
 

@@ -1,0 +1,63 @@
+#include "Coverage.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace
+{
+/** The counters of one library or program: one byte for each edge of its control flow. */
+struct Counters
+{
+  std::uint8_t* first;
+  std::vector<std::uint8_t> seen;  // of each, a bit for each order of magnitude that was found
+};
+
+std::vector<Counters>& allCounters()
+{
+  static std::vector<Counters> all;
+  return all;
+}
+
+/** One bit for 1, 2 to 3, 4 to 7 and so on: how often a loop ran matters less than that it ran. */
+std::uint8_t magnitudeBit(std::uint8_t count)
+{
+  std::uint8_t bit = 1;
+  for (; count > 1; count = static_cast<std::uint8_t>(count >> 1))
+    bit = static_cast<std::uint8_t>(bit << 1);
+  return bit;
+}
+}  // namespace
+
+/** Called by each library and program that was compiled with
+ * -fsanitize-coverage=inline-8bit-counters when it is loaded. */
+extern "C" void __sanitizer_cov_8bit_counters_init(std::uint8_t* first, std::uint8_t* end)
+{
+  for (const auto& counters : allCounters())
+    if (counters.first == first) return;
+  allCounters().push_back(
+      {first, std::vector<std::uint8_t>(static_cast<std::size_t>(end - first))});
+}
+
+namespace quadmap
+{
+void Coverage::reset()
+{
+  for (auto& counters : allCounters()) std::fill_n(counters.first, counters.seen.size(), 0);
+}
+
+bool Coverage::foundNew()
+{
+  bool isNew = false;
+  for (auto& counters : allCounters())
+    for (std::size_t i = 0; i < counters.seen.size(); ++i)
+      if (const std::uint8_t count = counters.first[i])
+      {
+        const std::uint8_t bit = magnitudeBit(count);
+        isNew = isNew || !(counters.seen[i] & bit);
+        counters.seen[i] |= bit;
+      }
+  return isNew;
+}
+}  // namespace quadmap
