@@ -39,6 +39,16 @@ std::vector<std::string> readSet(const TemporaryFolder& folder)
   return texts;
 }
 
+/** Leaves what a program leaves in a folder that is killed while it replaces files: a list, each
+ * entry of which starts with '+' or '-'. */
+void leaveList(const TemporaryFolder& folder, const std::vector<std::string>& entries)
+{
+  fs::create_directories(folder.path("given/.run.partial"));
+  std::string list;
+  for (const auto& entry : entries) list += entry + '\0';
+  folder.write("given/.run.partial/.exchange", list);
+}
+
 /** The first file is replaced, the second cannot be: its link points into a folder that is missing.
  */
 void leaveMixture(const TemporaryFolder& folder)
@@ -169,12 +179,76 @@ TEST(OutputSet, AListFromAStrangerReachesNothingOutside)
 {
   const TemporaryFolder folder;
   folder.write("mine.txt", "mine");
-  fs::create_directories(folder.path("given/.run.partial"));
-  folder.write(
-      "given/.run.partial/.exchange",
-      std::string("-../mine.txt") + '\0' + "-" + folder.path("mine.txt") + '\0');
+  leaveList(folder, {"-../mine.txt", "-" + folder.path("mine.txt")});
   OutputSet set(folder.path("given"), "run");
   EXPECT_TRUE(fs::exists(folder.path("mine.txt")));
+}
+
+TEST(OutputSet, AListFromAStrangerReachesNothingBehindALinkedFolder)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("home"));
+  folder.write("home/mine.txt", "mine");
+  leaveList(folder, {"-d/mine.txt", "+d/planted.txt"});
+  fs::create_directory_symlink("../home", folder.path("given/d"));
+  fs::create_directory(folder.path("given/.run.partial/d"));
+  folder.write("given/.run.partial/d/planted.txt", "evil");
+  const OutputSet set(folder.path("given"), "run");
+  EXPECT_TRUE(fs::exists(folder.path("home/mine.txt")));
+  EXPECT_FALSE(fs::exists(folder.path("home/planted.txt")));
+}
+
+TEST(OutputSet, AStagedFileOfAStrangerDoesNotLeaveTheFolderByALink)
+{
+  for (const bool exists : {false, true})
+  {
+    const TemporaryFolder folder;
+    if (exists) folder.write("mine.txt", "mine");
+    leaveList(folder, {"+a.txt"});
+    folder.write("given/.run.partial/a.txt", "evil");
+    fs::create_symlink("../mine.txt", folder.path("given/a.txt"));
+    const auto error = errorOf([&] { OutputSet(folder.path("given"), "run"); });
+    EXPECT_NE(error.find("given/a.txt: is a link out"), std::string::npos) << error;
+    ASSERT_EQ(fs::exists(folder.path("mine.txt")), exists);
+    EXPECT_TRUE(!exists || readFile(folder.path("mine.txt")) == "mine");
+  }
+}
+
+TEST(OutputSet, AStagedLinkOfAStrangerChangesNoPermissions)
+{
+  const TemporaryFolder folder;
+  folder.write("mine.txt", "mine");
+  fs::permissions(folder.path("mine.txt"), fs::perms(0600));
+  leaveList(folder, {"+a.txt"});
+  folder.write("given/a.txt", "");
+  fs::permissions(folder.path("given/a.txt"), fs::perms(0666));
+  fs::create_symlink("../../mine.txt", folder.path("given/.run.partial/a.txt"));
+  EXPECT_NE(
+      errorOf([&] { OutputSet(folder.path("given"), "run"); }).find("link"), std::string::npos);
+  EXPECT_EQ(fs::status(folder.path("mine.txt")).permissions(), fs::perms(0600));
+}
+
+TEST(OutputSet, AHiddenFolderThatIsALinkIsNotEmptied)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("given"));
+  fs::create_directory(folder.path("home"));
+  folder.write("home/mine.txt", "mine");
+  fs::create_directory_symlink("../home", folder.path("given/.run.partial"));
+  const auto error = errorOf([&] { OutputSet(folder.path("given"), "run"); });
+  EXPECT_NE(error.find("given/.run.partial: "), std::string::npos) << error;
+  EXPECT_EQ(readFile(folder.path("home/mine.txt")), "mine");
+}
+
+TEST(OutputSet, AListThatIsAPipeKeepsNobodyWaiting)
+{
+  const TemporaryFolder folder;
+  leaveList(folder, {});
+  const std::string list = folder.path("given/.run.partial/.exchange");
+  fs::remove(list);
+  ASSERT_EQ(::mkfifo(list.c_str(), 0600), 0);
+  EXPECT_EQ(errorOf([&] { requireOneRun(folder.path("given/a.txt")); }), "");
+  EXPECT_EQ(errorOf([&] { OutputSet(folder.path("given"), "run"); }), "");
 }
 
 TEST(OutputSet, KilledAtAnyMomentNoReaderSeesAMixture)

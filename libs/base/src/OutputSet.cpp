@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "FileSystem.h"
+#include "quadmap/base/InsideFolder.h"
 #include "quadmap/base/OutputFile.h"
 
 namespace quadmap
@@ -23,19 +24,25 @@ namespace fs = std::filesystem;
 constexpr const char* kStagingEnd = ".partial";  //!< Ends the names of hidden folders
 constexpr const char* kListName = ".exchange";   //!< The list of files in such a folder
 
-/** A name that does not lead out of the folder: the list may have come with a stranger's files. */
-bool isInside(const fs::path& name)
+/** A set has nothing but files and folders of its own folder. The list may have come with a
+ * stranger's files. */
+bool isPlainName(const fs::path& name)
 {
-  return name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
+  return name == name.filename() && name != "." && name != "..";
 }
 
 /** Entries end with a zero, as names may hold any other byte. */
 std::vector<std::string> readList(const fs::path& staging)
 {
+  constexpr std::uintmax_t kMostBytes = 1u << 24;  // a name has up to 255; a set some thousand
   std::vector<std::string> entries;
-  std::ifstream file(staging / kListName, std::ios::binary);
+  std::error_code error;
+  const fs::path list = staging / kListName;
+  if (!fs::is_regular_file(fs::symlink_status(list, error))) return entries;
+  if (fs::file_size(list, error) > kMostBytes) return entries;
+  std::ifstream file(list, std::ios::binary);
   for (std::string entry; std::getline(file, entry, '\0');)
-    if (entry.size() > 1 && isInside(entry.substr(1))) entries.push_back(entry);
+    if (entry.size() > 1 && isPlainName(entry.substr(1))) entries.push_back(entry);
   return entries;
 }
 
@@ -69,6 +76,23 @@ void moveTo(const fs::path& from, const fs::path& finalPath)
   copyTo(from, to);
 }
 
+/** Completing the work of a killed program puts what is staged where links lead. A stranger's
+ * folder may have both: the staged file and the link. \exception std::runtime_error Names a link
+ * that leads out of its folder. */
+void requireNoWayOut(
+    const fs::path& folder, const fs::path& staging, const std::vector<std::string>& entries)
+{
+  for (const auto& entry : entries)
+    for (const fs::path& place : {folder, staging})
+    {
+      const fs::path path = place / entry.substr(1);
+      if (entry[0] == '-' || isInside(path, place)) continue;  // '-' removes the link itself
+      throw std::runtime_error(
+          path.string() +
+          ": is a link out of its folder, and a killed program left it to be written: remove it");
+    }
+}
+
 /** Gives all entries their names. Those that have theirs from an earlier try stay as they are. */
 void exchange(
     const fs::path& folder, const fs::path& staging, const std::vector<std::string>& entries)
@@ -91,9 +115,9 @@ int lockedFolder(const std::string& staging, const std::string& shown)
   for (;;)
   {
     if (::mkdir(staging.c_str(), S_IRWXU) != 0 && errno != EEXIST) failToWrite(shown, errno);
-    const int descriptor = ::open(staging.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int descriptor = ::open(staging.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0 && errno == ENOENT) continue;  // another program just removed it
-    if (descriptor < 0) failToWrite(shown, errno);
+    if (descriptor < 0) failToWrite(staging, errno);  // a file or a link, too
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     {
       ::close(descriptor);
@@ -117,8 +141,10 @@ OutputSet::OutputSet(std::string folder, const std::string& name) :
   lock_ = lockedFolder(staging_, folder_ + "/" + name);
   try
   {
-    exchange(folder_, staging_, readList(staging_));  // a program was killed while it did
-    for (const auto& left : fs::directory_iterator(staging_)) fs::remove_all(left.path());
+    const auto left = readList(staging_);  // by a program that was killed while it exchanged
+    requireNoWayOut(folder_, staging_, left);
+    exchange(folder_, staging_, left);
+    for (const auto& old : fs::directory_iterator(staging_)) fs::remove_all(old.path());
     temporary_.emplace(staging_);
   }
   catch (...)
