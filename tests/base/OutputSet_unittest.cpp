@@ -251,6 +251,34 @@ TEST(OutputSet, AListThatIsAPipeKeepsNobodyWaiting)
   EXPECT_EQ(errorOf([&] { OutputSet(folder.path("given"), "run"); }), "");
 }
 
+TEST(OutputSet, ADeviceThatTakesNothingFailsBeforeAnyFileIsReplaced)
+{
+  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const TemporaryFolder folder;
+  folder.write("a.txt", "old");
+  fs::create_symlink("/dev/full", folder.path("b.json"));
+  for (const std::size_t bytes : {std::size_t{1}, std::size_t{1} << 20})
+  {
+    const auto error = errorOf([&] { writeSet(folder, std::string(bytes, 'x')); });
+    EXPECT_NE(error.find("/dev/full: cannot be written: No space left"), std::string::npos)
+        << error;
+    EXPECT_EQ(readFile(folder.path("a.txt")), "old");
+    EXPECT_EQ(folder.fileCount(), 2u) << "nothing is left to be completed";
+  }
+}
+
+TEST(OutputSet, ADeviceStaysOneAndEmptyFilesAreNoError)
+{
+  const TemporaryFolder folder;
+  fs::create_symlink("/dev/null", folder.path("b.json"));
+  for (const std::string text : {"", "new"})
+  {
+    writeSet(folder, text);
+    EXPECT_TRUE(fs::is_character_file(folder.path("b.json")));
+    EXPECT_EQ(readFile(folder.path("c.bin")), text);
+  }
+}
+
 TEST(OutputSet, KilledAtAnyMomentNoReaderSeesAMixture)
 {
   const TemporaryFolder folder;

@@ -57,19 +57,19 @@ bool isStaging(const fs::path& path)
 void copyTo(const fs::path& from, const fs::path& to)
 {
   OutputFile output(to.string());
-  std::ofstream(output.temporaryPath(), std::ios::binary)
-      << std::ifstream(from, std::ios::binary).rdbuf();
-  std::error_code error;
-  if (!isDevice(to) && fs::file_size(output.temporaryPath(), error) != fs::file_size(from, error))
-    failToWrite(to.string(), ENOSPC);
+  errno = 0;
+  std::ifstream source(from, std::ios::binary);
+  std::ofstream copy(output.temporaryPath(), std::ios::binary);
+  if (source.peek() != std::ifstream::traits_type::eof()) copy << source.rdbuf();
+  copy.close();  // flushes: the other place where a full disk shows
+  if (source.bad() || !copy) failToWrite(to.string(), errno != 0 ? errno : EIO);
   output.commit();
-  fs::remove(from, error);
+  fs::remove(from);
 }
 
 void moveTo(const fs::path& from, const fs::path& finalPath)
 {
   const fs::path to = withoutLink(finalPath);
-  if (isDevice(to)) return copyTo(from, to);
   if (const auto permissions = permissionsOf(to)) ::chmod(from.c_str(), *permissions);
   if (::rename(from.c_str(), to.c_str()) == 0) return;
   if (errno != EXDEV) failToWrite(finalPath.string(), errno);
@@ -199,6 +199,10 @@ void OutputSet::commit()
     if (entry[0] == '+' && !fs::exists(staged)) failToWrite(staged.string(), ENOENT);
     list += entry + '\0';
   }
+  // What a device has got cannot be taken back, and it may refuse: the other files come after it.
+  for (const auto& name : names())
+    if (const fs::path to = withoutLink(fs::path(folder_) / name); isDevice(to))
+      copyTo(written(name), to);
   // Writers of ours synchronise each file, but folders have files of other writers.
   if (::syncfs(lock_) != 0) failToWrite(folder_, errno);
   const auto pause = Temporary::pause();
