@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <thread>
 
 #include "../common/CommandLine.h"
 #include "../common/ProgressBar.h"
+#include "../common/ReplaceArgument.h"
 #include "quadmap/base/OutputFile.h"
-#include "quadmap/base/OutputSet.h"
+#include "quadmap/base/RunFolder.h"
 #include "quadmap/maps/MapFile.h"
 #include "quadmap/navigation/LocalizationRun.h"
 
@@ -19,6 +19,7 @@ namespace
 using namespace quadmap;
 
 constexpr int kMostThreads = 64;
+constexpr const char* kReport = "localization.json";
 constexpr unsigned kUsefulThreads = 4;  // beyond these the images take all of the time
 
 /** The arguments of the program. */
@@ -74,6 +75,7 @@ struct Cli
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Leave out broken records and say so, instead of failing.", line.args()};
   cli::Group running{line, "Running"};
+  cli::ReplaceArgument replace{line.args()};
   TCLAP::ValueArg<int> threads{
       "",
       "threads",
@@ -139,17 +141,22 @@ LocalizationRequest requestOf(Cli& cli)
   return request;
 }
 
-void write(Cli& cli, const LocalizationRequest& request, const LocalizationResult& result)
+void write(
+    Cli& cli,
+    const LocalizationRequest& request,
+    const LocalizationResult& result,
+    RunFolder& folder)
 {
-  const std::string folder = cli.output.getValue();
-  std::filesystem::create_directories(folder);
-  OutputSet files(folder, "localization");
+  if (result.interrupted && !cli.replace.getValue())
+    if (const auto warning = folder.keepCompleteResult(); !warning.empty())
+      request.onWarning(warning);
+  OutputSet& files = folder.files();
   writeTumTrajectory(files.add("localization.tum"), result.trajectory());
-  writeTextFile(
-      files.add("localization.json"), localizationToJson(request, result, QUADMAP_VERSION));
+  writeTextFile(files.add(kReport), localizationToJson(request, result, QUADMAP_VERSION));
   files.commit();
   if (cli.line.verbosity() > mrpt::system::LVL_INFO) return;
-  for (const auto& name : files.names()) std::printf("wrote %s/%s\n", folder.c_str(), name.c_str());
+  for (const auto& name : files.names())
+    std::printf("wrote %s/%s\n", files.folder().c_str(), name.c_str());
 }
 
 /** Since when the robot is localised, and whether it was before. */
@@ -196,13 +203,14 @@ int run(Cli& cli)
 {
   if (cli.defaults.isSet()) throw cli::UsageError("--defaults: must be given alone");
   LocalizationRequest request = requestOf(cli);
+  cli::onStop = cli::OnStop::Note;
+  RunFolder folder(cli.output.getValue(), "localization", kReport);
   cli::ProgressBar bar;
   request.onProgress = [&bar](double share, const LocalizationEstimate& estimate)
   { bar(share, estimate.isLocalised ? " localised" : " searching"); };
-  cli::onStop = cli::OnStop::Note;
   const LocalizationResult result = localiseInMap(request);
   cli::onStop = cli::OnStop::Defer;
-  write(cli, request, result);
+  write(cli, request, result, folder);
   if (cli.line.verbosity() <= mrpt::system::LVL_INFO) printSummary(result);
   for (const auto& what : result.dropped)
     std::cerr << "quadmap-localize: left out: " << what << "\n";

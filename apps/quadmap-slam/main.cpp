@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "../common/ReplaceArgument.h"
 #include "CameraInput.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/maps/MapFile.h"
@@ -117,11 +118,7 @@ struct Cli
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Leave out broken records and say so, instead of failing.", line.args()};
   cli::Group running{line, "Running"};
-  TCLAP::SwitchArg replace{
-      "", "replace",
-      "A run that Ctrl-C stops early replaces even the result of a complete run in OUTDIR; without "
-      "it, its files go into OUTDIR/interrupted then.",
-      line.args()};
+  cli::ReplaceArgument replace{line.args()};
   TCLAP::ValueArg<int> every{
       "",  "every",    "Every n-th frame of a sensor is a keyframe (default: by motion).", false, 0,
       "N", line.args()};

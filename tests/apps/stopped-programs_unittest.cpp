@@ -205,6 +205,31 @@ TEST_F(StoppedPrograms, AnInterruptedRunReplacesACompleteOneOnlyWhenToldTo)
   EXPECT_TRUE(interrupted(report));
 }
 
+TEST_F(StoppedPrograms, AnInterruptedLocalisationReplacesACompleteOneOnlyWhenToldTo)
+{
+  const std::string map = folder_.path("map"), report = out() + "/localization.json",
+                    complete = R"({"input":{"interrupted":false}})";
+  ASSERT_EQ(runProgram("quadmap-slam", recording("short") + " -o " + map).status, 0);
+  fs::create_directory(out());
+  folder_.write("out/localization.json", complete);
+  const auto interruptRun = [&](const std::vector<std::string>& more)
+  {
+    std::vector<std::string> arguments{recording("long"), "--map", map, "-o", out()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto run = start("quadmap-localize", arguments);
+    waitUntil([&] { return fs::exists(out() + "/.localization.partial"); });
+    run.send(SIGINT);
+    EXPECT_EQ(run.wait(), 130) << log();
+  };
+  interruptRun({});
+  EXPECT_EQ(readFile(report), complete);
+  EXPECT_TRUE(interrupted(out() + "/interrupted/localization.json"));
+  EXPECT_TRUE(fs::exists(out() + "/interrupted/localization.tum"));
+  EXPECT_NE(log().find("--replace"), std::string::npos) << log();
+  interruptRun({"--replace"});
+  EXPECT_TRUE(interrupted(report));
+}
+
 TEST_F(StoppedPrograms, SignalsWhileTheResultIsWrittenLoseNothing)
 {
   const auto run = startLongRun();

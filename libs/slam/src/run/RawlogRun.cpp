@@ -8,25 +8,22 @@
 #include "files/ResultWriter.h"
 #include "keyframes/KeyframeSpool.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/RunFolder.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "run/ObjectSlam.h"
-#include "run/OutputDirectory.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr const char* kSetName = "results";  //!< The files of one run, see OutputSet
-
 class RawlogRun
 {
  public:
   explicit RawlogRun(const RawlogRunRequest& request) :
       request_(request),
-      directory_(request.outputDirectory),
-      files_(std::make_unique<OutputSet>(request.outputDirectory, kSetName)),
+      folder_(request.outputDirectory, "results", "report.json"),
       survey_(survey(request)),
       source_(sourceOf(request, survey_)),
       spool_(request.outputDirectory),
@@ -227,34 +224,23 @@ class RawlogRun
     }
   }
 
-  /** The files go into a folder of their own, so that those of a complete run stay. */
-  void moveBeside()
-  {
-    const std::string folder = request_.outputDirectory + "/interrupted";
-    slam_.warn(
-        request_.outputDirectory +
-        ": keeps the result of an earlier run that was not interrupted; this one is in " + folder +
-        " (--replace puts it in its place)");
-    interruptedDirectory_.emplace(folder);
-    files_ = std::make_unique<OutputSet>(folder, kSetName);
-  }
-
   RawlogRunSummary write(bool interrupted)
   {
     InputDescription input{request_.rawlog,        request_.objectsFile,    request_.sensorLabel,
                            source_->recordsRead(), source_->odometryKind(), interrupted,
                            source_->problems()};
     for (const auto& e : slam_.badFrames()) input.problems.push_back(problemOf(e));
-    if (interrupted && !request_.replaceComplete && hasCompleteResult(request_.outputDirectory))
-      moveBeside();
+    if (interrupted && !request_.replaceComplete)
+      if (const auto warning = folder_.keepCompleteResult(); !warning.empty()) slam_.warn(warning);
+    OutputSet& files = folder_.files();
     RawlogRunSummary summary;
-    summary.directory = files_->folder();
+    summary.directory = files.folder();
     writeResult(
-        *files_,
+        files,
         {request_.version, input, request_.configuration, slam_.result(), spool_, slam_.times()});
-    request_.addFiles(slam_.result(), *files_);
-    summary.files = files_->names();
-    files_->commit();
+    request_.addFiles(slam_.result(), files);
+    summary.files = files.names();
+    files.commit();
     for (const auto& problem : input.problems) summary.dropped.push_back(problem.text());
     summary.result = slam_.result();
     summary.interrupted = interrupted;
@@ -262,9 +248,7 @@ class RawlogRun
   }
 
   const RawlogRunRequest& request_;
-  OutputDirectory directory_;
-  std::optional<OutputDirectory> interruptedDirectory_;
-  std::unique_ptr<OutputSet> files_;  //!< Locked from the start
+  RunFolder folder_;
   OdometrySurvey survey_;
   std::shared_ptr<FrameSource> source_;
   KeyframeSpool spool_;
