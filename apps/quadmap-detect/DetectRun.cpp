@@ -27,6 +27,7 @@ RawlogSourceOptions sourceOptions(const DetectRequest& request)
   options.sensorLabel = request.sensorLabel;
   options.keepGoing = request.keepGoing;
   options.imagesAnywhere = request.imagesAnywhere;
+  options.imagesHint = "--images-anywhere";
   return options;
 }
 

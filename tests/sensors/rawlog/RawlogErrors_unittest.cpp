@@ -463,3 +463,45 @@ TEST(RawlogErrors, ExternalImagesOutsideTheFolder)
     EXPECT_EQ(readAll(file, anywhere).size(), 1u);
   }
 }
+
+TEST(RawlogErrors, AnImageFolderThatIsALinkOutOfTheRawlogsFolderIsRefused)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path("given"));
+  fs::create_directory(folder.path("other"));
+  ASSERT_TRUE(sampleScan(kStart)->intensityImage.saveToFile(folder.path("other/secret.jpg")));
+  fs::create_directory_symlink("../other", folder.path("given/x_Images"));
+  auto scan = sampleScan(kStart);
+  scan->intensityImage.setExternalStorage("secret.jpg");
+  const auto file = writeObjects(folder.path("given/x.rawlog"), {scan});
+  expectProblem(
+      file, {"x.rawlog: record 0 (camera): ", "secret.jpg lies outside " + folder.path("given")},
+      0);
+
+  RawlogSourceOptions anywhere;
+  anywhere.imagesAnywhere = true;
+  EXPECT_EQ(readAll(file, anywhere).size(), 1u);
+
+  fs::create_directory_symlink("given", folder.path("link"));
+  fs::remove(folder.path("given/x_Images"));
+  fs::rename(folder.path("other"), folder.path("given/pictures"));
+  fs::create_directory_symlink("pictures", folder.path("given/x_Images"));
+  EXPECT_EQ(readAll(folder.path("link/x.rawlog")).size(), 1u) << "both links stay inside";
+}
+
+TEST(RawlogErrors, OnlyWhereAUserCanAllowImagesAnywhereTheMessageSaysHow)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  folder.write("secret.jpg", "");
+  fs::create_directory(folder.path("x_Images"));
+  auto scan = sampleScan(kStart);
+  scan->intensityImage.setExternalStorage("../secret.jpg");
+  const auto file = writeObjects(folder.path("x.rawlog"), {scan});
+  RawlogSourceOptions options;
+  EXPECT_EQ(errorOf([&] { readAll(file, options); }).find("would allow"), std::string::npos);
+  options.imagesHint = "--images-anywhere";
+  const auto error = errorOf([&] { readAll(file, options); });
+  EXPECT_NE(error.find("(--images-anywhere would allow that)"), std::string::npos) << error;
+}

@@ -13,7 +13,6 @@
 #include "quadmap/sensors/RawlogNames.h"
 #include "rawlog/MirroredImages.h"
 #include "rawlog/RawlogSourceImpl.h"
-#include "rawlog/ScanCheck.h"
 
 namespace quadmap
 {
@@ -31,6 +30,13 @@ std::string sidecarFor(const std::string& file, const RawlogSourceOptions& optio
   return std::filesystem::exists(name) ? name : std::string();
 }
 
+ImageRules imageRulesFor(const std::string& file, const RawlogSourceOptions& options)
+{
+  return {
+      findImagesFolder(file), std::filesystem::absolute(file).parent_path().string(),
+      options.imagesAnywhere, options.imagesHint, options.limits.imagePixels};
+}
+
 void check(const RawlogSourceOptions& options)
 {
   if (!(options.maxBoxDelay >= 0))
@@ -44,8 +50,8 @@ void check(const RawlogSourceOptions& options)
 
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
     reader(file, o.limits),
-    imagesFolder(findImagesFolder(file)),
     options(std::move(o)),
+    imageRules(imageRulesFor(file, options)),
     boxes(options.maxBoxDelay),
     odometry(options.odometryKind),
     log_(owner)
@@ -126,7 +132,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::complete(PendingFrame pending)
   auto& frame = pending.frame;
   try
   {
-    prepareScan(*frame.scan, {imagesFolder, options.imagesAnywhere, options.limits.imagePixels});
+    prepareScan(*frame.scan, imageRules);
   }
   catch (const std::exception& e)
   {

@@ -14,6 +14,7 @@
 #include "quadmap/sensors/RawlogSource.h"
 #include "rawlog/BoxBuffer.h"
 #include "rawlog/RecordReader.h"
+#include "rawlog/ScanCheck.h"
 
 namespace quadmap
 {
@@ -36,8 +37,8 @@ struct RawlogSource::Impl
   static constexpr double kMaxScanDelay = 10;
 
   RecordReader reader;
-  std::string imagesFolder;
   RawlogSourceOptions options;
+  ImageRules imageRules;
   std::vector<InputProblem> problems;
   std::size_t framesRead = 0;
   bool sawPixelLabels = false;

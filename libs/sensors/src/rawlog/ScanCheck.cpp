@@ -9,6 +9,7 @@
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
+#include "quadmap/base/InsideFolder.h"
 #include "quadmap/sensors/BoxCheck.h"
 #include "quadmap/sensors/DepthUnit.h"
 #include "quadmap/sensors/EncodedImage.h"
@@ -22,20 +23,16 @@ using mrpt::obs::CObservation3DRangeScan;
 
 /** The path of an external image. A rawlog may come from somebody else, and what it names ends up
  * in the results, which are passed on. \exception std::runtime_error If it leads out of the folder,
- * be it by name or by a link. */
+ * be it by name or by a link, which the image folder may be itself. */
 std::string pathOf(const std::string& name, const ImageRules& rules)
 {
-  const fs::path folder(rules.folder), path = folder / name;  // an absolute name stays as it is
+  const fs::path path = fs::path(rules.folder) / name;  // an absolute name stays as it is
   if (!rules.imagesAnywhere)
-  {
-    std::error_code error;  // of names that are too long
-    const fs::path inside =
-        fs::weakly_canonical(path, error).lexically_relative(fs::canonical(folder));
-    if (error || inside.empty() || *inside.begin() == "..")
-      throw std::runtime_error(
-          "its external image " + name + " lies outside " + rules.folder +
-          " (imagesAnywhere = true in section [input] would allow that)");
-  }
+    for (const std::string& folder : {rules.folder, rules.rawlogFolder})
+      if (!isInside(path, folder))
+        throw std::runtime_error(
+            "its external image " + name + " lies outside " + folder +
+            (rules.imagesHint.empty() ? "" : " (" + rules.imagesHint + " would allow that)"));
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
     throw std::runtime_error("its external image " + path.string() + " is missing");

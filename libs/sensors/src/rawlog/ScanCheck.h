@@ -14,7 +14,9 @@ namespace quadmap
 struct ImageRules
 {
   std::string folder;            //!< Of the external images
-  bool imagesAnywhere = false;   //!< They may lie outside it
+  std::string rawlogFolder;      //!< Of the rawlog; a link of the image folder may not lead out
+  bool imagesAnywhere = false;   //!< They may lie elsewhere
+  std::string imagesHint;        //!< How a user allows that, for messages; empty: not at all
   std::uint64_t mostPixels = 0;  //!< Of an image
 };
 

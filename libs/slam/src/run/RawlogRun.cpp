@@ -103,6 +103,7 @@ class RawlogRun
     options.maxBoxDelay = request.configuration.input.maxBoxDelay;
     options.maxOdometryGap = request.configuration.input.maxOdometryGap;
     options.imagesAnywhere = request.configuration.input.imagesAnywhere;
+    options.imagesHint = "imagesAnywhere = true in section [input]";
     options.limits.imagePixels =
         static_cast<std::uint64_t>(request.configuration.input.maxImageMegapixels) << 20;
     return options;

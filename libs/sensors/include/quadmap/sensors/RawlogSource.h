@@ -31,6 +31,7 @@ struct RawlogSourceOptions
   std::string odometryKind;
   RecordLimits limits;          //!< What a record may ask for
   bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
+  std::string imagesHint;       //!< How a user sets imagesAnywhere, for messages; empty: not at all
 };
 
 /** Reads the RGB-D frames of a rawlog one by one, and pairs them with boxes and poses. It reads
