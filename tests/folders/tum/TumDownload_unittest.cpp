@@ -114,6 +114,26 @@ TEST_F(TumDownload, RefusesImagesOutsideTheFolder)
       folder_ + "/associations.txt:1: '../depth/a.png' must be a path inside the folder");
 }
 
+TEST_F(TumDownload, RefusesImagesBehindLinksOutOfTheFolder)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder other;
+  other.write("secret.png", "");
+  fs::create_symlink(other.path("secret.png"), folder_ + "/rgb/link.png");
+  fs::create_directory_symlink(other.folder(), folder_ + "/linked");
+  for (const std::string name : {"rgb/link.png", "linked/secret.png"})
+    for (const bool isColor : {true, false})
+    {
+      const std::string color = isColor ? name : "rgb/a.png",
+                        depth = isColor ? "depth/a.png" : name;
+      write("associations.txt", "1 " + color + " 1 " + depth + "\n");
+      const auto error = errorOf([&] { openFrameFolder("tum", folder_); });
+      EXPECT_NE(error.find(folder_ + "/" + name + ": is a link out of"), std::string::npos)
+          << error;
+      EXPECT_NE(error.find("associations.txt:1"), std::string::npos) << error;
+    }
+}
+
 TEST_F(TumDownload, RefusesAbsurdTimes)
 {
   write("rgb.txt", "1e300 rgb/a.png\n");

@@ -8,6 +8,7 @@
 #include "frames/FolderReader.h"
 #include "icl/IclFolder.h"
 #include "pcd/PcdFolder.h"
+#include "quadmap/base/InsideFolder.h"
 #include "scannet/ScanNetFolder.h"
 #include "sevenscenes/SevenScenesFolder.h"
 #include "tum/TumFiles.h"
@@ -38,6 +39,17 @@ const FolderReader& readerOf(const std::string& kind)
 void requireFolder(const std::string& folder)
 {
   if (!fs::is_directory(folder)) throw std::runtime_error(folder + ": no such folder");
+}
+
+/** A folder may come from somebody else, and its images go into a rawlog, which is passed on.
+ * \exception std::runtime_error If an image is, or lies behind, a link out of the folder. */
+void requireOwnImages(const FolderContent& content)
+{
+  for (const auto& frame : content.frames)
+    for (const std::string& file : {frame.color, frame.depth})
+      if (!isInside(file, content.folder))
+        throw std::runtime_error(
+            file + ": is a link out of " + content.folder + " (" + frame.listed + ")");
 }
 
 void check(const FrameFolderOptions& o)
@@ -75,6 +87,7 @@ FrameFolder openFrameFolder(
   const FolderReader& reader = readerOf(kind);
   requireFolder(folder);
   FolderContent content = reader.read(folder, options);
+  requireOwnImages(content);
   content.kind = kind;
   return FrameFolder(std::move(content), options);
 }
