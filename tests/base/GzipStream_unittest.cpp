@@ -86,3 +86,25 @@ TEST(GzInput, ReadsNoMoreThanItMay)
   EXPECT_EQ(errorOf([&] { readAll(3u << 20); }), "");
   EXPECT_EQ(errorOf([&] { readAll(2u << 20); }), "the file holds more than 2 MB");
 }
+
+TEST(GzInput, CountsWhatFollowsTheCompressedData)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> bytes(300000, 'x');  // more than the buffers hold
+  const auto member = gzipMember(bytes, 1);
+  const std::string part(member.begin(), member.end());
+  const auto behind = [&](const std::string& content)
+  {
+    const auto path = folder.write("x.gz", content);
+    GzInput file(path);
+    EXPECT_EQ(file.skipToEnd() % bytes.size(), 0u);
+    EXPECT_EQ(file.skipToEnd(), 0u);
+    return file.bytesBehind();
+  };
+  EXPECT_EQ(behind(part), 0u);
+  EXPECT_EQ(behind(part + part), 0u);
+  for (const std::size_t more : {std::size_t{1}, std::size_t{8}, std::size_t{200000}})
+    for (const char fill : {'\0', '\x1f', 'g'})
+      EXPECT_EQ(behind(part + part + std::string(more, fill)), more) << static_cast<int>(fill);
+  EXPECT_EQ(behind(std::string(bytes.begin(), bytes.end())), 0u) << "is not compressed";
+}

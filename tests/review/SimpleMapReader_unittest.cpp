@@ -60,6 +60,16 @@ TEST_F(SimpleMapFile, AFileWithoutItsLastBytesIsAnError)
   }
 }
 
+TEST_F(SimpleMapFile, AFileThatGoesOnAfterTheLastKeyframeIsAnError)
+{
+  const std::string whole = readFile(path_);
+  folder_.write("map.simplemap", whole + whole);
+  SceneContent content;
+  EXPECT_EQ(
+      errorOf([&] { addKeyframes(path_, {}, content); }),
+      path_ + ": more follows the last keyframe");
+}
+
 TEST_F(SimpleMapFile, GivesCamerasAndACloud)
 {
   SceneContent content;

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -33,9 +34,39 @@ std::string errorText(int zlibError)
   if (zlibError == Z_ERRNO) return std::strerror(errno);
   return zError(zlibError);
 }
+
+/** Where the last part ends that gzip compressed. gzread() ignores what follows it. */
+std::uint64_t endOfCompressed(const std::string& path)
+{
+  constexpr int kGzipFormat = 16;  // added to zlib's window bits
+  z_stream z{};
+  if (inflateInit2(&z, MAX_WBITS + kGzipFormat) != Z_OK)
+    throw std::runtime_error("zlib: out of memory");
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> in(kBufferBytes), out(kBufferBytes);
+  std::uint64_t read = 0, end = 0;
+  for (int state = Z_OK; state == Z_OK;)
+  {
+    if (z.avail_in == 0)
+    {
+      file.read(in.data(), static_cast<std::streamsize>(in.size()));
+      z.next_in = reinterpret_cast<Bytef*>(in.data());
+      z.avail_in = static_cast<uInt>(file.gcount());
+      read += z.avail_in;
+    }
+    z.next_out = reinterpret_cast<Bytef*>(out.data());
+    z.avail_out = kBufferBytes;
+    state = inflate(&z, Z_NO_FLUSH);
+    if (state != Z_STREAM_END) continue;
+    end = read - z.avail_in;
+    state = inflateReset(&z);
+  }
+  inflateEnd(&z);
+  return end;
+}
 }  // namespace
 
-GzInput::GzInput(const std::string& path, bool isResult)
+GzInput::GzInput(const std::string& path, bool isResult) : path_(path)
 {
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(path + ": is a directory, not a file");
@@ -108,8 +139,9 @@ void GzInput::requireRoomFor(std::uint64_t count)
     fail("the file holds more than " + std::to_string(mostBytes_ >> 20) + " MB");
 }
 
-void GzInput::skipToEnd()
+std::uint64_t GzInput::skipToEnd()
 {
+  const std::uint64_t start = position_;
   std::vector<char> bytes(kBufferBytes);
   std::size_t done = bytes.size();
   while (done == bytes.size())
@@ -118,6 +150,12 @@ void GzInput::skipToEnd()
     requireRoomFor(done);
     position_ += done;
   }
+  return position_ - start;
+}
+
+std::uint64_t GzInput::bytesBehind() const
+{
+  return gzdirect(file_) ? 0 : fileBytes_ - endOfCompressed(path_);
 }
 
 std::size_t GzInput::Write(const void*, std::size_t)

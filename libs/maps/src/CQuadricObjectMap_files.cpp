@@ -1,8 +1,10 @@
 #include <mrpt/core/format.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "MapLimits.h"
 #include "quadmap/base/ErrorText.h"
@@ -45,7 +47,8 @@ void readMap(GzInput& input, CQuadricObjectMap& map)
   input.setMostBytes(kMostStoredBytes);
   input.startRecord();
   mrpt::serialization::archiveFrom(input) >> map;
-  input.skipToEnd();  // the checksum comes last
+  const std::uint64_t more = input.skipToEnd() + input.bytesBehind();  // checks the checksum, too
+  if (more > 0) throw std::runtime_error(std::to_string(more) + " bytes follow the map");
 }
 
 }  // namespace

@@ -82,7 +82,9 @@ void SimpleMapReader::requireEnd()
 {
   try
   {
-    file_.skipToEnd();  // the checksum comes last
+    constexpr std::uint64_t kEndMark = 1;  // of MRPT behind each object [bytes]
+    if (file_.skipToEnd() > kEndMark)      // the checksum comes last
+      throw std::runtime_error("more follows the last keyframe");
   }
   catch (const std::exception& e)
   {

@@ -38,8 +38,12 @@ class GzInput : public mrpt::io::CStream
   /** \exception std::runtime_error If the file ends within a record, is damaged, or holds more than
    *  setMostBytes() allows. */
   std::size_t Read(void* buffer, std::size_t count) override;
-  /** Reads to the end, whatever is there. \exception std::runtime_error If the file is damaged. */
-  void skipToEnd();
+  /** Reads to the end, whatever is there. \return How many bytes that were.
+   *  \exception std::runtime_error If the file is damaged. */
+  std::uint64_t skipToEnd();
+  /** Bytes of the file behind its compressed data, of which reading it tells nothing; 0 for a file
+   *  that is not compressed. Reads the whole file once more. */
+  std::uint64_t bytesBehind() const;
   std::size_t Write(const void* buffer, std::size_t count) override;
   std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
   std::uint64_t getTotalBytesCount() const override { return fileBytes_; }
@@ -50,6 +54,7 @@ class GzInput : public mrpt::io::CStream
   void requireRoomFor(std::uint64_t count);
   std::size_t readAvailable(char* bytes, std::size_t count);
 
+  std::string path_;
   gzFile file_ = nullptr;
   std::uint64_t fileBytes_ = 0, position_ = 0, recordBytes_ = 0;
   std::uint64_t mostBytes_ = std::numeric_limits<std::uint64_t>::max();

@@ -32,7 +32,7 @@ class SimpleMapReader
   std::optional<Keyframe> next();
 
  private:
-  void requireEnd();  //!< \exception std::runtime_error If the end is cut or damaged
+  void requireEnd();  //!< \exception std::runtime_error If the end is cut, damaged or not the end
 
   std::string path_;
   GzInput file_;
