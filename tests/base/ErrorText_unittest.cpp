@@ -36,6 +36,19 @@ TEST(ErrorText, IsBoundedAndKeepsBothEnds)
   EXPECT_EQ(text.substr(text.size() - 4), " end");
 }
 
+TEST(ErrorText, TellsWhatMrptQuotes)
+{
+  const std::string head =
+      "==== MRPT exception ====\nMessage:  Exception while parsing typed object 'X' from Y\n"
+      "Original exception:\n";
+  const std::string tail =
+      "\nLocation: ./CArchive.cpp:475: [void f()]\nCall stack backtrace:\n[0 ]";
+  EXPECT_EQ(messageOf(head + "archive: too many objects" + tail), "archive: too many objects");
+  EXPECT_EQ(
+      messageOf(head + "==== MRPT exception ====\nMessage:  no such version" + tail + tail),
+      "no such version");
+}
+
 TEST(ErrorText, TellsTheCauseWithoutPlacesInTheSource)
 {
   EXPECT_EQ(

@@ -54,15 +54,20 @@ std::string printable(const std::string& text)
   return line;
 }
 
-/** MRPT nests messages and call stacks; the innermost message is the cause. */
+/** MRPT nests messages and call stacks; the innermost message is the cause. Where MRPT reads one of
+ * our classes, it quotes what that threw. */
 std::string innermost(const std::string& text)
 {
-  const std::string mark = "Message:  ";
-  const auto nested = text.rfind(mark);
-  if (nested == std::string::npos) return text;
-  const auto begin = text.find_first_not_of("\n\r ", nested + mark.size());
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_first_of("\n\r", begin) - begin);
+  for (const std::string mark : {"Original exception:\n", "Message:  "})
+  {
+    const auto nested = text.rfind(mark);
+    if (nested == std::string::npos) continue;
+    const auto begin = text.find_first_not_of("\n\r ", nested + mark.size());
+    if (begin == std::string::npos) return {};
+    const auto line = text.substr(begin, text.find_first_of("\n\r", begin) - begin);
+    if (line.rfind("==== MRPT", 0) != 0) return line;  // else it quotes a message of MRPT's
+  }
+  return text;
 }
 
 /** "OpenCV(4.6.0) file:line: error: (code:name) cause in function 'f'" without all but the cause.
