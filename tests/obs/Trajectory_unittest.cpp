@@ -41,14 +41,15 @@ TEST(ReadTumTrajectory, NamesFileAndLineOfWhatIsWrong)
 {
   const TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases{
-      {    "1 2 3 4 0 0 1",    "expected 8 columns, got 7"},
-      {"1 2 3 4 0 0 0 1 9",    "expected 8 columns, got 9"},
-      {  "1,2,3,4,0,0,0,1",    "expected 8 columns, got 1"},
-      { "1 2 3 4x 0 0 0 1",  "'4x' is not a finite number"},
-      {"1 nan 3 4 0 0 0 1", "'nan' is not a finite number"},
-      {"1 2 3 4 0 0 inf 1", "'inf' is not a finite number"},
-      {"one 2 3 4 0 0 0 1", "'one' is not a finite number"},
-      {  "1 2 3 4 0 0 0 0",           "quaternion is zero"}
+      {      "1 2 3 4 0 0 1",     "expected 8 columns, got 7"},
+      {  "1 2 3 4 0 0 0 1 9",     "expected 8 columns, got 9"},
+      {    "1,2,3,4,0,0,0,1",     "expected 8 columns, got 1"},
+      {   "1 2 3 4x 0 0 0 1",   "'4x' is not a finite number"},
+      {  "1 nan 3 4 0 0 0 1",  "'nan' is not a finite number"},
+      {  "1 2 3 4 0 0 inf 1",  "'inf' is not a finite number"},
+      {  "one 2 3 4 0 0 0 1",  "'one' is not a finite number"},
+      {"1e300 2 3 4 0 0 0 1", "'1e300' is no time in seconds"},
+      {    "1 2 3 4 0 0 0 0",            "quaternion is zero"}
   };
   for (const auto& [line, message] : cases)
   {

@@ -15,6 +15,7 @@
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/geometry/PosePosition.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -57,6 +58,8 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
   std::array<double, kColumns> v{};
   for (std::size_t i = 0; i < kColumns; ++i) v[i] = parseNumber(words[i], place);
   const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);  // Eigen's constructor starts with w
+  if (!(std::abs(v[0]) <= kLatestTime))
+    throw std::runtime_error(place + ": '" + words[0] + "' is no time in seconds");
   if (!(Eigen::Vector3d(v[1], v[2], v[3]).norm() <= kFarthestPosition))
     throw std::runtime_error(place + ": the position is absurdly far away");
   if (!(q.norm() > 1e-6)) throw std::runtime_error(place + ": quaternion is zero");

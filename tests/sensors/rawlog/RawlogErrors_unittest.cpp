@@ -327,6 +327,19 @@ TEST(RawlogErrors, ScansNobodyCanUse)
         s.resizePoints3DVectors(3);
       });
   expect("its sensorPose", [](Scan& s) { s.sensorPose.x(kNaN); });
+  expect("its sensorPose is 1e+300 m away", [](Scan& s) { s.sensorPose.x(1e300); });
+  const std::string noRotation = "its sensorPose has no rotation";
+  const auto turn = [](double xx, double others)
+  {
+    const Eigen::Vector4d diagonal(xx, others, others, 1);
+    return CPose3D(mrpt::math::CMatrixDouble44(Eigen::Matrix4d(diagonal.asDiagonal())));
+  };
+  expect(noRotation, [&](Scan& s) { s.sensorPose = turn(0, 0); });
+  expect(noRotation, [&](Scan& s) { s.sensorPose = turn(1e300, 1e300); });
+  expect(noRotation, [&](Scan& s) { s.sensorPose = turn(-1, 1); });
+  expect(
+      "its relativePoseIntensityWRTDepth has no rotation",
+      [&](Scan& s) { s.relativePoseIntensityWRTDepth = turn(0, 0); });
   expect("has no time stamp", [](Scan& s) { s.timestamp = INVALID_TIMESTAMP; });
   const std::string back = "time goes backwards: ";
   expect(back + "0.500000 s", [](Scan& s) { s.timestamp = stamp(kStart - 0.5); });

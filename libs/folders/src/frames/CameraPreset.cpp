@@ -18,7 +18,7 @@ namespace quadmap
 namespace
 {
 constexpr const char* kSection = "camera";
-constexpr double kMostPixels = 20000, kLargestCoefficient = 1e3;
+constexpr double kMostPixels = 20000;
 constexpr Eigen::Index kPoseNumbers = 12;
 
 mrpt::img::TCamera pinhole(const std::array<double, 4>& f, int width, int height)

@@ -4,15 +4,15 @@
 
 #include <Eigen/Dense>
 
+#include "quadmap/obs/Plausible.h"
+
 namespace quadmap
 {
 /** Whether a matrix is a rotation with a translation. Files round. */
 inline bool isRigid(const Eigen::Matrix4d& T)
 {
   constexpr double kRounding = 1e-2;
-  const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
-  return T.allFinite() && R.determinant() > 0 &&
-         (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < kRounding &&
+  return T.allFinite() && isRotation(T.topLeftCorner<3, 3>()) &&
          (T.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() < kRounding;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/obs/Plausible.h"
+
 namespace quadmap
 {
 /** One line of a text file, cut at blanks. */
@@ -24,10 +26,6 @@ void requireColumns(const TextLine& line, std::size_t columns);
 /** The number in a column. It may be NaN or infinite; the caller decides whether it can be used.
  * \exception std::runtime_error If it is no number. */
 double numberIn(const TextLine& line, std::size_t column);
-
-/** Latest time of a frame [s]: the year 2286, if times count from 1970. The 64 bits in which a
- * rawlog counts steps of 100 ns end before 1e12 s. */
-constexpr double kLatestTime = 1e10;
 
 /** The time in a column [s]. \exception std::runtime_error If it is not in [0, kLatestTime]. */
 double timeIn(const TextLine& line, std::size_t column);

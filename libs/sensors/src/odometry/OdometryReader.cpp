@@ -12,6 +12,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/RawlogNames.h"
 
 namespace quadmap
@@ -138,7 +139,7 @@ void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
   const auto movement = movementIn(actions);
   if (!movement || !(countsActions_ || accept(movement->kind))) return;
   countsActions_ = true;
-  if (const auto why = whyUnusable(movement->increment.mean))
+  if (const auto why = whyNoPose(movement->increment.mean))
     throw std::runtime_error("the movement " + *why);
   sumOfActions_ += withUsableCovariance(movement->increment);
 }

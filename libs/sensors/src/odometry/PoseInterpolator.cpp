@@ -10,7 +10,7 @@
 
 #include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/StepCovariance.h"
-#include "quadmap/obs/Trajectory.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -43,23 +43,9 @@ CPose3DPDFGaussian interpolate(
 }
 }  // namespace
 
-std::optional<std::string> whyUnusable(const mrpt::poses::CPose3D& pose)
-{
-  constexpr double kLeastRotated = 0.9;  // least determinant, for numbers that were rounded
-  const auto matrix = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
-  const Eigen::Matrix4d T = matrix.asEigen();
-  if (!T.allFinite()) return "has numbers that are not finite";
-  const double distance = T.topRightCorner<3, 1>().norm();
-  if (!(distance <= kFarthestPosition))
-    return mrpt::format("is %g m away, which is absurd", distance);
-  if (!(T.topLeftCorner<3, 3>().determinant() >= kLeastRotated))
-    return "has no rotation (its quaternion is zero?)";
-  return std::nullopt;
-}
-
 void PoseInterpolator::add(double time, const CPose3DPDFGaussian& pose)
 {
-  if (const auto why = whyUnusable(pose.mean)) throw std::runtime_error("the pose " + *why);
+  if (const auto why = whyNoPose(pose.mean)) throw std::runtime_error("the pose " + *why);
   if (!poses_.empty() && time < poses_.back().time)
     throw std::runtime_error(
         mrpt::format("the time goes back by %.6f s", poses_.back().time - time));

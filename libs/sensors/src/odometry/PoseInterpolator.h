@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
-#include <string>
 
 namespace quadmap
 {
@@ -42,10 +41,5 @@ class PoseInterpolator
   };
   std::deque<Stamped> poses_;  // in the order of time
 };
-
-/** Why a pose or motion of a file cannot be one: numbers that are not finite or absurd, no
- * rotation.
- */
-std::optional<std::string> whyUnusable(const mrpt::poses::CPose3D& pose);
 
 }  // namespace quadmap

@@ -10,6 +10,7 @@
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/base/InsideFolder.h"
+#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/BoxCheck.h"
 #include "quadmap/sensors/DepthUnit.h"
 #include "quadmap/sensors/EncodedImage.h"
@@ -103,25 +104,21 @@ void loadExternalImages(CObservation3DRangeScan& scan, const ImageRules& rules)
 void requireCalibration(const CObservation3DRangeScan& scan)
 {
   const auto& camera = scan.cameraParams;
-  const auto& K = camera.intrinsicParams;
-  if (!K.asEigen().allFinite() || K(0, 0) == 0 || K(1, 1) == 0)
-    throw std::runtime_error(
-        mrpt::format("has no camera calibration (fx=%g, fy=%g in cameraParams)", K(0, 0), K(1, 1)));
-  // In image widths. Beyond these numbers overflow later; what is merely unusable, perception
-  // tells.
-  constexpr double kShortest = 1e-3, kLongest = 1000, kFarthestCentre = 100;
-  const double width = camera.ncols;
-  for (int i = 0; i < 2; ++i)
-    if (std::abs(K(i, i)) < kShortest * width || std::abs(K(i, i)) > kLongest * width ||
-        std::abs(K(i, 2)) > kFarthestCentre * width)
-      throw std::runtime_error(mrpt::format(
-          "has an absurd calibration (focal length %g, centre %g in images %u px wide)", K(i, i),
-          K(i, 2), camera.ncols));
+  if (const auto why = whyNoCalibration(camera)) throw std::runtime_error(*why);
   const auto rows = scan.rangeImage.rows(), columns = scan.rangeImage.cols();
   if (static_cast<int>(camera.nrows) != rows || static_cast<int>(camera.ncols) != columns)
     throw std::runtime_error(mrpt::format(
         "its calibration is for %ux%u images, its depth image has %dx%d", camera.ncols,
         camera.nrows, static_cast<int>(columns), static_cast<int>(rows)));
+}
+
+void requirePoses(const CObservation3DRangeScan& scan)
+{
+  if (const auto why = whyNoPose(scan.sensorPose, kFarthestOnRobot))
+    throw std::runtime_error("its sensorPose " + *why);
+  if (!scan.hasIntensityImage) return;
+  if (const auto why = whyNoPose(scan.relativePoseIntensityWRTDepth, kFarthestOnRobot))
+    throw std::runtime_error("its relativePoseIntensityWRTDepth " + *why);
 }
 
 /** Turns distances d along rays into depths: z = d / |ray of depth 1|. */
@@ -152,12 +149,7 @@ void prepareScan(CObservation3DRangeScan& scan, const ImageRules& rules)
         "rangeUnits=%g: must be > 0 m, in [%g, %g] m", static_cast<double>(scan.rangeUnits),
         kSmallestDepthUnit, kLargestDepthUnit));
   requireCalibration(scan);
-  if (!scan.sensorPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite())
-    throw std::runtime_error("its sensorPose has numbers that are not finite");
-  constexpr double kFarthest = 1000;  // of a sensor on a robot [m]
-  if (const double far = scan.sensorPose.norm(); !(far <= kFarthest))
-    throw std::runtime_error(
-        mrpt::format("its sensorPose is %g m from the robot, which is absurd", far));
+  requirePoses(scan);
   if (!scan.range_is_depth) rangesToDepths(scan);
 }
 

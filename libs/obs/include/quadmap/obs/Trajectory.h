@@ -17,10 +17,6 @@ struct StampedPose
 
 using Trajectory = std::vector<StampedPose>;
 
-/** Poses farther from the origin are no poses [m]: ten times the largest coordinates of maps (UTM).
- */
-inline constexpr double kFarthestPosition = 1e8;
-
 /** Reads lines of `time tx ty tz qx qy qz qw` in the order of the file (the format of TUM RGB-D;
  * '#' starts a comment). Quaternions are normalised. \exception std::runtime_error For a file that
  * cannot be read, a wrong number of columns, a value that is no finite number, or a zero
