@@ -237,14 +237,25 @@ TEST_F(QuadmapMap, AppliesAnEditList)
       {start + R"({"op": "place", "id": 1, "center": [1, 2, 3], "size": [1, 0, 1], "yaw": 0}]})",
        "edit 1"                                                                                                                       }
   };
-  for (const auto& [text, expected] : wrong)
+  const auto refuses = [&](const std::string& text, const std::string& expected)
   {
     folder_.write("wrong.json", text);
     const auto result = run("apply MAP DIR/wrong.json -o DIR/x.quadmap");
     EXPECT_EQ(result.status, 1) << text;
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
     EXPECT_NE(result.err.find("wrong.json: " + expected), kNotFound) << result.err;
-  }
+  };
+  for (const auto& [text, expected] : wrong) refuses(text, expected);
+  const std::string place = start + R"({"op": "place", "id": )" + chair + ", ";
+  refuses(
+      place + R"("center": [1e300, 2, 3], "size": [1, 1, 1], "yaw": 0}]})",
+      "edit 1: \"center\" is 1e+300 m away");
+  refuses(
+      place + R"("center": [1, 2, 3], "size": [1, 1e300, 1], "yaw": 0}]})",
+      "edit 1: \"size\" is 1e+300 m, and not");
+  refuses(
+      place + R"("center": [1, 2, 3], "size": [1, 1, 1], "yaw": 1e300}]})",
+      "edit 1: \"yaw\" is 1e+300 rad");
   EXPECT_FALSE(std::filesystem::exists(folder_.path("x.quadmap")));
 }
 

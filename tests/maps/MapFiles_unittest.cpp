@@ -97,6 +97,32 @@ TEST(MapFiles, SavedMapReadsBack)
   EXPECT_NE(error.find("/nowhere/a.quadmap"), std::string::npos) << error;
 }
 
+TEST(MapFiles, AnAbsurdObjectIsNotRead)
+{
+  const TemporaryFolder folder;
+  CQuadricObjectMap map = smallMap();
+  const MapObject& object = *map.confirmedObjects().at(0);
+  const double x = object.object.center().x(), far = 1e300;
+  std::string bytes = archiveOf(map);
+  const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&x), sizeof x));
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, sizeof far, reinterpret_cast<const char*>(&far), sizeof far);
+  const auto path = folder.write("a.quadmap", gzipped(bytes));
+  const auto error = errorOf([&] { map.loadFromFile(path); });
+  EXPECT_NE(error.find("a.quadmap: "), std::string::npos) << error;
+  EXPECT_NE(error.find("an object is 1e+300 m away"), std::string::npos) << error;
+
+  const auto refused = [&](const CPose3D& pose, double halfSize)
+  {
+    const Ellipsoid place(pose, Eigen::Vector3d::Constant(halfSize));
+    return errorOf([&] { map.place(object.id, place); });
+  };
+  EXPECT_EQ(
+      refused(CPose3D(1e300, 0, 0, 0, 0, 0), 1),
+      "an object of the map is 1e+300 m away, which is absurd");
+  EXPECT_NE(refused(CPose3D(), 1e300).find("has a size that is"), std::string::npos);
+}
+
 TEST(MapFiles, WhatGoesWrongWithAFrameNamesItsFile)
 {
   const TemporaryFolder folder;

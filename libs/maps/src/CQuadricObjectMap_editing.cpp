@@ -4,14 +4,18 @@
 #include <stdexcept>
 
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
 namespace
 {
-void requireUpright(const Ellipsoid& object)
+/** \exception std::invalid_argument For what a map that is read could not have. */
+void requireObject(const Ellipsoid& object)
 {
   constexpr double kMaxTilt = 1e-4;  // [rad]: rounding
+  if (const auto why = whyNoObject(object))
+    throw std::invalid_argument("an object of the map " + *why);
   if (object.rotation().col(2).head<2>().norm() > kMaxTilt)
     throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
 }
@@ -43,7 +47,7 @@ CQuadricObjectMap::Entry& CQuadricObjectMap::require(ObjectId id)
 
 ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
 {
-  requireUpright(estimated.object);
+  requireObject(estimated.object);
   if (estimated.covariance.llt().info() != Eigen::Success)
     throw std::invalid_argument("the covariance of an object must be positive definite");
   if (estimated.labelCounts.empty() || estimated.observations() == 0)
@@ -129,7 +133,7 @@ void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
 void CQuadricObjectMap::place(ObjectId id, const Ellipsoid& object)
 {
   Entry& entry = require(id);
-  requireUpright(object);
+  requireObject(object);
   entry.object = ellipsoidOf(uprightStateOf(object));
   entry.estimator = ObjectEstimator::fromEstimate(
       {uprightStateOf(entry.object), entry.covariance, 0, entry.orientationDefined},

@@ -8,6 +8,7 @@
 #include "MapLimits.h"
 #include "quadmap/base/ArchiveFields.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -114,6 +115,7 @@ MapObject readObject(CArchive& in)
       o.covariance.llt().info() == Eigen::Success,
       "an object's covariance is not positive definite");
   o.object = storedObject(state);
+  if (const auto why = whyNoObject(o.object)) requireStored(false, "an object " + *why);
   return o;
 }
 

@@ -2,11 +2,14 @@
 
 #include <mrpt/core/format.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "quadmap/base/Json.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -28,6 +31,23 @@ Eigen::Vector3d vectorFrom(const Json& edit, const char* key)
   return {values[0], values[1], values[2]};
 }
 
+/** Where a person put an object. */
+Ellipsoid placeFrom(const Json& edit)
+{
+  const Eigen::Vector3d center = vectorFrom(edit, "center"), size = vectorFrom(edit, "size");
+  const auto yaw = edit.at("yaw").get<double>();
+  const auto check = [](const char* key, const std::optional<std::string>& why)
+  {
+    if (why) throw std::runtime_error(mrpt::format("\"%s\" %s", key, why->c_str()));
+  };
+  if (!(std::abs(yaw) <= kLargestAngle))
+    throw std::runtime_error(mrpt::format("\"yaw\" is %g rad, which is absurd", yaw));
+  const mrpt::poses::CPose3D T_map_obj(center.x(), center.y(), center.z(), yaw, 0, 0);
+  check("center", whyNoPose(T_map_obj));
+  check("size", whyNoSize(size));
+  return Ellipsoid(T_map_obj, 0.5 * size);
+}
+
 MapEdit editFrom(const Json& json)
 {
   MapEdit edit;
@@ -47,10 +67,7 @@ MapEdit editFrom(const Json& json)
   else if (op == "place")
   {
     edit.kind = MapEdit::Kind::Place;
-    const Eigen::Vector3d center = vectorFrom(json, "center");
-    const mrpt::poses::CPose3D T_map_obj(
-        center.x(), center.y(), center.z(), json.at("yaw").get<double>(), 0, 0);
-    edit.object = Ellipsoid(T_map_obj, 0.5 * vectorFrom(json, "size"));
+    edit.object = placeFrom(json);
   }
   else if (op != "remove")
     throw std::runtime_error("\"op\" must be relabel, merge, remove or place");

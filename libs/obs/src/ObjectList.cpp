@@ -9,14 +9,12 @@
 
 #include "quadmap/base/Json.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
 namespace
 {
-/** Largest deviation of a stored matrix from a rotation [-]. */
-constexpr double kRotationTolerance = 1e-3;
-
 const char* const kFormat = "quadmap-objects";
 constexpr int kVersion = 1;
 
@@ -34,6 +32,22 @@ double readFinite(const Json& value, const char* key)
   const double number = value.is_number() ? value.get<double>() : NAN;
   if (!std::isfinite(number)) reject(std::string("\"") + key + "\" must be of finite numbers");
   return number;
+}
+
+double readTime(const Json& value, const char* key)
+{
+  const double time = readFinite(value, key);
+  if (!(std::abs(time) <= kLatestTime))
+    reject(std::string("\"") + key + "\" is no time in seconds: " + jsonText(value));
+  return time;
+}
+
+double readProbability(const Json& value, const char* key)
+{
+  const double probability = readFinite(value, key);
+  if (!(probability >= 0 && probability <= 1))
+    reject(std::string("\"") + key + "\" is " + jsonText(value) + ", and not in [0, 1]");
+  return probability;
 }
 
 unsigned readCount(const Json& value, const char* key)
@@ -81,8 +95,7 @@ std::string readId(const Json& value)
 Eigen::Matrix3d readRotation(const Json& value)
 {
   const Eigen::Matrix3d r = readMatrix<3, 3>(value, "rotation");
-  const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kRotationTolerance) || r.determinant() < 0)
+  if (!isRotation(r))
     reject("\"rotation\" is not a rotation: its columns must be orthonormal and right-handed");
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
@@ -93,12 +106,14 @@ Ellipsoid readEllipsoid(const Json& object, bool orientationDefined)
   const Eigen::Vector3d center = readMatrix<3, 1>(require(object, "center"), "center");
   const Eigen::Vector3d size = readMatrix<3, 1>(require(object, "size"), "size");
   if (!(size.minCoeff() > 0)) reject("\"size\" must be > 0");
+  if (const auto why = whyNoSize(size)) reject("\"size\" " + *why);
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   if (orientationDefined || object.contains("rotation"))
     rotation = readRotation(require(object, "rotation"));
   const mrpt::math::CMatrixDouble33 r(rotation);
   const auto pose = mrpt::poses::CPose3D::FromRotationAndTranslation(
       r, mrpt::math::TPoint3D(center.x(), center.y(), center.z()));
+  if (const auto why = whyNoPose(pose)) reject("\"center\" " + *why);
   return Ellipsoid(pose, 0.5 * size);
 }
 
@@ -119,14 +134,15 @@ ObjectRecord readRecord(const Json& object)
   record.object = readEllipsoid(object, record.orientationDefined);
   if (object.contains("frames_visible"))
     record.framesVisible = readCount(object["frames_visible"], "frames_visible");
-  if (object.contains("from")) record.from = readFinite(object["from"], "from");
-  if (object.contains("to")) record.to = readFinite(object["to"], "to");
+  if (object.contains("from")) record.from = readTime(object["from"], "from");
+  if (object.contains("to")) record.to = readTime(object["to"], "to");
   if (object.contains("observations"))
     record.observations = readCount(object["observations"], "observations");
-  if (object.contains("existence")) record.existence = readFinite(object["existence"], "existence");
+  if (object.contains("existence"))
+    record.existence = readProbability(object["existence"], "existence");
   if (object.contains("first_seen"))
-    record.firstSeen = readFinite(object["first_seen"], "first_seen");
-  if (object.contains("last_seen")) record.lastSeen = readFinite(object["last_seen"], "last_seen");
+    record.firstSeen = readTime(object["first_seen"], "first_seen");
+  if (object.contains("last_seen")) record.lastSeen = readTime(object["last_seen"], "last_seen");
   if (object.contains("label_counts"))
   {
     const Json& counts = object["label_counts"];
