@@ -75,6 +75,14 @@ TEST(CameraSource, KeepsTheNewestFramesOfACameraAndCountsTheOthers)
   EXPECT_NE(camera.lossSummary().find("46 frames skipped"), std::string::npos);
 }
 
+TEST(CameraSource, RefusesACalibrationThatNoReaderTakes)
+{
+  auto device = deviceWith(1, false);
+  device->setFocalLength(1e-5);
+  const auto error = errorOf([&] { CameraSource("x.oni", std::move(device), CameraOptions()); });
+  EXPECT_EQ(error.find("x.oni has an absurd calibration (focal length 1e-05"), 0u) << error;
+}
+
 TEST(CameraSource, TellsWhatNeverCame)
 {
   auto device = std::make_unique<FakeDevice>(false);

@@ -40,6 +40,11 @@ class FakeDevice : public RgbdDevice
     description_.color = description_.depth;
   }
 
+  void setFocalLength(double pixels)
+  {
+    description_.depth.setIntrinsicParamsFromValues(pixels, pixels, 1.5, 1);
+  }
+
   /** Puts in a pair of images. */
   void addPair(int number)
   {

@@ -15,6 +15,7 @@
 #include "NewestQueue.h"
 #include "RgbdDevice.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/RgbdScan.h"
 
 namespace quadmap
@@ -48,6 +49,14 @@ CameraOptions checked(CameraOptions options)
   check(options);
   return options;
 }
+
+/** \exception std::runtime_error For a calibration that the readers of a rawlog would refuse. */
+DeviceDescription checked(DeviceDescription device, const std::string& name)
+{
+  for (const auto* camera : {&device.depth, &device.color})
+    if (const auto why = whyNoCalibration(*camera)) throw std::runtime_error(name + " " + *why);
+  return device;
+}
 }  // namespace
 
 void check(const CameraOptions& o)
@@ -76,7 +85,7 @@ struct CameraSource::Impl
   Impl(const std::string& n, std::unique_ptr<RgbdDevice> d, CameraOptions o) :
       name(n),
       device(std::move(d)),
-      camera(device->description()),
+      camera(checked(device->description(), n)),
       options(checked(std::move(o))),
       queue(options.mostWaiting),
       pairs_(std::min(options.maxPairDelay, 0.5 / camera.fps))

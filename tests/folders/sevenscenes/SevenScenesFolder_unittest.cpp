@@ -120,17 +120,18 @@ TEST_F(SevenScenes, RefusesMatricesThatAreNoPoses)
   expect("1 0 0 0\n0 1 0 0\n0 0 1 0\n", ": expected 4 lines, got 3");
   expect("1 0 0 0\n0 1 0 0\n0 0 1\n0 0 0 1\n", ":3: expected 4 columns, got 3");
   expect("2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", ": is no rigid transformation");
+  expect("1 0 0 1e300\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", ": is 1e+300 m away");
   expect("1 0 0 x\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", ":1: 'x' is not a number");
 }
 
 TEST_F(SevenScenes, TakesTheDepthCameraFromACalibration)
 {
-  files_.write(
-      "calibration.yaml",
+  const std::string calibration =
       "%YAML:1.0\n---\nfx: 525.\nfy: 525.\ncx: 320.\ncy: 240.\nwidth: 640\nheight: 480\n"
       "depth_factor: 5000.\ndepth_raw_fx: 580.\ndepth_raw_fy: 580.\ndepth_raw_cx: 320.\n"
       "depth_raw_cy: 240.\nT_color_depth: !!opencv-matrix\n   data: [ 1, 0, 0, -0.1, 0, 1, 0, 0,\n"
-      "       0, 0, 1, 0, 0, 0, 0, 1 ]\n");
+      "       0, 0, 1, 0, 0, 0, 0, 1 ]\n";
+  files_.write("calibration.yaml", calibration);
   const FrameFolder sequence = openFrameFolder("7scenes", folder());
   ASSERT_TRUE(sequence.camera().depth);
   EXPECT_NEAR(sequence.camera().depth->T_color_depth.x(), -0.1, 1e-12);
@@ -140,6 +141,16 @@ TEST_F(SevenScenes, TakesTheDepthCameraFromACalibration)
   // The wall's left edge at column 320 is at x = 0, hence 0.1 m to the left of the colour camera.
   EXPECT_EQ(scan->rangeImage(240, 320 - 27), 0);
   EXPECT_NE(scan->rangeImage(240, 320 - 26), 0);
+
+  const auto expectError = [&](const std::string& good, const std::string& bad, const char* what)
+  {
+    std::string text = calibration;
+    files_.write("calibration.yaml", text.replace(text.find(good), good.size(), bad));
+    const auto error = errorOf([&] { openFrameFolder("7scenes", folder()); });
+    EXPECT_NE(error.find(what), std::string::npos) << error;
+  };
+  expectError("-0.1", "1e300", "calibration.yaml: the depth camera is 1e+300 m away");
+  expectError("580.", "1e-5", "calibration.yaml: the depth camera has an absurd calibration");
 }
 
 TEST(SevenScenesDownload, AgreesWithTheKitchensRegisteredDepth)

@@ -263,6 +263,11 @@ TEST(TumFolder, RejectsBadCalibrations)
   expect(withValue("depth_factor", "-1"), "depth_factor=-1: must be > 0");
   expect(withValue("depth_factor", "1e-300"), "depth_factor=1e-300: must be in [1, 1e+07]");
   expect(withValue("depth_factor", "1e300"), "depth_factor=1e+300: must be in [1, 1e+07]");
+  const std::string absurd = "has an absurd calibration",
+                    calibration = SampleRecording::kCalibration;
+  for (const std::string key : {"fx", "fy", "cx", "cy"}) expect(withValue(key, "1e300"), absurd);
+  expect(withValue("fx", "1e-5"), absurd + " (focal length 1e-05, centre 31.5 in images 64 px");
+  expect("k1: 1e300\n" + calibration, absurd + " (a coefficient of distortion is 1e+300)");
   auto up = std::string(SampleRecording::kCalibration);
   up.replace(up.find("0., -1., 0."), 11, "0., 0., 0.");
   expect(up, "'world_up' must be a finite direction");

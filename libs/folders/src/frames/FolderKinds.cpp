@@ -9,6 +9,7 @@
 #include "icl/IclFolder.h"
 #include "pcd/PcdFolder.h"
 #include "quadmap/base/InsideFolder.h"
+#include "quadmap/obs/Plausible.h"
 #include "scannet/ScanNetFolder.h"
 #include "sevenscenes/SevenScenesFolder.h"
 #include "tum/TumFiles.h"
@@ -59,6 +60,32 @@ void check(const FrameFolderOptions& o)
   if (!(o.maxPoseGap > 0))
     throw std::invalid_argument(mrpt::format("maxPoseGap=%g: must be > 0 s", o.maxPoseGap));
 }
+/** \exception std::runtime_error For a calibration that the readers of a rawlog would refuse. */
+void requireCamera(const FolderContent& content)
+{
+  const FolderCamera& camera = content.camera;
+  const auto require = [&](const std::optional<std::string>& why, const char* what)
+  {
+    if (why) throw std::runtime_error(content.folder + ": " + camera.origin + ": " + what + *why);
+  };
+  require(whyNoCalibration(camera.color), "");
+  if (!camera.depth) return;
+  require(whyNoCalibration(camera.depth->camera), "the depth camera ");
+  require(whyNoPose(camera.depth->T_color_depth, kFarthestOnRobot), "the depth camera ");
+}
+
+/** Replaces the poses that the readers of a rawlog would refuse by what is wrong with them. */
+void removeImplausiblePoses(FolderContent& content)
+{
+  for (auto& frame : content.frames)
+  {
+    if (!frame.T_world_optical) continue;
+    const auto why = whyNoPose(*frame.T_world_optical);
+    if (!why) continue;
+    frame.poseProblem = frame.listed + ": its pose " + *why;
+    frame.T_world_optical.reset();
+  }
+}
 }  // namespace
 
 std::vector<std::string> folderKinds()
@@ -89,6 +116,8 @@ FrameFolder openFrameFolder(
   FolderContent content = reader.read(folder, options);
   requireOwnImages(content);
   content.kind = kind;
+  requireCamera(content);
+  removeImplausiblePoses(content);
   return FrameFolder(std::move(content), options);
 }
 

@@ -10,6 +10,7 @@
 
 #include "frames/ResizedCamera.h"
 #include "frames/RigidMatrix.h"
+#include "quadmap/obs/Plausible.h"
 #include "quadmap/obs/Trajectory.h"
 #include "text/TextLines.h"
 #include "tum/TumFiles.h"
@@ -158,7 +159,9 @@ std::optional<mrpt::poses::CPose3D> readMatrixPose(const std::string& path)
   const Eigen::Matrix4d matrix = readMatrix(path);
   if (!matrix.allFinite() || matrix.isZero(0)) return std::nullopt;
   if (!isRigid(matrix)) throw std::runtime_error(path + ": is no rigid transformation");
-  return poseOf(matrix);
+  const auto pose = poseOf(matrix);
+  if (const auto why = whyNoPose(pose)) throw std::runtime_error(path + ": " + *why);
+  return pose;
 }
 
 void takeMatrixPose(FolderFrame& frame, const std::string& path)
