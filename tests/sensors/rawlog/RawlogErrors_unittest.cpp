@@ -475,6 +475,8 @@ TEST(RawlogErrors, ExternalImagesOutsideTheFolder)
     expectProblem(file, {"x.rawlog: record 0 (camera): ", name, "lies outside"}, 0);
     EXPECT_EQ(readAll(file, anywhere).size(), 1u);
   }
+  const auto withZero = named(std::string("own.jpg\0x", 9));
+  expectProblem(withZero, {"external image own.jpg?x has a zero byte in its name"}, 0);
 }
 
 TEST(RawlogErrors, AnImageFolderThatIsALinkOutOfTheRawlogsFolderIsRefused)

@@ -27,6 +27,9 @@ using mrpt::obs::CObservation3DRangeScan;
  * be it by name or by a link, which the image folder may be itself. */
 std::string pathOf(const std::string& name, const ImageRules& rules)
 {
+  if (name.find('\0') != std::string::npos)
+    throw std::runtime_error(
+        "its external image " + oneLine(name) + " has a zero byte in its name");
   const fs::path path = fs::path(rules.folder) / name;  // an absolute name stays as it is
   if (!rules.imagesAnywhere)
     for (const std::string& folder : {rules.folder, rules.rawlogFolder})
