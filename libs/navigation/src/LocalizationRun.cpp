@@ -120,7 +120,8 @@ class LocalizationRun
   {
     ++result_.frames;
     const auto T_odom_robot = odometry_.poseOf(frame);
-    for (const auto& text : odometry_.takeWarnings()) request_.onWarning(text);
+    for (const auto& text : odometry_.takeWarnings())
+      request_.onWarning(request_.rawlog + ": " + text);
     if (!T_odom_robot)
     {
       ++result_.framesWithoutPose;

@@ -373,7 +373,9 @@ TEST_F(RawlogRun, FramesWithoutDepthAreCounted)
   const auto summary = runOnRawlog(requestFor(writeObjects(folder_.path("x.rawlog"), records)));
   EXPECT_EQ(report()["input"]["keyframes_without_depth"], 2);
   ASSERT_EQ(summary.result.warnings.size(), 1u);
-  EXPECT_EQ(summary.result.warnings[0], "2 of 6 keyframes have no valid depth at all");
+  EXPECT_EQ(
+      summary.result.warnings[0],
+      folder_.path("x.rawlog") + ": 2 of 6 keyframes have no valid depth at all");
 }
 
 TEST_F(RawlogRun, TruncatedFileIsAnErrorOrShortened)

@@ -96,7 +96,7 @@ std::optional<CPose3D> ObjectSlam::poseOf(const RgbdFrame& frame)
   }
   if (result_.counts().frames == 1) tellOdometry(frame);
   result_.odometry.visual = odometry_.visualCounts();
-  for (const auto& text : odometry_.takeWarnings()) warn(text);
+  for (const auto& text : odometry_.takeWarnings()) warnOfInput(text);
   return T_odom_robot;
 }
 
@@ -144,7 +144,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier)
   if (missing > 0 && missing == result_.counts().frames)
     placeFramesWithoutPose();
   else if (missing > 0 && odometry_.source() != PoseSource::Graph)  // a graph only has keyframes
-    warn(mrpt::format(
+    warnOfInput(mrpt::format(
         "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
   settle();
   requireInstanceIds();
@@ -181,7 +181,7 @@ void ObjectSlam::placeFramesWithoutPose()
   const auto& frames = moment_.frames();
   if (frames.empty() || configuration_.slam.odometry != PoseSource::Auto)
     throw std::runtime_error(odometry_.whyNoPoses());
-  warn(
+  warnOfInput(
       frames.size() == 1
           ? "no odometry, but a single image: its robot pose is the origin of the map"
           : "no odometry, but images of a single moment: the robot pose is the origin of the map");
@@ -216,7 +216,7 @@ void ObjectSlam::warnOfMissingDepth()
   const bool several = result_.countsBySensor.size() > 1;
   for (const auto& [sensor, counts] : result_.countsBySensor)
     if (counts.keyframesWithoutDepth > 0)
-      warn(mrpt::format(
+      warnOfInput(mrpt::format(
           "%zu of %zu keyframes%s have no valid depth at all", counts.keyframesWithoutDepth,
           counts.keyframes, several ? (" of " + sensor).c_str() : ""));
 }
@@ -225,7 +225,7 @@ void ObjectSlam::warnOfDroppedFloors()
 {
   result_.droppedFloors = perception_.room().droppedFloors();
   if (result_.droppedFloors > 0)
-    warn(mrpt::format(
+    warnOfInput(mrpt::format(
         "what was taken for the floor was given up %zu times, because more keyframes showed things "
         "below it than had shown it",
         result_.droppedFloors));
@@ -244,7 +244,7 @@ void ObjectSlam::warnOfNoisyOdometry()
   if (!result_.correction) return;
   const StepNoise& noise = result_.correction->stepNoise;
   if (std::max(noise.position, noise.angle) >= kNotable)
-    warn(mrpt::format(
+    warnOfInput(mrpt::format(
         "the odometry errs by more than it claims: positions by %.1f and angles by %.1f times as "
         "much; it was trusted so much less",
         noise.position, noise.angle));
@@ -254,7 +254,13 @@ void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)
 {
   for (const auto& object : boxes.objects)
     if (!labels_.properties(object.label).known && unknownLabels_.insert(object.label).second)
-      warn("label \"" + object.label + "\" is not in the label table: neutral properties are used");
+      warnOfInput(
+          "label \"" + object.label + "\" is not in the label table: neutral properties are used");
+}
+
+void ObjectSlam::warnOfInput(const std::string& text)
+{
+  warn(inputName_.empty() ? text : inputName_ + ": " + text);
 }
 
 void ObjectSlam::warn(const std::string& text)

@@ -58,6 +58,10 @@ class ObjectSlam : public mrpt::system::COutputLogger
       const OdometrySurvey& survey = {},
       bool keepGoing = false);
 
+  /** \param name Of the recording or camera that the frames are from; it begins the warnings about
+   * them. */
+  void setInputName(const std::string& name) { inputName_ = name; }
+
   /** Takes the next frame.
    *  \exception BadFrame If this frame or one before cannot be used. The run cannot go on then.
    *  \exception std::runtime_error For other errors, such as a full disk. It cannot go on either.
@@ -90,7 +94,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   const std::vector<BadFrame>& badFrames() const { return badFrames_; }
   ModuleTimes& times() { return times_; }
 
-  /** Logs a warning and keeps it for the report. */
+  /** Logs a warning and keeps it for the report. It names what it is about. */
   void warn(const std::string& text);
 
  private:
@@ -99,6 +103,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void addPosedFrame(const RgbdFrame& frame, const mrpt::poses::CPose3D& T_odom_robot);
   void placeFramesWithoutPose();
   void continueFrom(const CQuadricObjectMap& map);
+  void warnOfInput(const std::string& text);
   void warnOfMissingDepth();
   void warnOfDroppedFloors();
   void warnOfNoisyOdometry();
@@ -126,6 +131,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   OdometryInput odometry_;
   SingleMoment moment_;
   std::set<std::string> unknownLabels_;
+  std::string inputName_;
   bool anyInstanceId_ = false;  //!< Some box so far has one
   DetectionStage detection_;
   PerceptionStage perception_;

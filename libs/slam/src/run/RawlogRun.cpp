@@ -49,6 +49,7 @@ class RawlogRun
         {
           if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
         });
+    slam_.setInputName(request.rawlog);
     const std::string warning = survey_.warning(request.rawlog);
     if (!warning.empty()) slam_.warn(warning);
     if (request.isLive) slam_.keepUp();
