@@ -125,6 +125,28 @@ TEST_F(SimpleMapFile, TruncatedIsReportedWithItsKeyframe)
   EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 
+TEST_F(SimpleMapFile, PosesThatAreNoneAreReported)
+{
+  const auto errorWith = [&](const CPose3D& T_map_robot, const CPose3D& T_robot_sensor)
+  {
+    mrpt::maps::CSimpleMap map;
+    const auto scan = scanOfWall();
+    scan->sensorPose = T_robot_sensor;
+    addKeyframe(map, T_map_robot, scan);
+    EXPECT_TRUE(map.saveToFile(path_));
+    SceneContent content;
+    return errorOf([&] { addKeyframes(path_, {}, content); });
+  };
+  CPose3D mirrored;
+  const Eigen::Vector3d mirror(-1, 1, 1);
+  mirrored.setRotationMatrix(mrpt::math::CMatrixDouble33(Eigen::Matrix3d(mirror.asDiagonal())));
+  EXPECT_EQ(errorWith({}, {}), "");
+  EXPECT_EQ(
+      errorWith(CPose3D(0, 1e300, 0, 0, 0, 0), {}),
+      path_ + ": keyframe 1 of 1: its pose is 1e+300 m away, which is absurd");
+  EXPECT_NE(errorWith({}, mirrored).find("has no rotation"), std::string::npos);
+}
+
 TEST_F(SimpleMapFile, OtherFilesAreReported)
 {
   const std::string missing = folder_.path("nothing.simplemap");

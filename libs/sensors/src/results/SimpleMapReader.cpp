@@ -1,6 +1,7 @@
 #include "quadmap/sensors/SimpleMapReader.h"
 
 #include <mrpt/core/format.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/poses/registerAllClasses.h>
 #include <mrpt/serialization/CArchive.h>
@@ -9,6 +10,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ArchiveFields.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -30,6 +32,18 @@ bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
   readBytes(archive, name.data(), name.size());
   constexpr std::uint8_t kVersion = 1;  // since MRPT 0.9: a count, then pairs of pose and frame
   return name == expected && readScalar<std::uint8_t>(archive) == kVersion;
+}
+
+/** Why the pose of a keyframe, or of a camera in it, cannot be one. */
+std::optional<std::string> whyNoKeyframe(const SimpleMapReader::Keyframe& keyframe)
+{
+  if (const auto why = whyNoPose(keyframe.pose->getMeanVal())) return "its pose " + *why;
+  for (const auto& observation : *keyframe.observations)
+    if (const auto scan =
+            std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation))
+      if (const auto why = whyNoPose(scan->sensorPose, kFarthestOnRobot))
+        return "the sensorPose of " + scan->sensorLabel + " " + *why;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -62,20 +76,21 @@ std::optional<SimpleMapReader::Keyframe> SimpleMapReader::next()
     return std::nullopt;
   }
   ++read_;
+  const std::string place = mrpt::format("%s: keyframe %zu of %zu", path_.c_str(), read_, size_);
+  Keyframe keyframe;
   try
   {
     file_.startRecord();
-    Keyframe keyframe;
     keyframe.pose = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDF>(records_.next());
     keyframe.observations = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(records_.next());
-    if (keyframe.pose && keyframe.observations) return keyframe;
   }
   catch (const std::exception&)  // its text is about the inside of the archive
   {
   }
-  throw std::runtime_error(mrpt::format(
-      "%s: keyframe %zu of %zu cannot be read: the file is truncated or damaged", path_.c_str(),
-      read_, size_));
+  if (!keyframe.pose || !keyframe.observations)
+    throw std::runtime_error(place + " cannot be read: the file is truncated or damaged");
+  if (const auto why = whyNoKeyframe(keyframe)) throw std::runtime_error(place + ": " + *why);
+  return keyframe;
 }
 
 void SimpleMapReader::requireEnd()
