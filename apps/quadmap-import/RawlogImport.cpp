@@ -10,15 +10,17 @@
 #include "FolderSummary.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/obs/Trajectory.h"
+#include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
 
 namespace quadmap
 {
 namespace
 {
-RawlogSourceOptions readingOptions(bool keepGoing)
+RawlogSourceOptions readingOptions(const std::string& rawlog, bool keepGoing)
 {
   RawlogSourceOptions options;
+  options.odometryKind = bestOdometryKind(rawlog, options);
   options.pixelLabelClasses = LabelTable::installed();
   options.keepGoing = keepGoing;
   return options;
@@ -37,7 +39,7 @@ struct SensorContent
 struct RawlogContent
 {
   std::map<std::string, SensorContent> sensors;
-  std::string odometryKind;
+  std::string odometryKind;    //!< Empty when it has no odometry, be it of use or not
   double first = 0, last = 0;  //!< Times [s]
   std::size_t frames = 0;
   bool boxesOfPixels = false;
@@ -59,7 +61,6 @@ struct RawlogContent
     sensor.withoutColor += scan.hasIntensityImage ? 0 : 1;
     sensor.withoutDepth += scan.hasRangeImage && scan.rangeImage.asEigen().any() ? 0 : 1;
     boxesOfPixels = boxesOfPixels || frame.objectsFromPixelLabels;
-    if (frame.T_odom_robot) odometryKind = frame.odometryKind;
   }
 
   std::size_t sum(std::size_t SensorContent::*member) const
@@ -87,7 +88,7 @@ std::string posesText(const RawlogContent& content)
   const std::size_t odometry = content.sum(&SensorContent::withOdometry),
                     truth = content.sum(&SensorContent::withTruth);
   std::string text = "  poses: ";
-  if (odometry == 0)
+  if (content.odometryKind.empty())
     text += "no odometry, so that quadmap-slam takes them from the images of one sensor";
   else
     text += mrpt::format("odometry for %zu frames (%s)", odometry, content.odometryKind.c_str());
@@ -114,8 +115,7 @@ void addProblems(const RawlogContent& content, FolderProblems& problems)
   {
     add("no colour", label, sensor.withoutColor);
     add("no depth", label, sensor.withoutDepth);
-    if (content.sum(&SensorContent::withOdometry) > 0)
-      add("no pose", label, sensor.frames - sensor.withOdometry);
+    if (!content.odometryKind.empty()) add("no pose", label, sensor.frames - sensor.withOdometry);
   }
 }
 
@@ -155,7 +155,7 @@ FolderImportReport importRawlog(
     RawlogWriter& writer,
     const ProgressCallback& progress)
 {
-  RawlogSource source(rawlog, readingOptions(options.keepGoing));
+  RawlogSource source(rawlog, readingOptions(rawlog, options.keepGoing));
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty()) trajectory = readTumTrajectory(options.trajectory);
   FolderImportReport report;
@@ -167,6 +167,7 @@ FolderImportReport importRawlog(
     writeFrame(*frame, odometryOf(*frame, trajectory), options, writer, report);
   }
   progress(1.0);
+  report.hasOdometry = !source.odometryKind().empty();
   for (const auto& problem : source.problems()) report.dropped.push_back(problem.text());
   if (report.frames == 0)
     throw std::runtime_error(
@@ -176,7 +177,7 @@ FolderImportReport importRawlog(
 
 bool checkRawlog(const std::string& rawlog, std::ostream& out, const ProgressCallback& progress)
 {
-  RawlogSource source(rawlog, readingOptions(true));
+  RawlogSource source(rawlog, readingOptions(rawlog, true));
   RawlogContent content;
   while (const auto frame = source.next())
   {
@@ -184,6 +185,7 @@ bool checkRawlog(const std::string& rawlog, std::ostream& out, const ProgressCal
     content.add(*frame);
   }
   progress(1.0);
+  content.odometryKind = source.odometryKind();
   FolderProblems problems;
   for (const auto& problem : source.problems()) problems["record"].push_back(problem.text());
   if (content.frames == 0)

@@ -226,7 +226,7 @@ int importFromRawlog(Cli& cli)
   const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
   tellDropped(report);
   // A rawlog may have no poses at all, as a folder, but a trajectory is given for the sake of them.
-  const bool hasPoses = report.poses > 0 || cli.trajectory.isSet();
+  const bool hasPoses = report.poses > 0 || report.hasOdometry || cli.trajectory.isSet();
   if (options.posesAs != PosesAs::None && hasPoses)
     reportMissingPoses(cli.trajectory.isSet() ? options.trajectory : rawlog, report);
   writer.finish();

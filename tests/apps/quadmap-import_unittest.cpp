@@ -288,6 +288,39 @@ TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
   EXPECT_NE(result.err.find("start.tum"), kNotFound) << result.err;
 }
 
+TEST_F(QuadmapImport, TakesTheOdometryThatCoversTheFramesOfARawlog)
+{
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 8; ++i)
+  {
+    const mrpt::poses::CPose3D pose(0.1 * i, 0, 0, 0, 0, 0);
+    records.push_back(samplePose(kStart + 0.5 * i + 1.5, pose, "wheels"));
+    records.push_back(samplePose(kStart + 0.5 * i, pose));
+    records.push_back(sampleScan(kStart + 0.5 * i));
+  }
+  writeObjects(out_.path("x.rawlog"), records);
+  const auto check = run("rawlog OUT/x.rawlog --check");
+  EXPECT_NE(check.out.find("odometry for 8 frames (CObservationRobotPose odometry)"), kNotFound)
+      << check.out;
+  ASSERT_EQ(run("rawlog OUT/x.rawlog -o OUT/y.rawlog").status, 0);
+  const auto frames = readAll(out_.path("y.rawlog"));
+  ASSERT_EQ(frames.size(), 8u);
+  for (int i = 0; i < 8; ++i) EXPECT_NEAR(frames[i].T_odom_robot.value().x(), 0.1 * i, 1e-9);
+}
+
+TEST_F(QuadmapImport, TellsOfOdometryBehindTheFramesOfARawlog)
+{
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 8; ++i) records.push_back(sampleScan(kStart + 0.5 * i));
+  for (int i = 0; i < 8; ++i) records.push_back(samplePose(kStart + 0.5 * i, {}));
+  writeObjects(out_.path("x.rawlog"), records);
+  const auto result = run("rawlog OUT/x.rawlog -o OUT/y.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("of 8 frames have no pose in "), kNotFound) << result.err;
+  EXPECT_EQ(run("rawlog OUT/x.rawlog --check").status, 1) << "frames without a pose";
+}
+
 TEST_F(QuadmapImport, TakesEveryNthFrameAndOtherDetections)
 {
   const TemporaryFolder detections;

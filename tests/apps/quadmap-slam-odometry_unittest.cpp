@@ -166,6 +166,19 @@ TEST_F(EveryOdometry, OneThatIsSeldomThereIsNotTheBest)
   expectFound(records, kWheels);
 }
 
+TEST_F(EveryOdometry, BehindTheImagesIsNotReplacedSilently)
+{
+  Records records = observationLog(moments_, {});
+  for (const Moment& m : moments_) records.push_back(robotPose(m));
+  const auto result = run(records);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(reportedOdometry(), "visual odometry camera");
+  EXPECT_NE(
+      result.err.find("x.rawlog: CObservationRobotPose tracker starts behind the first images"),
+      kNotFound)
+      << result.err;
+}
+
 TEST_F(EveryOdometry, RandomModelsOfMotionGiveTheSameMapEveryTime)
 {
   const auto records = actionLog(moments_, thrunMove, {});

@@ -69,6 +69,67 @@ TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
   EXPECT_EQ(survey.warning("a.rawlog"), "");
 }
 
+TEST(OdometrySurvey, TheSourceThatCoversTheImagesBetterWinsInAnyOrder)
+{
+  const TemporaryFolder folder;
+  for (const bool isFirst : {true, false})
+  {
+    std::vector<mrpt::serialization::CSerializable::Ptr> records;
+    for (const auto& frame : homeFrames(15))
+    {
+      const auto good = samplePose(frame.time(), *frame.T_odom_robot);
+      const auto ahead = samplePose(frame.time() + 1.5, *frame.T_odom_robot, "wheels");
+      records.push_back(isFirst ? ahead : good);
+      records.push_back(isFirst ? good : ahead);
+      records.push_back(frame.scan);
+    }
+    const auto file = writeObjects(folder.path("x.rawlog"), records);
+    const auto survey = surveyOdometry(file, {}, PoseSource::Auto);
+    EXPECT_EQ(survey.odometryKind, "CObservationRobotPose odometry") << isFirst;
+    EXPECT_EQ(bestOdometryKind(file, {}), survey.odometryKind) << isFirst;
+  }
+}
+
+TEST(OdometrySurvey, OfEquallyGoodSourcesTheOrderOfRecordsChoosesNone)
+{
+  const TemporaryFolder folder;
+  for (const bool isFirst : {true, false})
+  {
+    std::vector<mrpt::serialization::CSerializable::Ptr> records;
+    for (const auto& frame : homeFrames(4))
+    {
+      records.push_back(samplePose(frame.time(), {}, isFirst ? "left" : "right"));
+      records.push_back(samplePose(frame.time(), {}, isFirst ? "right" : "left"));
+      records.push_back(frame.scan);
+    }
+    const auto file = writeObjects(folder.path("x.rawlog"), records);
+    EXPECT_EQ(bestOdometryKind(file, {}), "CObservationRobotPose left") << isFirst;
+  }
+}
+
+TEST(OdometrySurvey, TellsOfOdometryBehindTheImages)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> records, poses;
+  for (const auto& frame : homeFrames(30))
+  {
+    records.push_back(frame.scan);
+    poses.push_back(samplePose(frame.time(), *frame.T_odom_robot));
+  }
+  records.insert(records.end(), poses.begin(), poses.end());
+  const auto file = writeObjects(folder.path("x.rawlog"), records);
+  const auto survey = surveyOdometry(file, {}, PoseSource::Auto);
+  EXPECT_EQ(survey.source, PoseSource::Visual);
+  EXPECT_EQ(survey.warning("a.rawlog"), "") << "not known yet";
+  EXPECT_EQ(
+      survey.warningOfLateOdometry("a.rawlog", "CObservationRobotPose odometry"),
+      "a.rawlog: CObservationRobotPose odometry starts behind the first images, and visual "
+      "odometry replaced it: records must be in the order of their times");
+  EXPECT_EQ(survey.warningOfLateOdometry("a.rawlog", ""), "");
+  const auto asked = surveyOdometry(file, {}, PoseSource::Visual);
+  EXPECT_EQ(asked.warningOfLateOdometry("a.rawlog", "CObservationRobotPose odometry"), "");
+}
+
 TEST(OdometrySurvey, TellsOfOdometryThatFitsNoImage)
 {
   const TemporaryFolder folder;

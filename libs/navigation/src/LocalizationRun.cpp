@@ -109,6 +109,8 @@ class LocalizationRun
       add(*frame);
     }
     for (const auto& problem : source_.problems()) result_.dropped.push_back(problem.text());
+    const std::string late = survey_.warningOfLateOdometry(request_.rawlog, source_.odometryKind());
+    if (!late.empty()) request_.onWarning(late);
     result_.odometry = odometryText();
     if (!result_.interrupted) requireContent();
     return std::move(result_);

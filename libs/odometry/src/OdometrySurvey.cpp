@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "quadmap/odometry/SingleMoment.h"
 #include "quadmap/odometry/VisualOdometry.h"
@@ -97,24 +98,42 @@ std::size_t posedImages(const std::string& rawlog, const RawlogSourceOptions& op
   return posed;
 }
 
-/** The best of several kinds, and of equal ones the first. It is empty when there are not several,
- * or when none of them gives poses. */
+/** A kind of odometry, and the number of the first images that have a pose by it. */
+struct KindCoverage
+{
+  std::string kind;
+  std::size_t posed;
+};
+
+/** Whether a is better than b. The order of their records says nothing, so names decide at last. */
+bool isBetter(const KindCoverage& a, const KindCoverage& b)
+{
+  const int rankA = rankOf(a.kind), rankB = rankOf(b.kind);
+  return std::tie(rankB, b.posed, a.kind) < std::tie(rankA, a.posed, b.kind);
+}
+
+/** The best of several kinds. It is empty when there are not several, or when none of them gives
+ * poses. */
 std::string bestKind(
     const std::vector<std::string>& kinds, const std::string& rawlog, RawlogSourceOptions options)
 {
+  // An image that comes just before the first pose does not tell which odometry is better.
+  constexpr std::size_t kMostBehind = 1;
   if (kinds.size() < 2) return {};
-  std::vector<std::size_t> posed;
+  std::vector<KindCoverage> candidates;
+  std::size_t most = 0;
   for (const auto& kind : kinds)
   {
     options.odometryKind = kind;
-    posed.push_back(posedImages(rawlog, options));
+    candidates.push_back({kind, posedImages(rawlog, options)});
+    most = std::max(most, candidates.back().posed);
   }
-  const std::size_t most = *std::max_element(posed.begin(), posed.end());
-  std::string best;
-  if (most == 0) return best;
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    if (2 * posed[i] >= most && (best.empty() || rankOf(kinds[i]) > rankOf(best))) best = kinds[i];
-  return best;
+  const auto coversFewer = [&](const KindCoverage& c)
+  { return c.posed == 0 || c.posed + kMostBehind < most; };
+  candidates.erase(
+      std::remove_if(candidates.begin(), candidates.end(), coversFewer), candidates.end());
+  if (candidates.empty()) return {};
+  return std::min_element(candidates.begin(), candidates.end(), isBetter)->kind;
 }
 
 }  // namespace
@@ -125,6 +144,15 @@ std::string OdometrySurvey::warning(const std::string& rawlog) const
   return rawlog + ": " + uselessKind +
          " has no pose at the times of the first images (is a clock wrong?): visual odometry "
          "replaces it";
+}
+
+std::string OdometrySurvey::warningOfLateOdometry(
+    const std::string& rawlog, const std::string& kind) const
+{
+  if (!foundNone || kind.empty()) return {};
+  return rawlog + ": " + kind +
+         " starts behind the first images, and visual odometry replaced it: records must be in the "
+         "order of their times";
 }
 
 std::optional<Eigen::Vector3d> upOfFloor(
@@ -162,6 +190,23 @@ std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d
   return best;
 }
 
+std::string bestOdometryKind(const std::string& rawlog, RawlogSourceOptions options)
+{
+  options.keepGoing = true;
+  options.readBoxes = false;
+  try
+  {
+    RawlogSource source(rawlog, options);
+    source.logging_enable_console_output = false;
+    for (std::size_t i = 0; i < kFrames && source.next(); ++i) continue;
+    return bestKind(source.odometryKinds(), rawlog, options);
+  }
+  catch (const std::exception&)
+  {
+    return {};  // whoever reads the rawlog meets the same error and reports it
+  }
+}
+
 OdometrySurvey surveyOdometry(
     const std::string& rawlog,
     RawlogSourceOptions options,
@@ -195,8 +240,8 @@ OdometrySurvey surveyOdometry(
     if (wanted == PoseSource::Rawlog || hasOdometry) return survey;
     if (wanted == PoseSource::Auto && moment.isPossible()) return survey;
     survey.source = PoseSource::Visual;
-    if (usesOdometry && !source.odometryKinds().empty())
-      survey.uselessKind = source.odometryKinds().front();
+    survey.foundNone = usesOdometry && source.odometryKinds().empty();
+    if (usesOdometry && !survey.foundNone) survey.uselessKind = source.odometryKinds().front();
   }
   catch (const std::exception&)
   {

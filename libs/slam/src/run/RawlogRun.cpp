@@ -61,6 +61,9 @@ class RawlogRun
     const bool interrupted = addAllFrames() || source_->failure();
     const std::string losses = source_->lossSummary();
     if (!losses.empty()) slam_.warn(request_.rawlog + ": " + losses);
+    const std::string late =
+        survey_.warningOfLateOdometry(request_.rawlog, source_->odometryKind());
+    if (!late.empty()) slam_.warn(late);
     requireContent(interrupted);
     request_.onClosing();
     finish();
