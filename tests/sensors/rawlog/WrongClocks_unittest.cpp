@@ -71,6 +71,71 @@ TEST(WrongClocks, ASecondSourceAheadLosesNothing)
   }
 }
 
+TEST(WrongClocks, OneRecordAnHourAheadIsDroppedAlone)
+{
+  const TemporaryFolder folder;
+  const auto truthAt = [](int i, double ahead)
+  { return samplePose(timeOf(i) + ahead, CPose3D(0.1 * i, 0, 0, 0, 0, 0), "ground_truth"); };
+  for (const std::string kind : {"odometry", "ground_truth", "camera"})
+    for (const int bad : {0, 40})
+    {
+      SCOPED_TRACE(kind + " " + std::to_string(bad));
+      Objects records;
+      std::size_t badRecord = 0;
+      for (int i = 0; i <= kDriveFrames; ++i)
+      {
+        const auto ahead = [&](const std::string& of)
+        {
+          if (of != kind || i != bad) return 0.0;
+          badRecord = records.size();
+          return 3600.0;
+        };
+        records.push_back(
+            samplePose(timeOf(i) + ahead("odometry"), CPose3D(0.1 * i, 0, 0, 0, 0, 0)));
+        records.push_back(truthAt(i, ahead("ground_truth")));
+        records.push_back(sampleScan(timeOf(i) + 0.03 + ahead("camera")));
+      }
+      const auto file = writeObjects(folder.path("x.rawlog"), records);
+      const std::string expected =
+          file + ": record " + std::to_string(badRecord) + " (" + kind +
+          "): the time is 3599.900000 s ahead of that of the next record of this sensor";
+      EXPECT_EQ(errorOf([&] { readAll(file); }), expected);
+
+      RawlogSourceOptions options;
+      options.keepGoing = true;
+      RawlogSource source(file, options);
+      const auto frames = readAll(source);
+      ASSERT_EQ(source.problems().size(), 1u);
+      EXPECT_EQ(source.problems()[0].text(), expected);
+      EXPECT_EQ(frames.size(), kDriveFrames + (kind == "camera" ? 0u : 1u));
+      std::size_t posed = 0, withTruth = 0;
+      for (const auto& frame : frames)
+      {
+        posed += frame.T_odom_robot ? 1 : 0;
+        withTruth += frame.T_world_robot ? 1 : 0;
+        if (!frame.T_odom_robot) continue;
+        EXPECT_NEAR(frame.T_odom_robot->x(), frame.time() - kStart, 1e-6);
+      }
+      // The last image has no pose behind it, and the first none before it when that one is bad.
+      const auto without = [&](const std::string& of) { return of == kind && bad == 0 ? 1u : 0u; };
+      const unsigned all = kDriveFrames - (kind == "camera" ? 1u : 0u);
+      EXPECT_EQ(posed, all - without("odometry"));
+      EXPECT_EQ(withTruth, all - without("ground_truth"));
+    }
+}
+
+TEST(WrongClocks, APauseIsNoWrongClock)
+{
+  Objects records;
+  for (int i = 0; i < 6; ++i)
+  {
+    const double time = kStart + 100 * i;
+    records.push_back(samplePose(time, CPose3D(100 * i, 0, 0, 0, 0, 0)));
+    records.push_back(sampleScan(time));
+  }
+  expectAllPoses(records, 6);
+}
+
 TEST(WrongClocks, AnotherCameraAheadKeepsItsImagesToItself)
 {
   const Objects records = drive(

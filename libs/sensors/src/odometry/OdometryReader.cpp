@@ -112,26 +112,23 @@ bool OdometryReader::accept(const std::string& kind)
   return false;
 }
 
-bool OdometryReader::read(const mrpt::obs::CObservation& observation)
+std::optional<StrayRecord> OdometryReader::read(
+    std::size_t record, const mrpt::obs::CObservation& observation)
 {
   using mrpt::obs::CObservationOdometry;
   using mrpt::obs::CObservationRobotPose;
   if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
   {
-    if (accept("CObservationOdometry " + odometry->sensorLabel))
-      odometry_.add(
-          secondsOf(*odometry), CPose3DPDFGaussian(mrpt::poses::CPose3D(odometry->odometry)));
-    return true;
+    if (!accept("CObservationOdometry " + odometry->sensorLabel)) return std::nullopt;
+    const CPose3DPDFGaussian pose(mrpt::poses::CPose3D(odometry->odometry));
+    return odometry_.add({secondsOf(*odometry), pose, record});
   }
-  if (const auto* pose = dynamic_cast<const CObservationRobotPose*>(&observation))
-  {
-    if (pose->sensorLabel == kGroundTruthLabel)
-      truth_.add(secondsOf(*pose), CPose3DPDFGaussian(pose->pose.mean));
-    else if (accept("CObservationRobotPose " + pose->sensorLabel))
-      odometry_.add(secondsOf(*pose), withUsableCovariance(pose->pose));
-    return true;
-  }
-  return false;
+  const auto* pose = dynamic_cast<const CObservationRobotPose*>(&observation);
+  if (!pose) return std::nullopt;
+  if (pose->sensorLabel == kGroundTruthLabel)
+    return truth_.add({secondsOf(*pose), CPose3DPDFGaussian(pose->pose.mean), record});
+  if (!accept("CObservationRobotPose " + pose->sensorLabel)) return std::nullopt;
+  return odometry_.add({secondsOf(*pose), withUsableCovariance(pose->pose), record});
 }
 
 void OdometryReader::read(const mrpt::obs::CActionCollection& actions)

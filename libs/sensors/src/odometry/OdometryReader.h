@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,9 +22,11 @@ class OdometryReader
   /** \param kind The kind to use; when it is empty, the first that appears. */
   explicit OdometryReader(std::string kind) : kind_(std::move(kind)) {}
 
-  /** \return False when the observation has nothing to do with poses.
-   *  \exception std::runtime_error If the pose is not finite or time goes backwards. */
-  bool read(const mrpt::obs::CObservation& observation);
+  /** Reads a record, which may have nothing to do with poses.
+   *  \param record Its index.
+   *  \return A record of the same source that has to be dropped, if there is one.
+   *  \exception std::runtime_error If the pose cannot be used or time goes backwards. */
+  std::optional<StrayRecord> read(std::size_t record, const mrpt::obs::CObservation& observation);
 
   /** Reads the motion of an action. Actions without a motion are legal. */
   void read(const mrpt::obs::CActionCollection& actions);

@@ -43,21 +43,18 @@ CPose3DPDFGaussian interpolate(
 }
 }  // namespace
 
-void PoseInterpolator::add(double time, const CPose3DPDFGaussian& pose)
+std::optional<StrayRecord> PoseInterpolator::add(const Stamped& next)
 {
-  if (const auto why = whyNoPose(pose.mean)) throw std::runtime_error("the pose " + *why);
-  if (!poses_.empty() && time < poses_.back().time)
-    throw std::runtime_error(
-        mrpt::format("the time goes back by %.6f s", poses_.back().time - time));
-  if (!poses_.empty() && time == poses_.back().time)
-    poses_.back().pose = pose;
+  if (const auto why = whyNoPose(next.pose.mean)) throw std::runtime_error("the pose " + *why);
+  if (const double back = clock_.stepBack(next.time); back > 0)
+    throw std::runtime_error(mrpt::format("the time goes back by %.6f s", back));
+  const auto stray = clock_.advance(next.time, next.record);
+  if (stray) poses_.pop_back();
+  if (!poses_.empty() && next.time == poses_.back().time)
+    poses_.back() = next;
   else
-    poses_.push_back({time, pose});
-}
-
-double PoseInterpolator::latest() const
-{
-  return poses_.empty() ? -std::numeric_limits<double>::infinity() : poses_.back().time;
+    poses_.push_back(next);
+  return stray;
 }
 
 bool PoseInterpolator::reaches(double time) const { return latest() >= time - kSameTime; }

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <mrpt/poses/CPose3D.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <cstddef>
 #include <deque>
 #include <optional>
+
+#include "odometry/RecordClock.h"
 
 namespace quadmap
 {
@@ -13,14 +14,24 @@ namespace quadmap
 class PoseInterpolator
 {
  public:
+  /** A pose of a file. */
+  struct Stamped
+  {
+    double time;                           //!< [s]
+    mrpt::poses::CPose3DPDFGaussian pose;  //!< Its covariance may be zero, which means unknown
+    std::size_t record;                    //!< Index in its file
+  };
+
   /** Adds the next pose.
-   *  \param time Time of the pose [s].
-   *  \param pose Its covariance may be zero, which means unknown.
-   *  \exception std::runtime_error If the pose is not finite, or earlier than the pose before. */
-  void add(double time, const mrpt::poses::CPose3DPDFGaussian& pose);
+   *  \return The pose before, if that one was a stray: see RecordClock. It is then forgotten.
+   *  \exception std::runtime_error If the pose cannot be used, or is earlier than the pose before
+   *  although that one is none. */
+  std::optional<StrayRecord> add(const Stamped& pose);
 
   bool empty() const { return poses_.empty(); }
-  double latest() const;  //!< Time of the last pose [s]; -infinity when there is none
+  /** Time up to which the trajectory is known [s]; -infinity before. The last pose does not count
+   * as long as it may be a stray. */
+  double latest() const { return clock_.latest(); }
   /** Whether the pose at this time [s] is known without any later pose. */
   bool reaches(double time) const;
 
@@ -34,11 +45,7 @@ class PoseInterpolator
   void forgetBefore(double time);
 
  private:
-  struct Stamped
-  {
-    double time;  // [s]
-    mrpt::poses::CPose3DPDFGaussian pose;
-  };
+  RecordClock clock_;
   std::deque<Stamped> poses_;  // in the order of time
 };
 

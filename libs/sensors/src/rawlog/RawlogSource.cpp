@@ -104,12 +104,12 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
  * own scans tell how far time has come. The clocks of all other records may be wrong. */
 bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
 {
-  if (pending_.size() > kMaxPending * lastScanTime_.size() || pendingPixels_ > kMaxPendingPixels)
+  if (pending_.size() > kMaxPending * clocks_.size() || pendingPixels_ > kMaxPendingPixels)
     return true;
   if (!posesAreKnown(pending)) return false;
   const double time = pending.frame.time();
   const std::string& sensor = pending.frame.scan->sensorLabel;
-  const double now = std::max(lastScanTime_.at(sensor), odometry.odometry().latest());
+  const double now = std::max(clocks_.at(sensor).latest(), odometry.odometry().latest());
   if (now > time + options.maxOdometryGap) return true;
   return now > time + options.maxBoxDelay && !boxes.mayStillCome(sensor, time);
 }
@@ -120,8 +120,8 @@ bool RawlogSource::Impl::posesAreKnown(const PendingFrame& pending) const
 {
   const double time = pending.frame.time();
   const PoseInterpolator &track = odometry.odometry(), &truth = odometry.truth();
-  const bool isLong =
-      lastScanTime_.at(pending.frame.scan->sensorLabel) > time + options.maxOdometryGap;
+  const double now = clocks_.at(pending.frame.scan->sensorLabel).latest();
+  const bool isLong = now > time + options.maxOdometryGap;
   const bool odometryKnown =
       odometry.countsActions() || track.reaches(time) || (track.empty() && isLong);
   return odometryKnown && (truth.empty() || truth.reaches(time) || isLong);
@@ -169,7 +169,7 @@ void RawlogSource::Impl::addPoses(PendingFrame& pending)
     const auto earlier = [](const PendingFrame& a, const PendingFrame& b)
     { return a.frame.time() < b.frame.time(); };
     const auto first = std::min_element(pending_.begin(), pending_.end(), earlier);
-    odometry.forgetBefore(first->frame.time() - kMaxScanDelay);
+    odometry.forgetBefore(std::min(time, first->frame.time()) - kMaxScanDelay);
   }
 }
 

@@ -50,7 +50,9 @@ struct RawlogSource::Impl
   bool readRecord();
   void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);
   void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
-  void addScan(std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
+  std::optional<StrayRecord> addScan(
+      std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
+  void dropPending(const StrayRecord& stray, const std::string& sensor);
   bool isReady(const PendingFrame& pending) const;
   bool posesAreKnown(const PendingFrame& pending) const;
   std::optional<RgbdFrame> complete(PendingFrame pending);
@@ -65,7 +67,7 @@ struct RawlogSource::Impl
   RawlogSource& log_;
   std::deque<PendingFrame> pending_;
   std::size_t pendingPixels_ = 0;               // of all waiting frames
-  std::map<std::string, double> lastScanTime_;  // time by sensor [s]
+  std::map<std::string, RecordClock> clocks_;   // of the scans of each sensor
   std::map<std::string, std::size_t> content_;  // number of records by class
   std::set<std::string> warned_;
   std::set<std::string> unknownPixelLabels_;

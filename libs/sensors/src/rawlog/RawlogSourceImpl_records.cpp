@@ -79,10 +79,11 @@ void RawlogSource::Impl::readObservation(
   const auto found = std::dynamic_pointer_cast<CObservationObjects>(observation);
   const std::string& label = observation->sensorLabel;
   ++content_[bareClassName(*observation) + (scan ? " \"" + label + "\"" : "")];
+  std::optional<StrayRecord> stray;
   try
   {
     if (scan)
-      addScan(record, scan);
+      stray = addScan(record, scan);
     else if (found && !options.readBoxes)
       return;
     else if (found && !boxes.hasSidecar())
@@ -90,12 +91,13 @@ void RawlogSource::Impl::readObservation(
     else if (found)
       warnOnce(reader.file() + ": boxes in the rawlog itself are ignored, the sidecar has some");
     else
-      odometry.read(*observation);
+      stray = odometry.read(record, *observation);
   }
   catch (const std::exception& e)
   {
     return report({reader.file(), record, label, rootMessage(e)});
   }
+  if (stray) report({reader.file(), stray->record, label, stray->text()});
   if (pending_.empty()) odometry.forgetOlderThan(kMaxScanDelay);
   if (!odometry.ignoredKind().empty())
     warnOnce(
@@ -103,23 +105,36 @@ void RawlogSource::Impl::readObservation(
         odometry.ignoredKind());
 }
 
-void RawlogSource::Impl::addScan(
+std::optional<StrayRecord> RawlogSource::Impl::addScan(
     std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
 {
-  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return;
+  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return std::nullopt;
   if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
   PendingFrame pending{{}, odometry.sumOfActions(), pixelsOf(*scan)};
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();
-  const auto last = lastScanTime_.find(scan->sensorLabel);
-  if (last != lastScanTime_.end() && time <= last->second)
+  RecordClock& clock = clocks_[scan->sensorLabel];
+  if (time == clock.last() || time == clock.latest() || clock.stepBack(time) > 0)
     throw std::runtime_error(
-        mrpt::format("time goes backwards: %.6f s before the scan before", last->second - time));
-  lastScanTime_[scan->sensorLabel] = time;
+        mrpt::format("time goes backwards: %.6f s before the scan before", clock.last() - time));
+  const auto stray = clock.advance(time, record);
+  if (stray) dropPending(*stray, scan->sensorLabel);
   if (scan->hasRangeImage && scan->hasPoints3D) scan->resizePoints3DVectors(0);
   pendingPixels_ += pending.pixels;
   pending_.push_back(std::move(pending));
+  return stray;
+}
+
+/** Forgets the scan of a record. */
+void RawlogSource::Impl::dropPending(const StrayRecord& stray, const std::string& sensor)
+{
+  const auto isIt = [&](const PendingFrame& p)
+  { return p.frame.record == stray.record && p.frame.scan->sensorLabel == sensor; };
+  const auto found = std::find_if(pending_.begin(), pending_.end(), isIt);
+  if (found == pending_.end()) return;
+  pendingPixels_ -= found->pixels;
+  pending_.erase(found);
 }
 
 std::string RawlogSource::Impl::summary() const
