@@ -67,6 +67,18 @@ TEST(PoseUncertainty, SummedIncrementsGiveTheirCovarianceBack)
   EXPECT_LT((step.cov.asEigen() - increment.cov.asEigen()).cwiseAbs().maxCoeff(), 1.1e-8);
 }
 
+TEST(PoseUncertainty, LargeVariancesThatAreFullyCorrelatedHaveAnInverse)
+{
+  for (const double variance : {1e2, 1e6, 1e12})
+  {
+    const auto from = poseWith(CPose3D(), Matrix6::Constant(variance));
+    const auto to = poseWith(CPose3D(0.1, 0, 0, 0.1, 0, 0), 2 * Matrix6::Constant(variance));
+    const Matrix6 cov = odometryStep(sampleOptions(), from, to).cov.asEigen();
+    EXPECT_EQ(cov.llt().info(), Eigen::Success) << variance;
+    EXPECT_TRUE(cov.allFinite()) << variance;
+  }
+}
+
 TEST(PoseUncertainty, AStepBackInTimeUndoesWhatWasAdded)
 {
   const auto increment = poseWith(CPose3D(0.3, 0.1, -0.05, 0.2, 0.1, -0.1), sampleCovariance(1));

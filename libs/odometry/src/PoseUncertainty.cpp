@@ -3,6 +3,7 @@
 #include <mrpt/poses/Lie/SO.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "quadmap/base/OptionList.h"
 #include "quadmap/geometry/StepCovariance.h"
@@ -82,6 +83,18 @@ PoseCovariance statedCovariance(const CPose3DPDFGaussian& from, const CPose3DPDF
   return (to - from).cov.asEigen();
 }
 
+/** The covariance itself, when it is positive definite. Otherwise (it states large variances that
+ * are fully correlated, say) the nearest one whose least variance rounding does not reach. */
+PoseCovariance positiveDefinite(const PoseCovariance& P, double least)
+{
+  constexpr double kRounding = 1e-12;  // of the largest variance
+  if (P.llt().info() == Eigen::Success) return P;
+  const Eigen::SelfAdjointEigenSolver<PoseCovariance> eigen(P);
+  const Eigen::Matrix<double, 6, 1> variances =
+      eigen.eigenvalues().cwiseMax(std::max(least, kRounding * eigen.eigenvalues().maxCoeff()));
+  return eigen.eigenvectors() * variances.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 }  // namespace
 
 CPose3DPDFGaussian odometryStep(
@@ -99,6 +112,7 @@ CPose3DPDFGaussian odometryStep(
     for (int j = 0; j < 6; ++j)
       if (stated(i, i) > kSilent && stated(j, j) > kSilent)
         step.cov(i, j) = stated(i, j) + (i == j ? kLeast : 0.0);
+  step.cov = positiveDefinite(step.cov.asEigen(), kLeast);
   return step;
 }
 

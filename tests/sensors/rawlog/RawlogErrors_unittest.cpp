@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -369,6 +370,57 @@ TEST(RawlogErrors, PosesNobodyCanUse)
           folder.path("x.rawlog"),
           {samplePose(kStart, somewhere), sampleScan(kStart), samplePose(kStart - 2, somewhere)}),
       {"x.rawlog: record 2 (odometry): ", "goes back by 2.000000 s"}, 1);
+}
+
+TEST(RawlogErrors, CovariancesNobodyCanUse)
+{
+  const TemporaryFolder folder;
+  using Covariance = mrpt::math::CMatrixDouble66;
+  const auto expect = [&](const std::string& what, const std::function<void(Covariance&)>& spoil)
+  {
+    SCOPED_TRACE(what);
+    const auto pose = samplePose(kStart, CPose3D(1, 0, 0, 0, 0, 0));
+    pose->pose.cov.setDiagonal(6, 0.01);
+    spoil(pose->pose.cov);
+    expectProblem(
+        writeObjects(folder.path("x.rawlog"), {pose, sampleScan(kStart)}),
+        {"x.rawlog: record 0 (odometry): the pose has ", what}, 1);
+    mrpt::obs::CActionRobotMovement3D move;
+    move.poseChange = pose->pose;
+    auto actions = mrpt::obs::CActionCollection::Create();
+    actions->insert(move);
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(sampleScan(kStart));
+    expectProblem(
+        writeObjects(folder.path("x.rawlog"), {actions, frame}),
+        {"x.rawlog: record 0: the movement has ", what}, 1);
+  };
+  expect("a covariance of 1e+30, which is absurd", [](Covariance& c) { c.fill(1e30); });
+  expect("the negative variance -1", [](Covariance& c) { c.fill(-1); });
+  expect(
+      "the negative variance -1",
+      [](Covariance& c)
+      {
+        c(0, 0) = -1;
+        c(2, 2) = 1e9;  // unknown
+      });
+  expect("a covariance that is not positive", [](Covariance& c) { c(1, 0) = c(0, 1) = 0.02; });
+}
+
+TEST(RawlogErrors, LegalCovariancesAreTaken)
+{
+  const TemporaryFolder folder;
+  for (const double unknown : {0.0, 1e6, 1e9})
+  {
+    const auto pose = samplePose(kStart, {});
+    pose->pose.cov(0, 0) = 0.01;
+    pose->pose.cov(2, 2) = pose->pose.cov(4, 4) = unknown;
+    EXPECT_EQ(
+        readAll(writeObjects(folder.path("x.rawlog"), {pose, sampleScan(kStart)})).size(), 1u);
+    pose->pose.cov.fill(unknown);  // fully correlated
+    EXPECT_EQ(
+        readAll(writeObjects(folder.path("x.rawlog"), {pose, sampleScan(kStart)})).size(), 1u);
+  }
 }
 
 TEST(RawlogErrors, BoxesNobodyCanUse)

@@ -21,8 +21,8 @@ using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
-/** The pose, with a covariance of zero (unknown) when its numbers are broken. */
-CPose3DPDFGaussian withUsableCovariance(CPose3DPDFGaussian pose)
+/** The pose, with a covariance of zero (unknown) when it has numbers that are not finite. */
+CPose3DPDFGaussian withFiniteCovariance(CPose3DPDFGaussian pose)
 {
   if (!pose.cov.asEigen().allFinite()) pose.cov.setZero();
   return pose;
@@ -128,7 +128,7 @@ std::optional<StrayRecord> OdometryReader::read(
   if (pose->sensorLabel == kGroundTruthLabel)
     return truth_.add({secondsOf(*pose), CPose3DPDFGaussian(pose->pose.mean), record});
   if (!accept("CObservationRobotPose " + pose->sensorLabel)) return std::nullopt;
-  return odometry_.add({secondsOf(*pose), withUsableCovariance(pose->pose), record});
+  return odometry_.add({secondsOf(*pose), withFiniteCovariance(pose->pose), record});
 }
 
 void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
@@ -136,9 +136,9 @@ void OdometryReader::read(const mrpt::obs::CActionCollection& actions)
   const auto movement = movementIn(actions);
   if (!movement || !(countsActions_ || accept(movement->kind))) return;
   countsActions_ = true;
-  if (const auto why = whyNoPose(movement->increment.mean))
-    throw std::runtime_error("the movement " + *why);
-  sumOfActions_ += withUsableCovariance(movement->increment);
+  const CPose3DPDFGaussian increment = withFiniteCovariance(movement->increment);
+  if (const auto why = whyUnusable(increment)) throw std::runtime_error("the movement " + *why);
+  sumOfActions_ += increment;
 }
 
 void OdometryReader::forgetOlderThan(double age)

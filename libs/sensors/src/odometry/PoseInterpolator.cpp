@@ -41,11 +41,39 @@ CPose3DPDFGaussian interpolate(
     result.cov = (1 - share) * a.cov.asEigen() + share * b.cov.asEigen();
   return result;
 }
+
+/** Why a covariance cannot be one. A variance of zero is legal: the robot does not move in this
+ * direction, or the source does not say how far it errs there. */
+std::optional<std::string> whyUnusable(const PoseCovariance& P)
+{
+  // Sources write up to 1e9 for directions of which they know nothing [m^2], [rad^2].
+  constexpr double kMostVariance = 1e12;
+  constexpr double kRoundedVariance = 1e-14;    // of sums [m^2], [rad^2]
+  constexpr double kRoundedCorrelation = 1e-6;  // of numbers in single precision
+  const double largest = P.cwiseAbs().maxCoeff(), least = P.diagonal().minCoeff();
+  if (!(largest <= kMostVariance))
+    return mrpt::format("has a covariance of %g, which is absurd", largest);
+  if (least < -kRoundedVariance) return mrpt::format("has the negative variance %g", least);
+  const Eigen::Matrix<double, 6, 1> toUnit =
+      (P.diagonal().array() > kRoundedVariance)
+          .select(P.diagonal().array().abs().max(kRoundedVariance).rsqrt(), 0);
+  const PoseCovariance correlation = toUnit.asDiagonal() * P * toUnit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<PoseCovariance> eigen(correlation, Eigen::EigenvaluesOnly);
+  if (eigen.eigenvalues().minCoeff() < -kRoundedCorrelation)
+    return "has a covariance that is not positive";
+  return std::nullopt;
+}
 }  // namespace
+
+std::optional<std::string> whyUnusable(const CPose3DPDFGaussian& pose)
+{
+  if (const auto why = whyNoPose(pose.mean)) return why;
+  return whyUnusable(PoseCovariance(pose.cov.asEigen()));
+}
 
 std::optional<StrayRecord> PoseInterpolator::add(const Stamped& next)
 {
-  if (const auto why = whyNoPose(next.pose.mean)) throw std::runtime_error("the pose " + *why);
+  if (const auto why = whyUnusable(next.pose)) throw std::runtime_error("the pose " + *why);
   if (const double back = clock_.stepBack(next.time); back > 0)
     throw std::runtime_error(mrpt::format("the time goes back by %.6f s", back));
   const auto stray = clock_.advance(next.time, next.record);

@@ -49,4 +49,9 @@ class PoseInterpolator
   std::deque<Stamped> poses_;  // in the order of time
 };
 
+/** Why a pose or motion of a file cannot be one: numbers that are not finite or absurd, no
+ * rotation, or a covariance that is none.
+ */
+std::optional<std::string> whyUnusable(const mrpt::poses::CPose3DPDFGaussian& pose);
+
 }  // namespace quadmap
