@@ -45,6 +45,35 @@ TEST(OdometryInput, EveryKeyframeStepHasAnInvertibleCovariance)
   }
 }
 
+TEST(OdometryInput, TellsOfStepsThatNoRobotMakes)
+{
+  auto frames = homeFrames(40);
+  const auto warning = [&](PoseSource source)
+  {
+    OdometryInput input(source, {}, {});
+    for (const auto& frame : frames) input.poseOf(frame);
+    return input.warningOfJumps();
+  };
+  EXPECT_EQ(warning(PoseSource::Rawlog), "");
+  for (std::size_t k = 20; k < frames.size(); ++k)
+    frames[k].scan->timestamp += std::chrono::minutes(2);
+  for (std::size_t k = 20; k < frames.size(); ++k)
+    *frames[k].T_odom_robot = CPose3D(50, 0, 0, 1, 0, 0) + *frames[k].T_odom_robot;
+  EXPECT_EQ(warning(PoseSource::Rawlog), "") << "it went on while the recording paused";
+  *frames[30].T_odom_robot = CPose3D(3, 0, 0, 0, 0, 0) + *frames[30].T_odom_robot;
+  const std::string text = warning(PoseSource::Rawlog);
+  EXPECT_NE(text.find("(2 in all)"), std::string::npos) << text;
+  EXPECT_NE(
+      text.find("before record " + std::to_string(frames[30].record) + " (camera)"),
+      std::string::npos)
+      << text;
+  EXPECT_EQ(warning(PoseSource::GroundTruth), "") << "other poses";
+  EXPECT_EQ(warning(PoseSource::Visual), "") << "it tells by itself";
+  for (auto& frame : frames) frame.T_world_robot.reset();
+  *frames[30].T_odom_robot = *frames[29].T_odom_robot + CPose3D(0, 0, 0, 3, 0, 0);
+  EXPECT_NE(warning(PoseSource::Rawlog), "") << "a turn";
+}
+
 TEST(OdometryInput, StandsUprightAtTheStart)
 {
   for (const double side : {1, -1})  // on its feet or on its head

@@ -111,6 +111,8 @@ class LocalizationRun
     for (const auto& problem : source_.problems()) result_.dropped.push_back(problem.text());
     const std::string late = survey_.warningOfLateOdometry(request_.rawlog, source_.odometryKind());
     if (!late.empty()) request_.onWarning(late);
+    const std::string jumps = odometry_.warningOfJumps();
+    if (!jumps.empty()) request_.onWarning(jumps);
     result_.odometry = odometryText();
     if (!result_.interrupted) requireContent();
     return std::move(result_);

@@ -40,16 +40,19 @@ std::optional<CPose3D> OdometryInput::poseOf(const RgbdFrame& frame)
 {
   sawOdometry_ = sawOdometry_ || frame.T_odom_robot;
   sawGroundTruth_ = sawGroundTruth_ || frame.T_world_robot;
-  if (graph_) return graph_->poseAt(frame.time());
   latest_.reset();
-  std::optional<CPose3D> pose;
-  if (visual_)
-    pose = visualPoseOf(frame);
-  else
-    pose = source_ == PoseSource::GroundTruth ? frame.T_world_robot : frame.T_odom_robot;
-  if (pose)
-    latest_.emplace(*pose, frame.odometryCovariance.value_or(mrpt::math::CMatrixDouble66()));
+  const auto pose = visual_ ? visualPoseOf(frame) : givenPoseOf(frame);
+  if (!pose) return std::nullopt;
+  latest_.emplace(*pose, frame.odometryCovariance.value_or(mrpt::math::CMatrixDouble66()));
+  // Visual odometry tells of its own failures.
+  if (!visual_) jumps_.add(frame, *pose);
   return pose;
+}
+
+std::optional<CPose3D> OdometryInput::givenPoseOf(const RgbdFrame& frame)
+{
+  if (graph_) return graph_->poseAt(frame.time());
+  return source_ == PoseSource::GroundTruth ? frame.T_world_robot : frame.T_odom_robot;
 }
 
 std::optional<CPose3D> OdometryInput::visualPoseOf(const RgbdFrame& frame)

@@ -148,6 +148,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier)
         "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
   settle();
   requireInstanceIds();
+  warnOfDoubtfulPoses();
   warnOfMissingDepth();
   warnOfDroppedFloors();
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
@@ -248,6 +249,12 @@ void ObjectSlam::warnOfNoisyOdometry()
         "the odometry errs by more than it claims: positions by %.1f and angles by %.1f times as "
         "much; it was trusted so much less",
         noise.position, noise.angle));
+}
+
+void ObjectSlam::warnOfDoubtfulPoses()
+{
+  for (const auto& text : {odometry_.warningOfJumps(), contradictions_.warning()})
+    if (!text.empty()) warn(text);
 }
 
 void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "keyframes/ContradictedSteps.h"
 #include "keyframes/KeyframeSpool.h"
 #include "pipeline/BackEndStage.h"
 #include "pipeline/DetectionStage.h"
@@ -107,6 +108,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void warnOfMissingDepth();
   void warnOfDroppedFloors();
   void warnOfNoisyOdometry();
+  void warnOfDoubtfulPoses();
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;
   void lookThrough(const CObservationObjects& boxes);
@@ -130,6 +132,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   KeyframeSelector selector_;
   OdometryInput odometry_;
   SingleMoment moment_;
+  ContradictedSteps contradictions_;
   std::set<std::string> unknownLabels_;
   std::string inputName_;
   bool anyInstanceId_ = false;  //!< Some box so far has one

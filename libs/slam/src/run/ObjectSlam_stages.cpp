@@ -100,6 +100,7 @@ void ObjectSlam::account(const KeyframeTask& keyframe)
     badFrames_.emplace_back(frame, *keyframe.problem);
     return;
   }
+  contradictions_.add(keyframe);
   objectsByLabel_ = keyframe.objectsByLabel;
   std::size_t objects = 0;
   for (const auto& [label, number] : objectsByLabel_) objects += number;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadmap/odometry/GraphOdometry.h"
+#include "quadmap/odometry/ImpossibleSteps.h"
 #include "quadmap/odometry/PoseSource.h"
 #include "quadmap/odometry/PoseUncertainty.h"
 #include "quadmap/odometry/VisualOdometry.h"
@@ -57,10 +58,14 @@ class OdometryInput
 
   std::vector<std::string> takeWarnings();  //!< Those since the last call, one line each
 
+  /** What to tell the user after the last frame when given poses are doubtful; empty otherwise. */
+  std::string warningOfJumps() const { return jumps_.warning(); }
+
   /** What to tell the user when no frame got a pose. */
   std::string whyNoPoses() const;
 
  private:
+  std::optional<mrpt::poses::CPose3D> givenPoseOf(const RgbdFrame& frame);
   std::optional<mrpt::poses::CPose3D> visualPoseOf(const RgbdFrame& frame);
 
   PoseSource source_;
@@ -70,6 +75,7 @@ class OdometryInput
   std::string visualSensor_;  //!< The camera of visual odometry; empty before the first
   std::optional<mrpt::poses::CPose3DPDFGaussian> latest_,
       keyframe_;  //!< Poses, as the input gave them
+  ImpossibleSteps jumps_;
   std::vector<std::string> warnings_;
   bool sawOdometry_ = false, sawGroundTruth_ = false, sawOtherSensor_ = false;
 };
