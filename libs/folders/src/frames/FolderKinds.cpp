@@ -60,6 +60,7 @@ void check(const FrameFolderOptions& o)
   if (!(o.maxPoseGap > 0))
     throw std::invalid_argument(mrpt::format("maxPoseGap=%g: must be > 0 s", o.maxPoseGap));
 }
+
 /** \exception std::runtime_error For a calibration that the readers of a rawlog would refuse. */
 void requireCamera(const FolderContent& content)
 {

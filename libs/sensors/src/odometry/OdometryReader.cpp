@@ -12,7 +12,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/RawlogNames.h"
 
 namespace quadmap
