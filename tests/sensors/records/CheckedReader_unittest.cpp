@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -9,6 +10,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/TPixelLabelInfo.h>
 
@@ -51,7 +53,21 @@ std::string number(std::uint32_t value)
   return bytes;
 }
 
-/** Objects of all classes whose layout is known, with all their optional parts. */
+/** How MRPT begins an object. */
+std::string named(const std::string& className)
+{
+  return static_cast<char>(0x80 | className.size()) + className;
+}
+
+mrpt::obs::CObservationStereoImages::Ptr stereoPair()
+{
+  auto pair = mrpt::obs::CObservationStereoImages::Create();
+  pair->imageLeft = pair->imageRight = sampleScan(kStart)->intensityImage;
+  return pair;
+}
+
+/** Objects of all classes whose layout is known, with all their optional parts, and others that
+ * hold some of them. */
 std::vector<CSerializable::Ptr> samplesOfAllClasses()
 {
   using namespace mrpt::obs;
@@ -92,6 +108,8 @@ std::vector<CSerializable::Ptr> samplesOfAllClasses()
        {CObservation::Ptr(scan), CObservation::Ptr(laser), CObservation::Ptr(sampleBoxes(kStart)),
         CObservation::Ptr(CObservationComment::Create()), CObservation::Ptr(wheels)})
     frame->insert(o);
+  auto map = std::make_shared<mrpt::maps::CSimpleMap>();
+  map->insert(mrpt::poses::CPose3DPDF::Ptr(new mrpt::poses::CPose3DPDFGaussian()), frame);
   return {
       scan,
       points,
@@ -104,7 +122,9 @@ std::vector<CSerializable::Ptr> samplesOfAllClasses()
       actions,
       CObservationIMU::Create(),
       sampleBoxes(kStart),
-      CObservationComment::Create()};
+      CObservationComment::Create(),
+      stereoPair(),
+      map};
 }
 
 class WithJpeg : public ::testing::Test
@@ -197,6 +217,37 @@ TEST(CheckedReader, RefusesNestedFrames)
   std::string bytes;
   for (int i = 0; i < 100000; ++i) bytes += head;
   EXPECT_NE(errorOf([&] { read(bytes); }).find("nested"), std::string::npos);
+}
+
+TEST(CheckedReader, RefusesNestingInsideOtherClasses)
+{
+  const std::string map = named("mrpt::maps::CSimpleMap") + "\x01" + number(1);
+  for (const std::string& head :
+       {named("mrpt::obs::CSensoryFrame") + "\x02", named("CSensorialFrame") + "\x02",
+        named("mrpt::maps::CSimpleMap") + "\x01"})
+  {
+    std::string bytes = map;
+    for (int i = 0; i < 100000; ++i) bytes += head + number(1);
+    EXPECT_NE(errorOf([&] { read(bytes); }).find("nested"), std::string::npos) << head;
+  }
+}
+
+TEST_F(WithJpeg, OfOtherClassesAreNotDecoded)  // libjpeg alone ends the program
+{
+  auto bytes = bytesOf(*stereoPair());
+  const auto table = bytes.find("\xff\xc4");
+  ASSERT_NE(table, std::string::npos);
+  for (std::size_t i = 5; i < 21; ++i) bytes[table + i] = '\xff';
+  const std::string name = named("mrpt::img::CImage");
+  for (const auto& stored : {bytes, with(bytes, name, named("CMRPTImage"))})
+  {
+    const auto pair = std::dynamic_pointer_cast<mrpt::obs::CObservationStereoImages>(read(stored));
+    ASSERT_TRUE(pair);
+    EXPECT_TRUE(pair->imageLeft.isEmpty());
+    EXPECT_TRUE(pair->imageRight.isEmpty());
+  }
+  const auto oldForm = with(bytes, name + "\x09", number(17) + name.substr(1) + number(9));
+  EXPECT_NE(errorOf([&] { read(oldForm); }).find("no longer writes"), std::string::npos);
 }
 
 TEST(CheckedReader, LimitsTheMemoryOfOtherClasses)

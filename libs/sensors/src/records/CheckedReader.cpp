@@ -1,9 +1,5 @@
 #include "quadmap/sensors/CheckedReader.h"
 
-#include <mrpt/io/CMemoryStream.h>
-#include <mrpt/serialization/CArchive.h>
-
-#include "records/MemoryGuard.h"
 #include "records/RecordBytes.h"
 #include "records/RecordCheck.h"
 
@@ -22,15 +18,9 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::next()
   const auto head = check.headAfterFirstByte();
   // Callers would take the null pointer for the end of the file.
   RecordCheck::require(head.name != "nullptr", "holds an empty object");
-  if (!RecordCheck::knows(head.name))
-  {
-    const MemoryGuard guard;
-    bytes.rereadFrom(head.begin);
-    return mrpt::serialization::archiveFrom(bytes).ReadObject();
-  }
+  if (!RecordCheck::knows(head.name)) return check.readUnknown(head.begin);
   check.content(head);
-  bytes.rereadFrom(head.begin);
-  return mrpt::serialization::archiveFrom(bytes).ReadObject();
+  return check.readByMrpt(head.begin);
 }
 
 }  // namespace quadmap

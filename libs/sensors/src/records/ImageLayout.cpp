@@ -42,14 +42,24 @@ void grayImage(RecordCheck& c, int version)
   c.bytes.copy(stated);
 }
 
-/** Decodes the JPEG that follows, and puts its pixels in place of what begins at `from`. */
-void replaceJpeg(RecordCheck& c, const RecordCheck::Head& head, std::size_t from)
+/** Decodes the JPEG that follows. Where nobody needs the pixels, the image is empty. */
+cv::Mat decodedJpeg(RecordCheck& c)
 {
   const auto size = c.bytes.number<std::uint32_t>();
+  if (!c.needsPixels)
+  {
+    c.bytes.skip(size);
+    return {};
+  }
   const std::size_t begin = c.bytes.size();
   c.bytes.copy(size);
-  const cv::Mat pixels =
-      decodeImage(c.bytes.at(begin), size, cv::IMREAD_COLOR, c.limits.imagePixels);
+  return decodeImage(c.bytes.at(begin), size, cv::IMREAD_COLOR, c.limits.imagePixels);
+}
+
+/** Puts the pixels of the JPEG that follows in place of what begins at `from`. */
+void replaceJpeg(RecordCheck& c, const RecordCheck::Head& head, std::size_t from)
+{
+  const cv::Mat pixels = decodedJpeg(c);
   std::vector<std::uint8_t> plain;
   const std::size_t rowBytes = static_cast<std::size_t>(pixels.cols) * 3;
   plain.reserve(8 + rowBytes * static_cast<std::size_t>(pixels.rows));

@@ -9,9 +9,9 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::uint64_t kPiece = 1u
-                                 << 20;  // memory grows with what was there, in such steps [bytes]
-}
+/** Memory grows with what was there, in such steps [bytes]. */
+constexpr std::uint64_t kPiece = 1u << 20;
+}  // namespace
 
 RecordBytes::RecordBytes(mrpt::io::CStream& from, std::uint64_t mostBytes) :
     from_(from), mostBytes_(mostBytes)
@@ -42,28 +42,22 @@ void RecordBytes::copy(std::uint64_t n)
   }
 }
 
+void RecordBytes::skip(std::uint64_t n)
+{
+  const std::size_t kept = bytes_.size();
+  while (n > 0)
+  {
+    const std::uint64_t piece = std::min(n, kPiece);
+    copy(piece);
+    bytes_.resize(kept);
+    n -= piece;
+  }
+}
+
 void RecordBytes::replaceFrom(std::size_t index, const std::vector<std::uint8_t>& bytes)
 {
   bytes_.resize(index);
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-}
-
-std::size_t RecordBytes::Read(void* buffer, std::size_t count)
-{
-  if (next_ + count > bytes_.size()) copy(next_ + count - bytes_.size());
-  std::memcpy(buffer, bytes_.data() + next_, count);
-  next_ += count;
-  return count;
-}
-
-std::size_t RecordBytes::Write(const void*, std::size_t)
-{
-  throw std::logic_error("RecordBytes: is read only");
-}
-
-std::uint64_t RecordBytes::Seek(std::int64_t, TSeekOrigin)
-{
-  throw std::logic_error("RecordBytes: cannot seek");
 }
 
 }  // namespace quadmap

@@ -4,17 +4,19 @@
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "records/MemoryGuard.h"
 #include "records/RecordLayouts.h"
+#include "records/RecordStream.h"
 
 namespace quadmap
 {
 namespace
 {
-constexpr unsigned kHeadMark = 0x80;       // MRPT writes the length of a class name with this bit
-constexpr std::uint8_t kEndMark = 0x88;    // and this byte behind an object
+constexpr std::uint8_t kEndMark = 0x88;    // MRPT writes it behind an object
 constexpr std::size_t kLongestName = 120;  // of a class, as in MRPT
 constexpr int kDeepest = 4;                // frame, observation, pose, matrix; more is an attack
 constexpr std::uint32_t kLongestText = 65536;
@@ -33,18 +35,31 @@ void RecordCheck::require(bool condition, const std::string& what)
 
 RecordCheck::Head RecordCheck::headAfterFirstByte()
 {
-  Head head;
-  head.begin = bytes.size() - 1;
-  const unsigned first = *bytes.at(head.begin);
+  const std::size_t begin = bytes.size() - 1;
+  const unsigned first = *bytes.at(begin);
   const std::size_t length = first & ~kHeadMark;
   require((first & kHeadMark) != 0 && length <= kLongestName, "holds something that is no object");
   bytes.copy(length);
-  const char* name = reinterpret_cast<const char*>(bytes.at(head.begin + 1));
-  head.name = withoutNamespaces(std::string(name, length));
+  return headAfterName(begin);
+}
+
+RecordCheck::Head RecordCheck::headAfterName(std::size_t begin)
+{
+  Head head;
+  head.begin = begin;
+  head.name = classNameAt(begin + 1, bytes.size() - begin - 1);
   if (head.name == "nullptr") return head;
   head.versionAt = bytes.size();
   head.version = bytes.number<std::uint8_t>();
   return head;
+}
+
+std::string RecordCheck::classNameAt(std::size_t begin, std::size_t length)
+{
+  const std::string written(reinterpret_cast<const char*>(bytes.at(begin)), length);
+  const std::string name = written.c_str();  // for MRPT it ends at a zero
+  const auto* known = mrpt::rtti::findRegisteredClass(name);
+  return withoutNamespaces(known ? known->className : name);
 }
 
 void RecordCheck::endOfObject()
@@ -57,7 +72,8 @@ bool RecordCheck::knows(const std::string& className) { return layouts().count(c
 void RecordCheck::content(const Head& head)
 {
   const Layout& layout = layouts().at(head.name);
-  if (layout.olderAreSafe && head.version < layout.firstVersion) return readByMrpt(head);
+  if (layout.olderAreSafe && head.version < layout.firstVersion)
+    return void(readUnknown(head.begin));
   require(
       head.version >= layout.firstVersion && head.version <= layout.lastVersion,
       mrpt::format(
@@ -69,6 +85,11 @@ void RecordCheck::content(const Head& head)
   endOfObject();
 }
 
+void RecordCheck::contentAfterName(std::size_t begin)
+{
+  if (knows(classNameAt(begin + 1, bytes.size() - begin - 1))) content(headAfterName(begin));
+}
+
 void RecordCheck::object()
 {
   bytes.copy(1);
@@ -77,15 +98,37 @@ void RecordCheck::object()
   if (knows(head.name)) return content(head);
   require(
       mrpt::rtti::findRegisteredClass(head.name) != nullptr, "class " + head.name + " is unknown");
-  readByMrpt(head);
+  readUnknown(head.begin);  // to find its end
 }
 
-/** Finds the end of an object whose layout is not known here. */
-void RecordCheck::readByMrpt(const Head& head)
+mrpt::serialization::CSerializable::Ptr RecordCheck::readByMrpt(std::size_t begin)
 {
-  const MemoryGuard guard;
-  bytes.rereadFrom(head.begin);
-  mrpt::serialization::archiveFrom(bytes).ReadObject();
+  RecordStream stream(*this, begin);
+  try
+  {
+    return mrpt::serialization::archiveFrom(stream).ReadObject();
+  }
+  catch (...)
+  {
+    stream.rethrowRefusal();
+    throw;
+  }
+}
+
+mrpt::serialization::CSerializable::Ptr RecordCheck::readUnknown(std::size_t begin)
+{
+  std::optional<MemoryGuard> guard;
+  if (unknownDepth_++ == 0) guard.emplace();
+  try
+  {
+    auto object = readByMrpt(begin);
+    --unknownDepth_;
+    return object;
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw std::runtime_error("states sizes that take too much memory");
+  }
 }
 
 int RecordCheck::objectOf(const char* className)
@@ -114,7 +157,12 @@ void RecordCheck::matrix()
   content(head);
 }
 
-void RecordCheck::image() { objectOf("CImage"); }
+void RecordCheck::image()
+{
+  needsPixels = true;
+  objectOf("CImage");
+  needsPixels = false;
+}
 
 std::uint64_t RecordCheck::pixels(std::uint64_t rows, std::uint64_t columns) const
 {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <functional>
+#include <mrpt/serialization/CSerializable.h>
+
 #include <string>
 
 #include "quadmap/sensors/CheckedReader.h"
@@ -19,11 +20,15 @@ class RecordCheck
   struct Head
   {
     std::size_t begin = 0;  //!< Index of the object's first byte
-    std::string name;       //!< Of the class, without its namespaces
+    std::string name;       //!< Of the class, see classNameAt()
     int version = 0;
     std::size_t versionAt = 0;  //!< Index of the byte with the version
   };
   Head headAfterFirstByte();
+
+  /** The name of the class that MRPT finds by the name in these bytes, without namespaces. MRPT
+   * has several names for some classes. For an unknown class it is the name in the bytes. */
+  std::string classNameAt(std::size_t begin, std::size_t length);
 
   /** Whether the layouts of the class are known here. */
   static bool knows(const std::string& className);
@@ -31,6 +36,9 @@ class RecordCheck
   /** What follows the head of an object. \exception std::runtime_error If a size cannot be right,
    * or the version is not one of those that are known. */
   void content(const Head& head);
+  /** The same for an object that begins there, of which the first byte and the name were copied, if
+   * the layout of its class is known. */
+  void contentAfterName(std::size_t begin);
 
   /** Any object, which may be of an unknown class. */
   void object();
@@ -39,21 +47,30 @@ class RecordCheck
 
   void text();    //!< A text with its length
   void matrix();  //!< A CMatrixF as an object, once called CMatrix
-  void image();   //!< A CImage as an object
+  void image();   //!< A CImage as an object, whose pixels are needed
   std::uint64_t pixels(std::uint64_t rows, std::uint64_t columns) const;  //!< Checked product
   std::uint32_t count(std::uint32_t most, const char* what);              //!< Checked number
 
   /** \exception std::runtime_error With `what`, when the condition does not hold. */
   static void require(bool condition, const std::string& what);
 
+  /** MRPT's reading of the object that begins there, after its content was checked. */
+  mrpt::serialization::CSerializable::Ptr readByMrpt(std::size_t begin);
+  /** The same for an object whose layout is not known here: memory is limited meanwhile. */
+  mrpt::serialization::CSerializable::Ptr readUnknown(std::size_t begin);
+
+  static constexpr unsigned kHeadMark = 0x80;  //!< Added by MRPT to the length of a class name
+
   RecordBytes& bytes;
   const RecordLimits& limits;
+  /** Whether the pixels of the next images are needed. Else what a JPEG holds is left out. */
+  bool needsPixels = false;
 
  private:
-  void readByMrpt(const Head& head);
+  Head headAfterName(std::size_t begin);
   void endOfObject();
 
-  int depth_ = 0;
+  int depth_ = 0, unknownDepth_ = 0;
 };
 
 }  // namespace quadmap

@@ -130,7 +130,7 @@ void followImageObservation(RecordCheck& c, const Head&)
 {
   c.objectOf("CPose3D");
   c.objectOf("TCamera");
-  c.image();
+  c.objectOf("CImage");
   c.bytes.copy(kTime);
   c.text();
 }

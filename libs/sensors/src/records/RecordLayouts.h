@@ -24,7 +24,7 @@ const std::map<std::string, Layout>& layouts();
 
 void followRangeScan(RecordCheck& check, const RecordCheck::Head& head);
 
-/** A CImage. Where it is a JPEG, it is decoded, and the pixels take its place. */
+/** A CImage. Where it is a JPEG, its pixels take its place, or none when nobody needs them. */
 void followImage(RecordCheck& check, const RecordCheck::Head& head);
 
 }  // namespace quadmap

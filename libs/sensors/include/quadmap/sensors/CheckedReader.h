@@ -26,8 +26,11 @@ struct RecordLimits
  * bytes that were in the file.
  *
  * Embedded JPEG images are decoded here, because for some damages MRPT's decoder ends the
- * program. The objects of classes that this reader does not know are read by MRPT while memory is
- * limited. */
+ * program. Those of other classes than range scans are left out instead, as quadmap looks at none
+ * of them.
+ *
+ * The objects of classes that this reader does not know are read by MRPT while memory and nesting
+ * are limited. Known ones in them are checked like all others. */
 class CheckedReader
 {
  public:
