@@ -12,6 +12,7 @@
 
 #include "SampleObservation.h"
 #include "TemporaryFolder.h"
+#include "quadmap/base/GzipStream.h"
 
 using namespace quadmap;
 using mrpt::serialization::archiveFrom;
@@ -392,4 +393,36 @@ TEST(CObservationObjects, LimitsTheObjectsAndMasksOfAnImage)
   EXPECT_EQ(errorOf([&] { copyOf(boxes); }), "") << "64 MB together";
   boxes.objects.push_back(boxes.objects[0]);
   EXPECT_NE(errorOf([&] { copyOf(boxes); }).find("masks"), std::string::npos);
+}
+
+TEST(CObservationObjects, LimitsTheTextsOfAnImage)
+{
+  const auto bytesOf = [](const CObservationObjects& boxes)
+  {
+    const auto bytes = archiveBytes(boxes);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  CObservationObjects boxes;
+  const std::string none = bytesOf(boxes);
+  boxes.objects.resize(1);
+  boxes.objects[0].label = std::string(60000, 'a');
+  boxes.objects[0].measurement.reason = std::string(4000, 'b');
+  const std::string one = bytesOf(boxes);
+  // The objects stand behind their number (4 bytes) and before the mark of the end (1 byte).
+  const std::string object = one.substr(none.size() - 1, one.size() - none.size());
+  const auto readCopies = [&](char count)
+  {
+    std::string bytes = none.substr(0, none.size() - 5) + count + std::string(3, '\0');
+    for (char i = 0; i < count; i = static_cast<char>(i + 1)) bytes += object;
+    bytes += '\x88';
+    mrpt::io::CMemoryStream stream(bytes.data(), bytes.size());
+    CObservationObjects copy;
+    mrpt::serialization::archiveFrom(stream) >> copy;
+    return copy.objects.size();
+  };
+  EXPECT_EQ(readCopies(4), 4U) << "256 kB together";
+  EXPECT_NE(errorOf([&] { readCopies(5); }), "");
+  boxes.objects.resize(5, boxes.objects[0]);
+  EXPECT_NE(errorOf([&] { bytesOf(boxes); }).find("labels and reasons"), std::string::npos)
+      << "what cannot be read is not written";
 }

@@ -91,7 +91,8 @@ void CObservationObjects::serializeTo(mrpt::serialization::CArchive& out) const
   writeCamera(out, cameraParams);
   writeCoarseDepth(out, coarseDepth);
   out.WriteAs<std::uint32_t>(objects.size());
-  for (const auto& object : objects) writeDetectedObject(out, object);
+  ObjectsBudget left;
+  for (const auto& object : objects) writeDetectedObject(out, object, left);
 }
 
 void CObservationObjects::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version)
@@ -104,8 +105,8 @@ void CObservationObjects::serializeFrom(mrpt::serialization::CArchive& in, uint8
   coarseDepth = readCoarseDepth(in);
   const auto count = readCount(in, kMostObjects, "objects");
   objects.clear();
-  std::uint64_t maskPixels = kMostMaskPixels;
-  for (std::uint32_t i = 0; i < count; ++i) objects.push_back(readDetectedObject(in, maskPixels));
+  ObjectsBudget left;
+  for (std::uint32_t i = 0; i < count; ++i) objects.push_back(readDetectedObject(in, left));
 }
 
 void CObservationObjects::getDescriptionAsText(std::ostream& o) const

@@ -125,6 +125,14 @@ void writeMeasurement(CArchive& out, const ObjectMeasurement& m)
   }
 }
 
+/** Takes the texts of an object off the bytes that they may have. */
+void takeTexts(const DetectedObject& object, std::uint64_t& bytesLeft)
+{
+  const std::uint64_t bytes = object.label.size() + object.measurement.reason.size();
+  requireStored(bytes <= bytesLeft, "the labels and reasons of an image are too long");
+  bytesLeft -= bytes;
+}
+
 ObjectMeasurement readMeasurement(CArchive& in, std::uint8_t parts)
 {
   ObjectMeasurement m;
@@ -199,9 +207,10 @@ CoarseDepth readCoarseDepth(CArchive& in)
   return depth;
 }
 
-void writeDetectedObject(CArchive& out, const DetectedObject& object)
+void writeDetectedObject(CArchive& out, const DetectedObject& object, ObjectsBudget& left)
 {
   checkMeasurement(object.measurement);
+  takeTexts(object, left.textBytes);
   out << partsOf(object);
   writeText(out, object.label);
   out << object.score << object.box.x1 << object.box.y1 << object.box.x2 << object.box.y2;
@@ -210,7 +219,7 @@ void writeDetectedObject(CArchive& out, const DetectedObject& object)
   writeMeasurement(out, object.measurement);
 }
 
-DetectedObject readDetectedObject(CArchive& in, std::uint64_t& maskPixelsLeft)
+DetectedObject readDetectedObject(CArchive& in, ObjectsBudget& left)
 {
   DetectedObject object;
   const auto parts = readScalar<std::uint8_t>(in);
@@ -219,9 +228,10 @@ DetectedObject readDetectedObject(CArchive& in, std::uint64_t& maskPixelsLeft)
   object.score = readScalar<double>(in);
   for (double* v : {&object.box.x1, &object.box.y1, &object.box.x2, &object.box.y2})
     *v = readScalar<double>(in);
-  if (parts & kMask) object.mask = readMask(in, maskPixelsLeft);
+  if (parts & kMask) object.mask = readMask(in, left.maskPixels);
   if (parts & kInstance) object.instanceId = readScalar<std::uint32_t>(in);
   object.measurement = readMeasurement(in, parts);
+  takeTexts(object, left.textBytes);
   checkMeasurement(object.measurement);
   return object;
 }

@@ -7,6 +7,14 @@
 
 namespace quadmap
 {
+/** What all objects of an image may have together. */
+struct ObjectsBudget
+{
+  std::uint64_t maskPixels = CObservationObjects::kMostMaskPixels;
+  /** Bytes of labels and reasons, 256 for each of the most objects. Labels are compared often. */
+  std::uint64_t textBytes = 256 * CObservationObjects::kMostObjects;
+};
+
 /** Writes and reads parts of version 0 of CObservationObjects. Reading throws std::runtime_error
  * (or MRPT's CExceptionEOF) for impossible values, and allocates no more memory than possible ones
  * need.
@@ -17,10 +25,11 @@ mrpt::img::TCamera readCamera(mrpt::serialization::CArchive& in);
 void writeCoarseDepth(mrpt::serialization::CArchive& out, const CoarseDepth& depth);
 CoarseDepth readCoarseDepth(mrpt::serialization::CArchive& in);
 
-void writeDetectedObject(mrpt::serialization::CArchive& out, const DetectedObject& object);
-/** \param maskPixelsLeft How many pixels the masks of the image may still have; reduced by those of
- * this object. */
-DetectedObject readDetectedObject(mrpt::serialization::CArchive& in, std::uint64_t& maskPixelsLeft);
+/** \param left What the objects of the image may still have; reduced by what this one has. What is
+ * written can be read, except for the sum of the masks. */
+void writeDetectedObject(
+    mrpt::serialization::CArchive& out, const DetectedObject& object, ObjectsBudget& left);
+DetectedObject readDetectedObject(mrpt::serialization::CArchive& in, ObjectsBudget& left);
 
 /** Checks a measurement by the rules of ObjectMeasurement.h.
  * \exception std::runtime_error If a part is missing that its kind requires, or a number is not

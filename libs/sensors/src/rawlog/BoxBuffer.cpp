@@ -17,7 +17,8 @@ std::size_t bytesOf(const CObservationObjects& boxes)
 {
   std::size_t bytes = sizeof boxes + boxes.coarseDepth.depth.size() * sizeof(float);
   for (const auto& object : boxes.objects)
-    bytes += sizeof object + (object.mask ? object.mask->pixels.size() : 0);
+    bytes += sizeof object + object.label.size() + object.measurement.reason.size() +
+             (object.mask ? object.mask->pixels.size() : 0);
   return bytes;
 }
 
