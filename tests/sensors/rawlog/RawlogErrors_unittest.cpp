@@ -572,3 +572,26 @@ TEST(RawlogErrors, OnlyWhereAUserCanAllowImagesAnywhereTheMessageSaysHow)
   const auto error = errorOf([&] { readAll(file, options); });
   EXPECT_NE(error.find("(--images-anywhere would allow that)"), std::string::npos) << error;
 }
+
+TEST(RawlogErrors, WaitingImagesTakeLimitedMemory)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x.rawlog");
+  constexpr std::size_t kScans = 15;
+  const auto scan = sampleScan(kStart);
+  scan->rangeImageOtherLayers["second"].resize(4096, 4000);  // 33 MB, and 12 of them 400 MB
+  scan->rangeImageOtherLayers["second"].fill(0);
+  {
+    mrpt::io::CFileGZOutputStream file(path, mrpt::io::OpenMode::TRUNCATE, 1);
+    auto archive = mrpt::serialization::archiveFrom(file);
+    for (std::size_t i = 0; i < kScans; ++i)
+    {
+      scan->timestamp = stamp(kStart + 0.001 * static_cast<double>(i));
+      archive << *scan;
+    }
+  }
+  RawlogSource source(path, {});
+  ASSERT_TRUE(source.next());
+  EXPECT_LT(source.recordsRead(), kScans)
+      << "there are no poses that the first scan could wait for";
+}

@@ -83,7 +83,6 @@ std::vector<CSerializable::Ptr> samplesOfAllClasses()
   auto points = sampleScan(kStart);
   points->hasRangeImage = points->hasIntensityImage = false;
   points->hasPoints3D = true;
-  points->resizePoints3DVectors(5);
   auto external = sampleScan(kStart);
   external->intensityImage.setExternalStorage("a.jpg");
 
@@ -203,6 +202,21 @@ TEST(CheckedReader, RefusesSizesThatCannotBe)
       errorOf([&] { read(with(scan, version, std::string("CObservation3DRangeScan\0", 24))); })
           .find("is of version 0"),
       std::string::npos);
+}
+
+TEST(CheckedReader, LeavesOutThePointsOfAScan)
+{
+  const auto scan = sampleScan(kStart);
+  const auto without = bytesOf(*scan);
+  scan->hasPoints3D = true;
+  scan->resizePoints3DVectors(5);
+  const auto copy =
+      std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(read(bytesOf(*scan)));
+  ASSERT_TRUE(copy);
+  EXPECT_TRUE(copy->hasPoints3D);
+  EXPECT_TRUE(copy->points3D_x.empty());
+  copy->hasPoints3D = false;
+  EXPECT_TRUE(bytesOf(*copy) == without);
 }
 
 TEST(CheckedReader, AnEmptyObjectIsNotTheEndOfTheFile)

@@ -19,8 +19,8 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kMaxPending = 32;  // most waiting frames of a sensor, 50 MB
-/** Most pixels of all waiting frames; 32 of 640x480 and 8 sensors. They take up to 5 bytes each. */
-constexpr std::size_t kMaxPendingPixels = 80u << 20;
+/** Most bytes of the images of all waiting frames; 32 of 640x480 with colour and 8 sensors. */
+constexpr std::size_t kMaxPendingBytes = 400u << 20;
 
 std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
 {
@@ -68,7 +68,7 @@ void RawlogSource::Impl::report(const InputProblem& problem)
   {
     ended_ = finished_ = true;
     pending_.clear();
-    pendingPixels_ = 0;
+    pendingBytes_ = 0;
     throw std::runtime_error(problem.text());
   }
   problems.push_back(problem);
@@ -87,7 +87,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
     {
       PendingFrame first = std::move(pending_.front());
       pending_.pop_front();
-      pendingPixels_ -= first.pixels;
+      pendingBytes_ -= first.bytes;
       if (auto frame = complete(std::move(first))) return frame;
     }
     else if (ended_)
@@ -104,7 +104,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
  * own scans tell how far time has come. The clocks of all other records may be wrong. */
 bool RawlogSource::Impl::isReady(const PendingFrame& pending) const
 {
-  if (pending_.size() > kMaxPending * clocks_.size() || pendingPixels_ > kMaxPendingPixels)
+  if (pending_.size() > kMaxPending * clocks_.size() || pendingBytes_ > kMaxPendingBytes)
     return true;
   if (!posesAreKnown(pending)) return false;
   const double time = pending.frame.time();

@@ -23,7 +23,7 @@ struct PendingFrame
 {
   RgbdFrame frame;
   mrpt::poses::CPose3DPDFGaussian sumOfActions;
-  std::size_t pixels = 0;  //!< That are in memory
+  std::size_t bytes = 0;  //!< Of its images
 };
 
 struct RawlogSource::Impl
@@ -66,7 +66,7 @@ struct RawlogSource::Impl
 
   RawlogSource& log_;
   std::deque<PendingFrame> pending_;
-  std::size_t pendingPixels_ = 0;               // of all waiting frames
+  std::size_t pendingBytes_ = 0;                // of the images of all waiting frames
   std::map<std::string, RecordClock> clocks_;   // of the scans of each sensor
   std::map<std::string, std::size_t> content_;  // number of records by class
   std::set<std::string> warned_;

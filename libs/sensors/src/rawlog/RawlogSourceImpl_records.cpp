@@ -4,6 +4,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "InputError.h"
@@ -21,13 +22,34 @@ std::string bareClassName(const mrpt::rtti::CObject& object)
   return colon == std::string::npos ? name : name.substr(colon + 1);
 }
 
-/** Pixels of the larger of its images, as far as they are in memory. */
-std::size_t pixelsOf(const mrpt::obs::CObservation3DRangeScan& scan)
+std::size_t bytesOf(const mrpt::img::CImage& image)
 {
-  std::size_t pixels = static_cast<std::size_t>(scan.rangeImage.size());
-  if (scan.hasIntensityImage && !scan.intensityImage.isExternallyStored())
-    pixels = std::max(pixels, scan.intensityImage.getWidth() * scan.intensityImage.getHeight());
-  return pixels;
+  return image.isExternallyStored() || image.isEmpty() ? 0
+                                                       : image.getHeight() * image.getRowStride();
+}
+
+/** Zero when the labels are of another number of bytes. */
+template <unsigned int Bytes>
+std::size_t bytesOfLabels(const mrpt::obs::TPixelLabelInfoBase& labels)
+{
+  const auto* info = dynamic_cast<const mrpt::obs::TPixelLabelInfo<Bytes>*>(&labels);
+  return info ? static_cast<std::size_t>(info->pixelLabels.size()) *
+                    sizeof(*info->pixelLabels.data())
+              : 0;
+}
+
+/** Bytes of all images that the scan holds in memory. */
+std::size_t bytesOf(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+  const auto bytesOfDepth = [](const mrpt::math::CMatrix_u16& image)
+  { return static_cast<std::size_t>(image.size()) * sizeof(std::uint16_t); };
+  std::size_t bytes = bytesOfDepth(scan.rangeImage);
+  for (const auto& layer : scan.rangeImageOtherLayers) bytes += bytesOfDepth(layer.second);
+  bytes += bytesOf(scan.intensityImage) + bytesOf(scan.confidenceImage);
+  if (const auto* labels = scan.pixelLabels.get())
+    bytes += bytesOfLabels<1>(*labels) + bytesOfLabels<2>(*labels) + bytesOfLabels<3>(*labels) +
+             bytesOfLabels<4>(*labels) + bytesOfLabels<8>(*labels);
+  return bytes;
 }
 }  // namespace
 
@@ -110,7 +132,7 @@ std::optional<StrayRecord> RawlogSource::Impl::addScan(
 {
   if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return std::nullopt;
   if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
-  PendingFrame pending{{}, odometry.sumOfActions(), pixelsOf(*scan)};
+  PendingFrame pending{{}, odometry.sumOfActions(), bytesOf(*scan)};
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();
@@ -120,8 +142,7 @@ std::optional<StrayRecord> RawlogSource::Impl::addScan(
         mrpt::format("time goes backwards: %.6f s before the scan before", clock.last() - time));
   const auto stray = clock.advance(time, record);
   if (stray) dropPending(*stray, scan->sensorLabel);
-  if (scan->hasRangeImage && scan->hasPoints3D) scan->resizePoints3DVectors(0);
-  pendingPixels_ += pending.pixels;
+  pendingBytes_ += pending.bytes;
   pending_.push_back(std::move(pending));
   return stray;
 }
@@ -133,7 +154,7 @@ void RawlogSource::Impl::dropPending(const StrayRecord& stray, const std::string
   { return p.frame.record == stray.record && p.frame.scan->sensorLabel == sensor; };
   const auto found = std::find_if(pending_.begin(), pending_.end(), isIt);
   if (found == pending_.end()) return;
-  pendingPixels_ -= found->pixels;
+  pendingBytes_ -= found->bytes;
   pending_.erase(found);
 }
 

@@ -27,7 +27,7 @@ struct RecordLimits
  *
  * Embedded JPEG images are decoded here, because for some damages MRPT's decoder ends the
  * program. Those of other classes than range scans are left out instead, as quadmap looks at none
- * of them.
+ * of them. The 3D points of range scans are left out, too.
  *
  * The objects of classes that this reader does not know are read by MRPT while memory and nesting
  * are limited. Known ones in them are checked like all others. */
