@@ -204,6 +204,17 @@ TEST(CheckedReader, RefusesSizesThatCannotBe)
       std::string::npos);
 }
 
+TEST(CheckedReader, LayersOfAScanShareThePixelsOfAnImage)
+{
+  const auto scan = sampleScan(kStart);
+  RecordLimits limits;
+  limits.imagePixels = kColumns * kRows;
+  scan->rangeImageOtherLayers["first"].resize(kRows, kColumns);
+  EXPECT_TRUE(read(bytesOf(*scan), limits));
+  scan->rangeImageOtherLayers["second"].resize(1, 1);
+  EXPECT_NE(errorOf([&] { read(bytesOf(*scan), limits); }).find("layers"), std::string::npos);
+}
+
 TEST(CheckedReader, LeavesOutThePointsOfAScan)
 {
   const auto scan = sampleScan(kStart);

@@ -19,11 +19,14 @@ void points(RecordCheck& c, int version)
   c.bytes.replaceFrom(c.bytes.size() - none.size(), none);
 }
 
-void rangeImage(RecordCheck& c)
+/** \return Its number of pixels. */
+std::uint64_t rangeImage(RecordCheck& c)
 {
   const std::uint64_t rows = c.bytes.number<std::uint32_t>();
   const std::uint64_t columns = c.bytes.number<std::uint32_t>();
-  c.bytes.copy(c.pixels(rows, columns) * kDepth);
+  const std::uint64_t pixels = c.pixels(rows, columns);
+  c.bytes.copy(pixels * kDepth);
+  return pixels;
 }
 
 void pixelLabels(RecordCheck& c)
@@ -49,12 +52,17 @@ void pixelLabels(RecordCheck& c)
   }
 }
 
+/** All layers together may have as many pixels as an image: several frames are in memory at once.
+ */
 void otherLayers(RecordCheck& c)
 {
+  std::uint64_t pixels = 0;
   for (unsigned n = c.bytes.number<std::uint8_t>(); n > 0; --n)
   {
     c.text();
-    rangeImage(c);
+    pixels += rangeImage(c);
+    RecordCheck::require(
+        pixels <= c.limits.imagePixels, "its layers have more pixels than an image may have");
   }
 }
 
