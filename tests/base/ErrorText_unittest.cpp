@@ -61,6 +61,12 @@ TEST(ErrorText, TellsTheCauseWithoutPlacesInTheSource)
           "bytes in function 'OutOfMemoryError'\n"),
       "Failed to allocate 9 bytes");
   EXPECT_EQ(
+      messageOf("==== MRPT exception ====\n"
+                "Message:  Exception while parsing typed object 'quadmap::X' from a stream\n"
+                "Original exception:\narchive: a text is too long\n"
+                "Location: ./CArchive.cpp:475: [void f()\nCall stack backtrace:\n"),
+      "archive: a text is too long");
+  EXPECT_EQ(
       rootMessage(std::filesystem::filesystem_error(
           "cannot remove", "x/y", std::make_error_code(std::errc::permission_denied))),
       "x/y: Permission denied");
