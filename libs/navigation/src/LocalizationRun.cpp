@@ -112,7 +112,7 @@ class LocalizationRun
     const std::string late = survey_.warningOfLateOdometry(request_.rawlog, source_.odometryKind());
     if (!late.empty()) request_.onWarning(late);
     const std::string jumps = odometry_.warningOfJumps();
-    if (!jumps.empty()) request_.onWarning(jumps);
+    if (!jumps.empty()) request_.onWarning(request_.rawlog + ": " + jumps);
     result_.odometry = odometryText();
     if (!result_.interrupted) requireContent();
     return std::move(result_);

@@ -254,7 +254,7 @@ void ObjectSlam::warnOfNoisyOdometry()
 void ObjectSlam::warnOfDoubtfulPoses()
 {
   for (const auto& text : {odometry_.warningOfJumps(), contradictions_.warning()})
-    if (!text.empty()) warn(text);
+    if (!text.empty()) warnOfInput(text);
 }
 
 void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)
