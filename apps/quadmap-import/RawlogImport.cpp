@@ -17,9 +17,11 @@ namespace quadmap
 {
 namespace
 {
-RawlogSourceOptions readingOptions(const std::string& rawlog, bool keepGoing)
+RawlogSourceOptions readingOptions(const std::string& rawlog, bool keepGoing, bool imagesAnywhere)
 {
   RawlogSourceOptions options;
+  options.imagesAnywhere = imagesAnywhere;
+  options.imagesHint = "--images-anywhere";
   options.odometryKind = bestOdometryKind(rawlog, options);
   options.pixelLabelClasses = LabelTable::installed();
   options.keepGoing = keepGoing;
@@ -155,7 +157,7 @@ FolderImportReport importRawlog(
     RawlogWriter& writer,
     const ProgressCallback& progress)
 {
-  RawlogSource source(rawlog, readingOptions(rawlog, options.keepGoing));
+  RawlogSource source(rawlog, readingOptions(rawlog, options.keepGoing, options.imagesAnywhere));
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty()) trajectory = readTumTrajectory(options.trajectory);
   FolderImportReport report;
@@ -175,9 +177,13 @@ FolderImportReport importRawlog(
   return report;
 }
 
-bool checkRawlog(const std::string& rawlog, std::ostream& out, const ProgressCallback& progress)
+bool checkRawlog(
+    const std::string& rawlog,
+    bool imagesAnywhere,
+    std::ostream& out,
+    const ProgressCallback& progress)
 {
-  RawlogSource source(rawlog, readingOptions(rawlog, true));
+  RawlogSource source(rawlog, readingOptions(rawlog, true, imagesAnywhere));
   RawlogContent content;
   while (const auto frame = source.next())
   {

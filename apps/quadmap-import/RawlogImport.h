@@ -16,8 +16,9 @@ struct RawlogImportOptions
   PosesAs posesAs = PosesAs::Odometry;
   /** File with the poses of the robot (TUM form), instead of its odometry; may be empty. */
   std::string trajectory;
-  std::size_t every = 1;   //!< Only every n-th frame of each sensor, >= 1
-  bool keepGoing = false;  //!< Leave out what cannot be used instead of throwing
+  std::size_t every = 1;        //!< Only every n-th frame of each sensor, >= 1
+  bool keepGoing = false;       //!< Leave out what cannot be used instead of throwing
+  bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
 };
 
 /** Copies the RGB-D frames of a rawlog, of any number of sensors, with their boxes and their poses
@@ -30,8 +31,13 @@ FolderImportReport importRawlog(
     const ProgressCallback& progress);
 
 /** Writes what a rawlog has, sensor by sensor, and what is wrong with it.
+ * \param imagesAnywhere See RawlogImportOptions.
  * \return Whether nothing is wrong.
  * \exception std::runtime_error If it cannot be opened. */
-bool checkRawlog(const std::string& rawlog, std::ostream& out, const ProgressCallback& progress);
+bool checkRawlog(
+    const std::string& rawlog,
+    bool imagesAnywhere,
+    std::ostream& out,
+    const ProgressCallback& progress);
 
 }  // namespace quadmap

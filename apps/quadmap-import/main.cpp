@@ -118,6 +118,9 @@ struct Cli
                              "N", line.args()};
   TCLAP::SwitchArg keepGoing{
       "", "keep-going", "Drop what cannot be used, say so, and go on.", line.args()};
+  TCLAP::SwitchArg imagesAnywhere{
+      "", "images-anywhere", "Read images that lie outside the recording's own folder.",
+      line.args()};
   cli::Group cameraGroup{line, "Camera"};
   cli::CameraArguments camera{line.args()};
 };
@@ -216,12 +219,15 @@ int importFromRawlog(Cli& cli)
   if (cli.trajectory.isSet() && posesAs(cli.posesAs.getValue()) == PosesAs::None)
     throw cli::UsageError("--trajectory: has the poses that --poses-as none leaves out");
   const std::string& rawlog = cli.source.getValue();
-  if (cli.check.getValue()) return checkRawlog(rawlog, std::cout, cli::ProgressBar()) ? 0 : 1;
+  if (cli.check.getValue())
+    return checkRawlog(rawlog, cli.imagesAnywhere.getValue(), std::cout, cli::ProgressBar()) ? 0
+                                                                                             : 1;
   RawlogImportOptions options;
   options.posesAs = posesAs(cli.posesAs.getValue());
   options.trajectory = cli.trajectory.getValue();
   options.every = static_cast<std::size_t>(cli.every.getValue());
   options.keepGoing = cli.keepGoing.getValue();
+  options.imagesAnywhere = cli.imagesAnywhere.getValue();
   RawlogWriter writer = writerOf(cli);
   const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
   tellDropped(report);
@@ -293,6 +299,8 @@ int run(Cli& cli)
   reading.detections = cli.detections.getValue();
   reading.labels = cli.labels.getValue();
   reading.camera = cli.cameraName.getValue();
+  reading.imagesAnywhere = cli.imagesAnywhere.getValue();
+  reading.imagesHint = "--images-anywhere";
   FrameFolder folder = openFrameFolder(kind, source, reading);
   const std::string up = turnUpright(folder);
   if (checking)

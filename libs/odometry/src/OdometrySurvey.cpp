@@ -218,6 +218,7 @@ OdometrySurvey surveyOdometry(
   survey.source = wanted;
   const bool usesOdometry = wanted == PoseSource::Auto || wanted == PoseSource::Rawlog;
   if (!usesOdometry && wanted != PoseSource::Visual) return survey;
+  const bool endsAtProblems = !options.keepGoing;
   options.keepGoing = true;
   UpVotes votes(perception, visual);
   try
@@ -235,6 +236,8 @@ OdometrySurvey surveyOdometry(
       moment.add(*frame);
       if (wanted != PoseSource::Rawlog) votes.add(*frame);
     }
+    // The run meets the same error and reports it; what else there is does not matter then.
+    if (endsAtProblems && !source.problems().empty()) return survey;
     if (usesOdometry) survey.odometryKind = bestKind(source.odometryKinds(), rawlog, options);
     hasOdometry = hasOdometry || !survey.odometryKind.empty();
     if (wanted == PoseSource::Rawlog || hasOdometry) return survey;

@@ -44,13 +44,15 @@ void requireFolder(const std::string& folder)
 
 /** A folder may come from somebody else, and its images go into a rawlog, which is passed on.
  * \exception std::runtime_error If an image is, or lies behind, a link out of the folder. */
-void requireOwnImages(const FolderContent& content)
+void requireOwnImages(const FolderContent& content, const FrameFolderOptions& options)
 {
+  if (options.imagesAnywhere) return;
   for (const auto& frame : content.frames)
     for (const std::string& file : {frame.color, frame.depth})
       if (!isInside(file, content.folder))
         throw std::runtime_error(
-            file + ": is a link out of " + content.folder + " (" + frame.listed + ")");
+            file + ": is a link out of " + content.folder + " (" + frame.listed +
+            (options.imagesHint.empty() ? ")" : "; " + options.imagesHint + " allows that)"));
 }
 
 void check(const FrameFolderOptions& o)
@@ -115,7 +117,7 @@ FrameFolder openFrameFolder(
   const FolderReader& reader = readerOf(kind);
   requireFolder(folder);
   FolderContent content = reader.read(folder, options);
-  requireOwnImages(content);
+  requireOwnImages(content, options);
   content.kind = kind;
   requireCamera(content);
   removeImplausiblePoses(content);

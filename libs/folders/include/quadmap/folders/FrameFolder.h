@@ -51,8 +51,10 @@ struct FrameFolderOptions
   std::string detections;
   std::string labels;  //!< File with the names of classes, for boxes that have numbers; may be ""
   std::string camera;  //!< See cameraPreset(); if empty, the folder tells
-  double maxPairDelay = 0.02;  //!< Most time from colour to depth image [s], > 0
-  double maxPoseGap = 0.1;     //!< Longest time to interpolate poses over [s], > 0
+  double maxPairDelay = 0.02;   //!< Most time from colour to depth image [s], > 0
+  double maxPoseGap = 0.1;      //!< Longest time to interpolate poses over [s], > 0
+  bool imagesAnywhere = false;  //!< Images may lie behind links out of the folder
+  std::string imagesHint;       //!< How a user sets imagesAnywhere, for messages; empty: not at all
 };
 
 /** A frame as it goes into a rawlog. */
