@@ -17,9 +17,12 @@ namespace
 CObservationObjects largeObject()
 {
   CObservationObjects object;
-  object.objects.resize(CObservationObjects::kMostObjects);
-  for (std::size_t i = 0; i < object.objects.size(); ++i)
-    object.objects[i].label = std::string(2000, 'a') + std::to_string(i);
+  ObjectMask mask;
+  mask.width = mask.height = 1024;
+  mask.pixels.resize(std::size_t{mask.width} * mask.height);
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = i * i / 77 % 2;
+  object.objects.resize(16);
+  for (auto& detected : object.objects) detected.mask = mask;
   return object;
 }
 }  // namespace
