@@ -216,7 +216,7 @@ class LocalizationRun
   {
     std::string text = failure();
     if (text.empty()) return;
-    if (!result_.dropped.empty())
+    if (result_.frames > 0 && !result_.dropped.empty())
       text += "; left out: " + std::to_string(result_.dropped.size()) + ", the first being " +
               result_.dropped.front();
     throw std::runtime_error(request_.rawlog + ": " + text);

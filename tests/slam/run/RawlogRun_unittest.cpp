@@ -316,6 +316,10 @@ TEST_F(RawlogRun, NoImagesIsAnErrorThatListsWhatThereIs)
   const auto rawlog =
       writeObjects(folder_.path("x.rawlog"), {samplePose(kStart, {}), samplePose(kStart + 1, {})});
   expectFailure(requestFor(rawlog), "no usable RGB-D images; it has 2 CObservationRobotPose");
+  auto keepGoing = requestFor(writeObjects(
+      folder_.path("back.rawlog"), {samplePose(kStart + 1, {}), samplePose(kStart, {})}));
+  keepGoing.keepGoing = true;
+  expectFailure(keepGoing, "left out: 1, the first being " + keepGoing.rawlog + ": record 1 (");
   auto request = requestFor(recording());
   request.sensorLabel = "rear";
   expectFailure(request, "no usable RGB-D images of a sensor \"rear\"");
