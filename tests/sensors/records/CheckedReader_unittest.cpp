@@ -204,6 +204,15 @@ TEST(CheckedReader, RefusesSizesThatCannotBe)
       std::string::npos);
 }
 
+TEST(CheckedReader, FlagsAreNothingButZeroAndOne)
+{
+  auto scan = bytesOf(*sampleScan(kStart));
+  const auto afterPose = scan.find('\x88', scan.find("CPose3D")) + 1;
+  ASSERT_TRUE(scan.at(afterPose) == 0 || scan.at(afterPose) == 1) << "whether there are points";
+  scan[afterPose] = '\x81';
+  EXPECT_NE(errorOf([&] { read(scan); }).find("the flag 129"), std::string::npos);
+}
+
 TEST(CheckedReader, LayersOfAScanShareThePixelsOfAnImage)
 {
   const auto scan = sampleScan(kStart);

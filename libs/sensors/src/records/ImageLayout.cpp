@@ -37,7 +37,7 @@ void grayImage(RecordCheck& c, int version)
   RecordCheck::require(
       c.pixels(height, width) * bytesOfDepth(depth) == stated,
       "holds an image whose size in pixels and bytes differ");
-  const bool isZip = c.bytes.number<std::uint8_t>() != 0;
+  const bool isZip = c.flag();
   RecordCheck::require(!isZip, "holds an image of a compression that MRPT no longer reads");
   c.bytes.copy(stated);
 }
@@ -90,9 +90,9 @@ void colourImage(RecordCheck& c, const RecordCheck::Head& head)
 
 void followImage(RecordCheck& c, const RecordCheck::Head& head)
 {
-  const bool isExternal = c.bytes.number<std::uint8_t>() != 0;
+  const bool isExternal = c.flag();
   if (isExternal) return c.text();
-  const bool hasColour = c.bytes.number<std::uint8_t>() != 0;
+  const bool hasColour = c.flag();
   if (hasColour)
     colourImage(c, head);
   else

@@ -71,21 +71,19 @@ void externalFiles(RecordCheck& c)
 {
   for (int i = 0; i < 2; ++i)
   {
-    c.bytes.number<std::uint8_t>();
+    c.flag();
     c.text();
   }
 }
 
-bool flag(RecordCheck& c) { return c.bytes.number<std::uint8_t>() != 0; }
-
 void images(RecordCheck& c, int version)
 {
-  const bool hasRangeImage = flag(c);
+  const bool hasRangeImage = c.flag();
   if (version >= 9) c.bytes.copy(kFloat);
   if (hasRangeImage && version >= 9) rangeImage(c);
   if (hasRangeImage && version < 9) c.matrix();
-  if (flag(c)) c.image();
-  if (flag(c)) c.image();
+  if (c.flag()) c.image();
+  if (c.flag()) c.image();
 }
 }  // namespace
 
@@ -94,7 +92,7 @@ void followRangeScan(RecordCheck& c, const RecordCheck::Head& head)
   const int version = head.version;
   c.bytes.copy(kFloat);
   c.objectOf("CPose3D");
-  if (flag(c)) points(c, version);
+  if (c.flag()) points(c, version);
   images(c, version);
   c.objectOf("TCamera");
   if (version >= 4)
@@ -105,9 +103,9 @@ void followRangeScan(RecordCheck& c, const RecordCheck::Head& head)
   c.bytes.copy(kFloat + kTime);
   c.text();
   if (version >= 3) externalFiles(c);
-  if (version >= 5) flag(c);
-  if (version >= 6) flag(c);
-  if (version >= 7 && flag(c)) pixelLabels(c);
+  if (version >= 5) c.flag();
+  if (version >= 6) c.flag();
+  if (version >= 7 && c.flag()) pixelLabels(c);
   if (version >= 10) otherLayers(c);
 }
 

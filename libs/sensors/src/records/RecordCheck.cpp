@@ -147,6 +147,13 @@ std::uint32_t RecordCheck::count(std::uint32_t most, const char* what)
   return n;
 }
 
+bool RecordCheck::flag()
+{
+  const auto value = bytes.number<std::uint8_t>();
+  require(value <= 1, mrpt::format("holds the flag %u, which is neither 0 nor 1", unsigned{value}));
+  return value == 1;
+}
+
 void RecordCheck::text() { bytes.copy(count(kLongestText, "characters of a text")); }
 
 void RecordCheck::matrix()

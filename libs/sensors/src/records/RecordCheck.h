@@ -45,6 +45,7 @@ class RecordCheck
   /** An object of this class. \return Its version. */
   int objectOf(const char* className);
 
+  bool flag();    //!< MRPT reads it as a bool, which nothing but 0 and 1 may be
   void text();    //!< A text with its length
   void matrix();  //!< A CMatrixF as an object, once called CMatrix
   void image();   //!< A CImage as an object, whose pixels are needed

@@ -77,12 +77,12 @@ void followMovement2D(RecordCheck& c, const Head& head)
   }
   else
     c.object();
-  const bool hasVelocities = c.bytes.number<std::uint8_t>() != 0;
+  const bool hasVelocities = c.flag();
   if (head.version < 7)
     c.bytes.copy(2 * kFloat);
   else if (hasVelocities)
     c.bytes.copy(3 * kDouble);
-  const bool hasTicks = c.bytes.number<std::uint8_t>() != 0;
+  const bool hasTicks = c.flag();
   if (head.version < 7 || hasTicks) c.bytes.copy(2 * kWord);
   if (head.version >= 6) c.bytes.copy(kTime);
 }
@@ -101,9 +101,9 @@ void followOdometry(RecordCheck& c, const Head& head)
   c.text();
   c.bytes.copy(kTime);
   if (head.version == 0) return;
-  const bool hasTicks = c.bytes.number<std::uint8_t>() != 0;
+  const bool hasTicks = c.flag();
   if (hasTicks || head.version < 2) c.bytes.copy(2 * kWord);
-  const bool hasVelocities = c.bytes.number<std::uint8_t>() != 0;
+  const bool hasVelocities = c.flag();
   if (head.version < 2)
     c.bytes.copy(2 * kFloat);
   else if (hasVelocities)
@@ -123,7 +123,7 @@ void followLaserScan(RecordCheck& c, const Head& head)
     c.text();
     c.bytes.copy(kDouble);
   }
-  if (head.version >= 7 && c.bytes.number<std::uint8_t>() != 0) c.bytes.copy(rays * kWord);
+  if (head.version >= 7 && c.flag()) c.bytes.copy(rays * kWord);
 }
 
 void followImageObservation(RecordCheck& c, const Head&)
