@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace
@@ -28,6 +29,20 @@ std::uint8_t magnitudeBit(std::uint8_t count)
     bit = static_cast<std::uint8_t>(bit << 1);
   return bit;
 }
+
+/** The first counter that is not zero, or the end. Few are, hence the steps of eight. */
+const std::uint8_t* firstOther(const std::uint8_t* from, const std::uint8_t* end)
+{
+  constexpr std::ptrdiff_t kStep = 8;
+  std::uint64_t eight = 0;
+  for (; end - from >= kStep; from += kStep)
+  {
+    std::memcpy(&eight, from, kStep);
+    if (eight != 0) break;
+  }
+  while (from != end && *from == 0) ++from;
+  return from;
+}
 }  // namespace
 
 /** Called by each library and program that was compiled with
@@ -51,13 +66,16 @@ bool Coverage::foundNew()
 {
   bool isNew = false;
   for (auto& counters : allCounters())
-    for (std::size_t i = 0; i < counters.seen.size(); ++i)
-      if (const std::uint8_t count = counters.first[i])
-      {
-        const std::uint8_t bit = magnitudeBit(count);
-        isNew = isNew || !(counters.seen[i] & bit);
-        counters.seen[i] |= bit;
-      }
+  {
+    const std::uint8_t* const end = counters.first + counters.seen.size();
+    for (const auto* i = firstOther(counters.first, end); i != end; i = firstOther(i + 1, end))
+    {
+      std::uint8_t& seen = counters.seen[static_cast<std::size_t>(i - counters.first)];
+      const std::uint8_t bit = magnitudeBit(*i);
+      isNew = isNew || !(seen & bit);
+      seen |= bit;
+    }
+  }
   return isNew;
 }
 }  // namespace quadmap

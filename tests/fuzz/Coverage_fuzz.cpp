@@ -30,7 +30,7 @@ TEST(Coverage, LeadsUpAStaircaseStepByStep)
   climbed(valid);
   if (!Coverage::foundNew()) GTEST_SKIP() << "this program does not count what ran";
   FuzzRun run;
-  run.count = 30000;
+  run.count = 10000;
   run.mostlyHarmless = true;
   std::size_t highest = 0;
   fuzz(valid, run, [&](const std::string& bytes) { highest = std::max(highest, climbed(bytes)); });
