@@ -1,6 +1,5 @@
 #include "Coverage.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -30,16 +29,12 @@ std::uint8_t magnitudeBit(std::uint8_t count)
   return bit;
 }
 
-/** The first counter that is not zero, or the end. Few are, hence the steps of eight. */
+/** The first counter that is not zero, or the end. Few are, hence the large steps. */
 const std::uint8_t* firstOther(const std::uint8_t* from, const std::uint8_t* end)
 {
-  constexpr std::ptrdiff_t kStep = 8;
-  std::uint64_t eight = 0;
-  for (; end - from >= kStep; from += kStep)
-  {
-    std::memcpy(&eight, from, kStep);
-    if (eight != 0) break;
-  }
+  static constexpr std::uint8_t kZeros[128] = {};
+  constexpr std::ptrdiff_t kStep = sizeof kZeros;
+  while (end - from >= kStep && std::memcmp(from, kZeros, sizeof kZeros) == 0) from += kStep;
   while (from != end && *from == 0) ++from;
   return from;
 }
@@ -59,7 +54,7 @@ namespace quadmap
 {
 void Coverage::reset()
 {
-  for (auto& counters : allCounters()) std::fill_n(counters.first, counters.seen.size(), 0);
+  for (auto& counters : allCounters()) std::memset(counters.first, 0, counters.seen.size());
 }
 
 bool Coverage::foundNew()
