@@ -14,6 +14,8 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/TPixelLabelInfo.h>
 
+#include <cstring>
+
 #include "../SampleRawlog.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/base/GzipStream.h"
@@ -206,11 +208,16 @@ TEST(CheckedReader, RefusesSizesThatCannotBe)
 
 TEST(CheckedReader, FlagsAreNothingButZeroAndOne)
 {
-  auto scan = bytesOf(*sampleScan(kStart));
-  const auto afterPose = scan.find('\x88', scan.find("CPose3D")) + 1;
-  ASSERT_TRUE(scan.at(afterPose) == 0 || scan.at(afterPose) == 1) << "whether there are points";
-  scan[afterPose] = '\x81';
-  EXPECT_NE(errorOf([&] { read(scan); }).find("the flag 129"), std::string::npos);
+  auto bytes = bytesOf(*sampleScan(kStart));
+  const std::size_t rangeIsDepth =
+      bytes.size() - 5;  // three flags of a byte each follow, and a mark
+  ASSERT_EQ(bytes.at(rangeIsDepth), 1);
+  bytes[rangeIsDepth] = '\x81';
+  const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(read(bytes));
+  ASSERT_TRUE(scan);
+  unsigned char stored = 0;
+  std::memcpy(&stored, &scan->range_is_depth, sizeof stored);
+  EXPECT_EQ(stored, 1) << "no other byte is a bool";
 }
 
 TEST(CheckedReader, LayersOfAScanShareThePixelsOfAnImage)

@@ -149,9 +149,9 @@ std::uint32_t RecordCheck::count(std::uint32_t most, const char* what)
 
 bool RecordCheck::flag()
 {
-  const auto value = bytes.number<std::uint8_t>();
-  require(value <= 1, mrpt::format("holds the flag %u, which is neither 0 nor 1", unsigned{value}));
-  return value == 1;
+  const bool isSet = bytes.number<std::uint8_t>() != 0;
+  bytes.replaceFrom(bytes.size() - 1, {std::uint8_t{isSet}});
+  return isSet;
 }
 
 void RecordCheck::text() { bytes.copy(count(kLongestText, "characters of a text")); }

@@ -45,7 +45,7 @@ class RecordCheck
   /** An object of this class. \return Its version. */
   int objectOf(const char* className);
 
-  bool flag();    //!< MRPT reads it as a bool, which nothing but 0 and 1 may be
+  bool flag();    //!< Made 0 or 1, as MRPT takes the byte for a bool; it once wrote any other
   void text();    //!< A text with its length
   void matrix();  //!< A CMatrixF as an object, once called CMatrix
   void image();   //!< A CImage as an object, whose pixels are needed
