@@ -33,10 +33,10 @@ struct BoxMeasurement : MeasuredGeometry
 {
   struct Edge
   {
-    Eigen::Vector3d normal;  //!< Of the plane through the camera, towards the object
-    double sigma = 0;        //!< Of the tangency distance [m]
-    double shared = 0;       //!< The part of it by which all views of one side err alike [m]
-    BoxSide side = BoxSide::Upper;
+    Eigen::Vector3d normal;         //!< Of the plane through the camera, towards the object
+    double sigma = 0;               //!< Of the tangency distance [m]
+    double shared = 0;              //!< The part of it by which all views of one side err alike [m]
+    BoxSide side = BoxSide::Upper;  //!< Told by the axes of the map, whatever the frame
   };
 
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  //!< Of the cuboid, one per column
