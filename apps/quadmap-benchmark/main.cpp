@@ -196,8 +196,7 @@ void mergeCommand(int argc, char** argv)
   cli::CommandLine line(
       "quadmap-benchmark merge",
       "Makes the tables of a page, between its markers <!-- generated: NAME -->, and the plots "
-      "from "
-      "all results that are there. Without --page the tables are printed.",
+      "from all results that are there. Without --page the tables are printed.",
       QUADMAP_VERSION);
   line.addExample(
       "quadmap-benchmark merge results --page doc/benchmarks.md --plots doc/benchmarks",

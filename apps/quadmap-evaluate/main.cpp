@@ -32,8 +32,7 @@ struct Cli
   TCLAP::UnlabeledValueArg<std::string> estimate{
       "OUTDIR",
       "Folder quadmap-slam wrote, a file of a map (.quadmap, .simplemap or .json), or the file of "
-      "a "
-      "trajectory: time tx ty tz qx qy qz qw.",
+      "a trajectory: time tx ty tz qx qy qz qw.",
       true,
       "",
       "OUTDIR|MAP|EST.tum",

@@ -30,8 +30,7 @@ struct Cli
   cli::CommandLine line{
       "quadmap-localize",
       "Finds the robot of an RGB-D rawlog in a map of objects, from anywhere in it, with a "
-      "particle "
-      "filter, and follows it. The map stays as it is. Boxes come from the rawlog or from "
+      "particle filter, and follows it. The map stays as it is. Boxes come from the rawlog or from "
       "NAME.objects.rawlog beside it. The status is 1 when the robot was not found, or is lost in "
       "the end. Ctrl-C stops "
       "early: the files then hold what was done, and the exit status is 130 (143 after SIGTERM).",

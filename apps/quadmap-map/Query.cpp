@@ -25,9 +25,8 @@ struct Cli
   cli::CommandLine line{
       "quadmap-map query",
       "Answers a question as \"nearest chair to the tv\", \"cup on table\", \"chairs\", \"books "
-      "near "
-      "the laptop\" or \"cup between the tv and the keyboard\", of those objects that fulfil all "
-      "conditions given. Relations are on, in, under, next to, near, in front of, behind and "
+      "near the laptop\" or \"cup between the tv and the keyboard\", of those objects that fulfil "
+      "all conditions given. Relations are on, in, under, next to, near, in front of, behind and "
       "between. Without a question it lists the objects that fulfil all conditions. The status is "
       "1 when there are none.",
       QUADMAP_VERSION};

@@ -23,9 +23,8 @@ struct Cli
       "quadmap-simulate",
       "Moves through a furnished room with simulated RGB-D cameras and an object detector. Writes "
       "the rawlog (range scans, drifting odometry, true poses), the boxes (OUT.objects.rawlog), "
-      "the "
-      "true objects (OUT.objects.gt.json) and the true trajectory (OUT.groundtruth.tum). The same "
-      "arguments give the same bytes.",
+      "the true objects (OUT.objects.gt.json) and the true trajectory (OUT.groundtruth.tum). The "
+      "same arguments give the same bytes.",
       QUADMAP_VERSION};
   TCLAP::UnlabeledValueArg<std::string> scene{
       "SCENE",

@@ -21,8 +21,7 @@ void requireBoxes(const RawlogRunRequest& run)
   throw cli::UsageError(
       run.rawlog +
       ": a camera brings no boxes of objects: name a detector that finds them (--detector NAME, "
-      "see "
-      "quadmap-detect --list), or take --method odometry for the trajectory alone");
+      "see quadmap-detect --list), or take --method odometry for the trajectory alone");
 }
 
 /** "3 chair, 1 tv", the most frequent first. */
