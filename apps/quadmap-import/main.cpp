@@ -92,8 +92,10 @@ int checkOnly(const FrameFolder& folder, const std::string& up, ImportCli& cli)
 /** The kind openni2. */
 int importFromCamera(ImportCli& cli)
 {
-  if (cli.check.isSet() || cli.detections.isSet() || cli.labels.isSet() || cli.posesAs.isSet())
-    throw cli::UsageError("--check, --detections, --labels, --poses-as: not for a camera");
+  if (cli.check.isSet() || cli.detections.isSet() || cli.labels.isSet() || cli.posesAs.isSet() ||
+      cli.imagesAnywhere.isSet())
+    throw cli::UsageError(
+        "--check, --detections, --labels, --poses-as, --images-anywhere: not for a camera");
   CameraImportRequest request;
   request.source = cli.source.getValue();
   request.output = cli.output.getValue();

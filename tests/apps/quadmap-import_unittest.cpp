@@ -487,6 +487,7 @@ TEST_F(QuadmapImport, WrongUsageIsStatus2)
         "tum IN -o OUT/x.rawlog --poses-as truth", "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o",
         "tum IN --check --max-gap -1", "tum IN --check --max-speed 0",
         "openni2 live -o OUT/x.rawlog --labels IN/x",
+        "openni2 live -o OUT/x.rawlog --images-anywhere",
         "rawlog x.rawlog -o OUT/x.rawlog --trajectory IN/groundtruth.txt --poses-as none"})
   {
     const auto result = run(arguments);
