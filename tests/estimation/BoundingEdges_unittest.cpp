@@ -68,3 +68,15 @@ TEST(BoundingEdges, TheLowerEndOfACameraOnItsSideIsASideOfTheImage)
   EXPECT_EQ(edgesOf(d, leftIsDown), 1u);
   EXPECT_EQ(edgesOf(d, leftIsUp), 3u);
 }
+
+TEST(BoundingEdges, WithAHiddenLowerEndTheMiddleMayBeMuchLowerThanWhatIsSeen)
+{
+  const mrpt::poses::CPose3D level(0, 0, 1.5, 0.3, 0.7, 0);
+  DetectedObject d = partial();
+  const Eigen::Matrix3d all = viewOf(d, level, chair(), PoseNoise())->centerCovariance;
+  (*d.measurement.edges)[kBottom].state = EdgeState::Occluded;
+  const Eigen::Matrix3d more = viewOf(d, level, chair(), PoseNoise())->centerCovariance - all;
+  const double half = 0.5 * chair().typicalSize.z();
+  EXPECT_NEAR(more(2, 2), half * half, 1e-9);
+  EXPECT_NEAR(more.norm(), half * half, 1e-9) << "up and down alone";
+}

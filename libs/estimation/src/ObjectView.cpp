@@ -96,21 +96,28 @@ void weakenCutFaces(
   }
 }
 
+struct BoundingEdges
+{
+  std::array<bool, 4> bounds = {};
+  bool lower = false;  // the lower end of the box is that of the object
+};
+
 /** The edges that bound the object. When the lower end of the box is cut or hidden, the edges
  * beside it bound only what is seen of the object, which may be wider below. */
-std::array<bool, 4> boundingEdges(
+BoundingEdges boundingEdges(
     const std::array<EdgeMeasurement, 4>& edges, const mrpt::poses::CPose3D& T_map_sensor)
 {
-  std::array<bool, 4> out;
+  BoundingEdges out;
   std::array<double, 4> upwards;  // of the normals, which look towards the object
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
-    out[i] = edges[i].state == EdgeState::Usable;
+    out.bounds[i] = edges[i].state == EdgeState::Usable;
     upwards[i] = edges[i].plane_sensor.transformed(T_map_sensor).n.z();
   }
   const auto highest = std::max_element(upwards.begin(), upwards.end());
   const auto lower = static_cast<std::size_t>(highest - upwards.begin());
-  if (!out[lower]) out[(lower + 1) % 4] = out[(lower + 3) % 4] = false;
+  out.lower = out.bounds[lower];
+  if (!out.lower) out.bounds[(lower + 1) % 4] = out.bounds[(lower + 3) % 4] = false;
   return out;
 }
 
@@ -160,11 +167,13 @@ BlindPosition blindPosition(
 
 /** Position of a partial measurement: the seed, pushed inwards by half the smaller typical width,
  * as flat things are seen from their broad sides. Without a seed it is somewhere along the ray
- * through the box. The covariance is that of doc/mathematics.md, (11.7). */
+ * through the box. The covariance is that of doc/mathematics.md, (11.7).
+ * \param isLowerEndSeen Else what is seen may be the upper end of the object. */
 void setPartialPosition(
     const DetectedObject& detected,
     const mrpt::poses::CPose3D& T_map_sensor,
     const LabelProperties& properties,
+    bool isLowerEndSeen,
     ObjectView& view)
 {
   const Eigen::Vector3d size = properties.typicalSize;
@@ -190,6 +199,7 @@ void setPartialPosition(
   view.centerCovariance =
       acrossRay * acrossRay * Eigen::Matrix3d::Identity() +
       (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();
+  if (!isLowerEndSeen) view.centerCovariance(2, 2) += 0.25 * size.z() * size.z();
 }
 
 ObjectView::Edge placed(
@@ -232,11 +242,12 @@ std::optional<ObjectView> viewOf(
   view.label = properties.name;
   view.camera = composed(T_map_sensor, Eigen::Vector3d::Zero());
   view.pose = noise;
+  BoundingEdges bounding;
   if (m.edges)
   {
-    const auto bounding = boundingEdges(*m.edges, T_map_sensor);
+    bounding = boundingEdges(*m.edges, T_map_sensor);
     for (std::size_t i = 0; i < m.edges->size(); ++i)
-      if (bounding[i]) view.edges.push_back(placed((*m.edges)[i], T_map_sensor, noise));
+      if (bounding.bounds[i]) view.edges.push_back(placed((*m.edges)[i], T_map_sensor, noise));
   }
 
   if (m.kind == MeasurementKind::Complete && m.complete &&
@@ -248,7 +259,7 @@ std::optional<ObjectView> viewOf(
     view.centerCovariance = cuboidCenterCovariance(view);
   }
   else if (m.seed_sensor || view.edges.size() == 4)
-    setPartialPosition(detected, T_map_sensor, properties, view);
+    setPartialPosition(detected, T_map_sensor, properties, bounding.lower, view);
   else
     return {};
   return view;

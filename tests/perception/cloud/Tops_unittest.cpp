@@ -9,12 +9,13 @@ namespace quadmap
 {
 namespace
 {
-/** Height of the measured top above the floor, and what it is worth. */
+/** Height of the measured top above the floor, what it is worth, and how the thing is turned. */
 struct MeasuredTop
 {
   bool isComplete = false;
   double height = 0;  // [m]
   FaceMeasurement worth;
+  double yaw = 0;  // [rad], in [-pi/4, pi/4]
 };
 
 /** Of the one box of a frame. */
@@ -26,7 +27,9 @@ MeasuredTop topOf(const SyntheticFrame& frame, const DetectedObject& detection)
   const auto& complete = boxes.objects.front().measurement.complete;
   if (!complete) return {};
   const Ellipsoid object = complete->object_sensor.transformed(frame.T_world_sensor);
-  return {true, object.center().z() + object.semiAxes().z(), complete->faces[4]};
+  const Eigen::Matrix3d R = object.rotation();
+  const double yaw = std::remainder(std::atan2(R(1, 0), R(0, 0)), M_PI / 2);
+  return {true, object.center().z() + object.semiAxes().z(), complete->faces[4], yaw};
 }
 
 constexpr double kDeskHeight = 0.74;
@@ -54,6 +57,41 @@ TEST(Tops, WhatStandsOnADeskIsNoPartOfIt)
     EXPECT_NEAR(top.height, kDeskHeight, 0.006) << height;
     EXPECT_EQ(top.worth.kind, FaceKind::Measured);
   }
+}
+
+// Seen from near, a table fills the image, and nobody knows where the floor is. Its heading is not
+// that of what stands on it.
+TEST(Tops, ATableIsMeasuredWhereNoFloorIsSeen)
+{
+  constexpr double kYaw = 0.1;
+  SyntheticFrame frame(1.3, 0.4);
+  frame.hasFloor = false;
+  frame.noise = 0.0015;
+  frame.add(1.9, 0.0, kDeskHeight - 0.04, kYaw, {0.9, 1.3, 0.04});
+  frame.add(1.9, 0.2, kDeskHeight, 0.6, {0.3, 0.2, 0.15});
+  frame.add(1.8, -0.3, kDeskHeight, 0.6, {0.2, 0.25, 0.12});
+  frame.add(3.4, 0.0, 0.0, 0.0, {0.1, 6.0, 2.5});  // a wall: its foot is out of sight
+  const DetectedObject table = frame.detect(0, "dining table");
+  const MeasuredTop top = topOf(frame, table);
+  ASSERT_TRUE(top.isComplete);
+  EXPECT_NEAR(top.height, kDeskHeight, 0.006);
+  EXPECT_EQ(top.worth.kind, FaceKind::Measured);
+  EXPECT_NEAR(top.yaw, kYaw, 0.02);
+}
+
+// Of a high cabinet no top is seen; what little is seen of a level surface is the plinth before it.
+TEST(Tops, WhatLiesBelowACabinetIsNotItsTop)
+{
+  SyntheticFrame frame(1.3, 0.25);
+  frame.hasFloor = false;
+  frame.noise = 0.0015;
+  frame.add(2.4, 0.0, 0.0, 0.1, {0.5, 0.9, 1.6});
+  frame.add(1.9, 0.0, 0.0, 0.1, {0.4, 1.1, 0.06});
+  DetectedObject cabinet = frame.detect(0, "cabinet");
+  cabinet.box.y2 += 25;
+  const MeasuredTop top = topOf(frame, cabinet);
+  ASSERT_TRUE(top.isComplete);
+  EXPECT_GT(top.height, 1.2);
 }
 
 TEST(Tops, OfAnotherKindOfThingTheUpperPartIsAPart)

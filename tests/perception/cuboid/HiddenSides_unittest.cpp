@@ -52,12 +52,16 @@ SyntheticFrame chairBack()
 
 TEST(HiddenSides, AChairPushedUnderATableReachesUnderIt)
 {
-  SyntheticFrame frame = chairBack();
-  frame.add(1.85, 0.0, 0.0, 0.0, {0.8, 1.6, 0.72});  // 8 cm before the back
-  const AcrossSides sides = acrossSides(frame, frame.detect(0, "chair"));
-  EXPECT_EQ(sides.near, FaceKind::AtLeast) << "the seat may be under the table";
-  EXPECT_EQ(sides.far, FaceKind::Measured) << "and is then not behind the back";
-  EXPECT_NEAR(sides.farX, kBackX + 0.5 * kBackThick, 0.03);
+  for (const bool floorIsSeen : {true, false})
+  {
+    SyntheticFrame frame = chairBack();
+    frame.hasFloor = floorIsSeen;
+    frame.add(1.85, 0.0, 0.0, 0.0, {0.8, 1.6, 0.72});  // 8 cm before the back
+    const AcrossSides sides = acrossSides(frame, frame.detect(0, "chair"));
+    EXPECT_EQ(sides.near, FaceKind::AtLeast) << "the seat may be under the table";
+    EXPECT_EQ(sides.far, FaceKind::Measured) << "and is then not behind the back";
+    EXPECT_NEAR(sides.farX, kBackX + 0.5 * kBackThick, 0.03);
+  }
 }
 
 TEST(HiddenSides, WhatStandsFarBeforeAChairTellsNothingOfItsSeat)

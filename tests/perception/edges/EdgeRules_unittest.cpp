@@ -77,6 +77,26 @@ TEST(EdgeRules, WhatStandsBehindATableHasNoBottomEdge)
   EXPECT_EQ(edges[3], 'o') << edges;
 }
 
+// The table leads up to the chair that was pushed under it, and nobody knows where the floor is.
+TEST(EdgeRules, WhatStandsAtATableOnAnUnseenFloorHasNoLowerEdges)
+{
+  for (const double roll : {0.0, 0.7})
+  {
+    SyntheticFrame frame;
+    frame.T_world_sensor = mrpt::poses::CPose3D(0, 0, 1.5, 0, 0.45, roll);
+    frame.hasFloor = false;
+    frame.add(2.35, 0.0, 0.0, 0.0, {0.05, 0.45, 0.9});  // of the chair its back is seen
+    frame.add(1.91, 0.0, 0.0, 0.0, {0.8, 1.6, 0.72});
+    const auto chair = measured(frame, {frame.detect(0, "chair")});
+    ASSERT_TRUE(chair.edges) << chair.reason;
+    for (const auto& edge : *chair.edges)
+      if (edge.plane_sensor.n.dot(frame.up_sensor()) > 0.55)
+      {
+        EXPECT_NE(edge.state, EdgeState::Usable) << roll;
+      }
+  }
+}
+
 // What hides it returns no depth, and no detector knows it: nothing but the box, which ends far
 // above the floor, tells.
 TEST(EdgeRules, ABoxThatEndsBeforeItsObjectReachesTheSupportHasNoBottomEdge)

@@ -115,13 +115,16 @@ BoxCandidates candidatesIn(
       }
   dropWallsBehind(cloud, planes, box, options, out);
   if (task.wall) dropNearerToWall(planes.plane(*task.wall).plane, out);
-  if (task.label.levelTop && task.support)
-    if (const auto top = horizontalTop(
-            cloud, out.points, out.step, planes.plane(*task.support).plane, task.label, options))
+  if (task.label.levelTop)
+  {
+    const Plane* support = task.support ? &planes.plane(*task.support).plane : nullptr;
+    if (const auto top =
+            horizontalTop(cloud, out.points, out.step, support, planes.up, task.label, options))
     {
       out.rule.setTop(*top);
       keepOnly(out, [&](std::size_t i) { return !out.rule.isAboveTop(out.points[i]); });
     }
+  }
   return out;
 }
 

@@ -56,6 +56,55 @@ class AreaOfHeight
   std::vector<double> bins_;
 };
 
+/** Where a level top may be, above the plane that its height is measured from [m]. */
+struct Heights
+{
+  double low, high;
+};
+
+/** \param seen The heights of all points: any of them may be the top's where it is not known from
+ * which support the usual height counts. */
+Heights heightsOfTop(
+    const std::vector<double>& seen, bool isAboveSupport, const LabelProperties& label)
+{
+  if (!isAboveSupport)
+  {
+    const auto [lowest, highest] = std::minmax_element(seen.begin(), seen.end());
+    return {*lowest, *highest};
+  }
+  const double spread = std::exp(kMaxSpreads * label.sizeSpread);
+  return {label.typicalSize.z() / spread, label.typicalSize.z() * spread};
+}
+
+/** Adds what each point covers if it lies on a horizontal surface, equation (7.1).
+ * \param heights Of the points, and of the camera [m]. */
+void addAreas(
+    const DepthCloud& cloud,
+    const std::vector<Eigen::Vector3d>& points,
+    const std::vector<double>& heights,
+    int step,
+    double cameraHeight,
+    AreaOfHeight& areas)
+{
+  constexpr double kMinBelow = 0.05;  // below the camera; others are seen from beneath [m]
+  const double across = step * cloud.stride();
+  const double cell = across * across / std::abs(cloud.camera().fx * cloud.camera().fy);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double below = cameraHeight - heights[i], z = points[i].z();
+    if (below > kMinBelow) areas.add(heights[i], cell * z * z * z / below);
+  }
+}
+
+/** Is most of what is seen above a height? The level surface there is what the thing stands on. */
+bool isUnderMost(double height, const std::vector<double>& heights)
+{
+  const double least = height + (kHalfWindow + 0.5) * kBin;
+  const auto above =
+      std::count_if(heights.begin(), heights.end(), [&](double h) { return h > least; });
+  return 2 * above > static_cast<std::ptrdiff_t>(heights.size());
+}
+
 /** The bin of the height with the largest area. It must stand out from the heights beside it, as a
  * vertical side covers all heights alike. */
 std::optional<int> largestHeight(const AreaOfHeight& areas)
@@ -79,25 +128,21 @@ std::optional<Plane> horizontalTop(
     const DepthCloud& cloud,
     const std::vector<Eigen::Vector3d>& points,
     int step,
-    const Plane& support,
+    const Plane* support,
+    const Eigen::Vector3d& up,
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
-  const double spread = std::exp(kMaxSpreads * label.sizeSpread);
-  AreaOfHeight areas(label.typicalSize.z() / spread, label.typicalSize.z() * spread);
-  const double across = step * cloud.stride();
-  const double cell = across * across / std::abs(cloud.camera().fx * cloud.camera().fy);
-  const double cameraHeight = support.signedDistance(Eigen::Vector3d::Zero());
-  constexpr double kMinBelow = 0.05;  // below the camera; others are seen from beneath [m]
+  if (points.empty()) return {};
+  const Plane from = support ? *support : Plane{up, 0};  // else from the camera's own height
   std::vector<double> heights;
-  for (const auto& p : points)
-  {
-    heights.push_back(support.signedDistance(p));
-    const double below = cameraHeight - heights.back();
-    if (below > kMinBelow) areas.add(heights.back(), cell * p.z() * p.z() * p.z() / below);
-  }
+  for (const auto& p : points) heights.push_back(from.signedDistance(p));
+  const Heights range = heightsOfTop(heights, support != nullptr, label);
+  const double cameraHeight = from.signedDistance(Eigen::Vector3d::Zero());
+  AreaOfHeight areas(range.low, range.high);
+  addAreas(cloud, points, heights, step, cameraHeight, areas);
   const auto top = largestHeight(areas);
-  if (!top) return {};
+  if (!top || (!support && isUnderMost(areas.height(*top), heights))) return {};
   std::vector<double> near, depths;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::abs(heights[i] - areas.height(*top)) < (kHalfWindow + 0.5) * kBin)
@@ -112,7 +157,7 @@ std::optional<Plane> horizontalTop(
   const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
   // The rim of a table is near its top, and would move the median of all heights.
   std::sort(near.begin(), near.end());
-  return Plane{support.n, support.d - near[densestWindow(near, width).middle()]};
+  return Plane{from.n, from.d - near[densestWindow(near, width).middle()]};
 }
 
 std::optional<PlaneExtent> topExtent(

@@ -43,7 +43,10 @@ void placeHiddenPart(Faces& faces, const FaceEstimator& estimator, const LabelPr
   constexpr double kMaxHidden = 0.3;   // of the height
   constexpr double kMinHidden = 0.06;  // [m]; points near the support count as the support's
   constexpr double kSideDoubt = 0.03;  // [m]
-  const double bottom = -faces[kBottom].position, top = faces[kTop].position;
+  const double top = faces[kTop].position;
+  const double bottom = faces[kBottom].worth.kind == FaceKind::Support
+                            ? -faces[kBottom].position
+                            : top - label.typicalSize.z();
   if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kMaxHidden * (top - bottom))) return;
   const bool isOpen = label.dominantDirection && estimator.isFootInSight();
   const auto before = estimator.distanceOfWhatHidesFoot();
@@ -185,9 +188,10 @@ CompleteMeasurement fitCuboid(
     // Distance of the supporting plane below the camera, along the object's -z.
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
-    placeHiddenPart(faces, estimator, label);
     openThinSides(supportTolerance(estimator.range(), label, options), faces);
   }
+  if (object.support || label.support == UsualSupport::Floor)
+    placeHiddenPart(faces, estimator, label);
   if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);

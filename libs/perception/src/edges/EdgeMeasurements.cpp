@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloud/Precision.h"
+#include "edges/EdgeStrips.h"
 #include "edges/HiddenPart.h"
 #include "edges/ObjectEnd.h"
 #include "quadmap/geometry/Projection.h"
@@ -24,35 +25,16 @@ constexpr double kMinStrip_px = 8.0;
  * the edge, equation (9.1)]. */
 constexpr double kBorderSigmas = 3.0;
 
+/** By so many spreads of its kind the box of what shows its foot is not too low. */
+constexpr double kTooLow = 2.0;
+/** Cosine of the least slope downwards of an edge below which the foot is, when a camera is turned.
+ */
+constexpr double kLooksDown = 0.5;
+
 /** Options in pixels are meant for images of this width, and grow with the image. */
 double scaledPixels(const DepthCloud& cloud, double pixels)
 {
   return PerceptionOptions::scaledPixels(pixels, cloud.camera().width);
-}
-
-ImageBox stripOutside(const ImageBox& box, BoxEdge edge, double width)
-{
-  switch (edge)
-  {
-    case BoxEdge::Left:
-      return {box.x1 - width, box.y1, box.x1, box.y2};
-    case BoxEdge::Top:
-      return {box.x1, box.y1 - width, box.x2, box.y1};
-    case BoxEdge::Right:
-      return {box.x2, box.y1, box.x2 + width, box.y2};
-    default:
-      return {box.x1, box.y2, box.x2, box.y2 + width};
-  }
-}
-
-/** The quarter of a box along one of its edges. */
-ImageBox quarterInside(const ImageBox& box, BoxEdge edge)
-{
-  const double depth = 0.25 * (isUpright(edge) ? box.width() : box.height());
-  const ImageBox inwards = stripOutside(box, edge, -depth);
-  return {
-      std::min(inwards.x1, inwards.x2), std::min(inwards.y1, inwards.y2),
-      std::max(inwards.x1, inwards.x2), std::max(inwards.y1, inwards.y2)};
 }
 
 /** Judges the edges of one box. */
@@ -86,19 +68,34 @@ class EdgeJudge
   {
     const auto i = static_cast<std::size_t>(edge);
     if (nearBorder_[i]) return EdgeState::NearImageBorder;
-    return hiddenProbability(sideOf(edge), evidence(edge)) > options_.maxHiddenProbability
-               ? EdgeState::Occluded
-               : EdgeState::Usable;
+    const HiddenEvidence seen = evidence(edge);
+    const bool isHidden = (upwards(edge) < -kLooksDown && standsOutOfSight(seen)) ||
+                          hiddenProbability(sideOf(edge), seen) > options_.maxHiddenProbability;
+    return isHidden ? EdgeState::Occluded : EdgeState::Usable;
   }
 
  private:
+  /** Does the object stand on a floor that is not seen? What leads up to it, as a table to a chair
+   * behind it, then hides its foot, of which the box is too low to show it. */
+  bool standsOutOfSight(const HiddenEvidence& seen) const
+  {
+    return !context_.object.support && context_.label.support == UsualSupport::Floor &&
+           seen.tooLow > kTooLow;
+  }
+
+  /** Cosine between up and the direction that looks out of the box over an edge. */
+  double upwards(BoxEdge edge) const
+  {
+    return -boxEdgePlane(cloud_.camera(), box_, edge).n.dot(context_.up);
+  }
+
   ObjectSide sideOf(BoxEdge edge) const
   {
     constexpr double kMinCosine = 0.7;
-    const double outwardsUp = -boxEdgePlane(cloud_.camera(), box_, edge).n.dot(context_.up);
-    return outwardsUp > kMinCosine    ? ObjectSide::Top
-           : outwardsUp < -kMinCosine ? ObjectSide::Bottom
-                                      : ObjectSide::Lateral;
+    const double cosine = upwards(edge);
+    return cosine > kMinCosine    ? ObjectSide::Top
+           : cosine < -kMinCosine ? ObjectSide::Bottom
+                                  : ObjectSide::Lateral;
   }
 
   /** Depth of the object near one of its edges [m]; of the whole object where too little of it is

@@ -2,14 +2,13 @@
 
 #include <vector>
 
+#include "edges/EdgeStrips.h"
 #include "edges/Occluders.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {
-inline bool isUpright(BoxEdge edge) { return edge == BoxEdge::Left || edge == BoxEdge::Right; }
-
 /** Where an object ends towards one edge of its box: of each row (left and right edges) or column
  * its last cell, when it lies within `edgeTolerance` of the outermost one. What cuts an object
  * meets it there; what stands before another part of the edge does not. */
