@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "../obs/TestData.h"
 #include "RunProgram.h"
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/obs/ObjectList.h"
 
 using namespace quadmap;
@@ -55,6 +59,25 @@ json figuresByTrajectory(const std::string& recording, const TemporaryFolder& fo
 json report(const TemporaryFolder& folder)
 {
   return json::parse(readFile(folder.path("out/report.json")));
+}
+
+/** Makes a folder with the second half of a recording, whose images stay where they are. */
+std::string secondHalf(const std::string& recording, const TemporaryFolder& folder)
+{
+  namespace fs = std::filesystem;
+  const std::string half = folder.path("half");
+  fs::create_directory(half);
+  for (const char* images : {"rgb", "depth"})
+    fs::create_directory_symlink(recording + "/" + images, half + "/" + images);
+  for (const char* file : {"calibration.yaml", "groundtruth.txt"})
+    fs::copy_file(recording + "/" + file, half + "/" + file);
+  std::istringstream all(readFile(recording + "/associations.txt"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(all, line);) lines.push_back(line + "\n");
+  std::string rest;
+  for (std::size_t i = lines.size() / 2; i < lines.size(); ++i) rest += lines[i];
+  writeTextFile(half + "/associations.txt", rest);
+  return half;
 }
 }  // namespace
 
@@ -122,6 +145,32 @@ TEST(Recordings, KitchenWithAnotherDetector)
   EXPECT_LE(f["estimated"], f["matched"].get<int>() + 1);
   EXPECT_LE(f["trans_m"], 0.065);
   EXPECT_GE(f["shape_iou"], 0.54);
+}
+
+// Its second half shows no floor, and the camera is not held level.
+TEST(Recordings, KitchenWithoutItsFloor)
+{
+  const auto recording = testData("kitchen_a");
+  if (recording.empty()) GTEST_SKIP() << "recording kitchen_a is not there";
+  const TemporaryFolder folder;
+  const auto half = secondHalf(recording, folder);
+  ASSERT_NO_FATAL_FAILURE(expectSuccess(
+      "quadmap-import", "tum " + quoted(half) + " --images-anywhere --detections " +
+                            quoted(recording + "/detections_yolov8n") + " -o " +
+                            quoted(folder.path("x.rawlog"))));
+  for (const std::string poses : {"rawlog", "visual"})
+  {
+    ASSERT_NO_FATAL_FAILURE(expectSuccess(
+        "quadmap-slam", quoted(folder.path("x.rawlog")) + " --odometry " + poses + " -o " +
+                            quoted(folder.path("out"))));
+    const json f = figuresByTrajectory(recording, folder)["objects"];
+    EXPECT_GE(f["matched"], 9) << poses;
+    EXPECT_LE(f["estimated"], f["matched"].get<int>() + 1) << poses;
+    EXPECT_LE(f["trans_m"], poses == "visual" ? 0.09 : 0.05) << poses;
+    EXPECT_LE(f["rot_deg"], 5.0) << poses;
+    EXPECT_GE(f["shape_iou"], 0.62) << poses;
+  }
+  EXPECT_EQ(report(folder)["visual_odometry"]["up"], "level and upright surfaces");
 }
 
 TEST(Recordings, DeskOfTumFr2FromOneSide)

@@ -48,7 +48,7 @@ TEST(OdometrySurvey, TakesTheRawlogsOdometryWhenThereIsSome)
   const TemporaryFolder folder;
   const auto survey = surveyOdometry(writeHome(folder, true), {}, PoseSource::Auto);
   EXPECT_EQ(survey.source, PoseSource::Auto);
-  EXPECT_FALSE(survey.upFromFloor) << "not asked for";
+  EXPECT_EQ(survey.upOrigin, UpOrigin::Images) << "not asked for";
 }
 
 TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
@@ -154,7 +154,7 @@ TEST(OdometrySurvey, FindsUpFromTheFloorWhenThereIsNone)
   const TemporaryFolder folder;
   const auto survey = surveyOdometry(writeHome(folder, false), {}, PoseSource::Auto);
   EXPECT_EQ(survey.source, PoseSource::Visual);
-  EXPECT_TRUE(survey.upFromFloor);
+  EXPECT_EQ(survey.upOrigin, UpOrigin::Floor);
   const Eigen::Vector3d truth =
       homeFrames(1)[0].T_world_robot->getRotationMatrix().asEigen().row(2).transpose();
   EXPECT_LT(std::acos(survey.up_robot.dot(truth)), 0.02) << "[rad]";
@@ -165,11 +165,11 @@ TEST(OdometrySurvey, WithNegativeFyTheFloorIsWhereImagesShowIt)
   const TemporaryFolder folder;
   const auto original = surveyOdometry(writeHome(folder, false), {}, PoseSource::Visual).up_robot;
   const auto upright = surveyOdometry(writeWithNegativeFy(folder, false), {}, PoseSource::Visual);
-  EXPECT_TRUE(upright.upFromFloor);
+  EXPECT_EQ(upright.upOrigin, UpOrigin::Floor);
   const Eigen::Vector3d mirrored(original.x(), original.y(), -original.z());
   EXPECT_LT(std::acos(upright.up_robot.dot(mirrored)), 0.01) << "[rad]";
   const auto turned = surveyOdometry(writeWithNegativeFy(folder, true), {}, PoseSource::Visual);
-  EXPECT_TRUE(turned.upFromFloor);
+  EXPECT_EQ(turned.upOrigin, UpOrigin::Floor);
   EXPECT_LT(std::acos(turned.up_robot.dot(original)), 0.01) << "[rad]";
 }
 
@@ -178,7 +178,7 @@ TEST(OdometrySurvey, WithoutAFloorStoredImagesAreUpright)
   const TemporaryFolder folder;
   const auto survey =
       surveyOdometry(writeWithNegativeFy(folder, false, true), {}, PoseSource::Visual);
-  EXPECT_FALSE(survey.upFromFloor);
+  EXPECT_EQ(survey.upOrigin, UpOrigin::Images);
   EXPECT_EQ(survey.up_robot, -Eigen::Vector3d::UnitZ());
 }
 
@@ -187,7 +187,7 @@ TEST(OdometrySurvey, VisualOdometryWhenAskedFor)
   const TemporaryFolder folder;
   const auto survey = surveyOdometry(writeHome(folder, true), {}, PoseSource::Visual);
   EXPECT_EQ(survey.source, PoseSource::Visual);
-  EXPECT_TRUE(survey.upFromFloor);
+  EXPECT_EQ(survey.upOrigin, UpOrigin::Floor);
 }
 
 TEST(OdometrySurvey, ASingleMomentNeedsNoOdometry)

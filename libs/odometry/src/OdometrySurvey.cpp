@@ -1,77 +1,16 @@
 #include "quadmap/odometry/OdometrySurvey.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
+#include "UpVotes.h"
 #include "quadmap/odometry/SingleMoment.h"
-#include "quadmap/odometry/VisualOdometry.h"
-#include "quadmap/perception/FramePerception.h"
-#include "visual/RigidMotion.h"
 
 namespace quadmap
 {
 namespace
 {
 constexpr std::size_t kFrames = 15;  // images in which the floor is looked for
-
-/** Whether the robot's frame stands on its head when the stored image is upright. An image with
- * negative fy is turned, so what is up in the stored one is -z of its sensor. */
-bool isUpsideDown(const RgbdFrame& frame)
-{
-  return frame.isTurned && isometryOf(frame.scan->sensorPose).linear()(2, 2) > 0;
-}
-
-/** The direction that is up in each image of one camera, carried to the first image by visual
- * odometry: doc/mathematics.md, section 15.
- *
- * A wall that fills the image may be mistaken for the floor, so directions far from the robot's z
- * are not believed. A ceiling looks like the floor of a turned image, so directions near z and
- * near -z are kept apart. */
-class UpVotes
-{
- public:
-  UpVotes(const PerceptionOptions& perception, const VisualOdometryOptions& visual) :
-      perception_(perception, LabelTable()), odometry_(visual)
-  {
-  }
-
-  void add(const RgbdFrame& frame)
-  {
-    if (odometry_.counts().frames == 0)
-    {
-      sensor_ = frame.scan->sensorLabel;
-      isTurned_ = frame.isTurned;
-      isUpsideDown_ = isUpsideDown(frame);
-    }
-    if (frame.scan->sensorLabel != sensor_) return;
-    const auto T_first_robot = odometry_.add(*frame.scan);
-    if (!T_first_robot || odometry_.counts().gaps > 0) return;
-    constexpr double kMaxTilt = M_PI / 3;
-    const auto up_robot = upOfFloor(perception_, *frame.scan);
-    if (!up_robot || std::abs(up_robot->z()) < std::cos(kMaxTilt)) return;
-    auto& side = up_robot->z() > 0 ? above_ : below_;
-    side.push_back(isometryOf(*T_first_robot).linear() * *up_robot);
-  }
-
-  /** Sets what the survey says about up. */
-  void tell(OdometrySurvey& survey) const
-  {
-    survey.up_robot.z() = isUpsideDown_ ? -1 : 1;
-    auto up_robot = agreedDirection(isUpsideDown_ ? below_ : above_);
-    // Only the floor shows that the stored images of a negative fy are upside down.
-    if (!up_robot && isTurned_) up_robot = agreedDirection(isUpsideDown_ ? above_ : below_);
-    survey.upFromFloor = up_robot.has_value();
-    if (up_robot) survey.up_robot = *up_robot;
-  }
-
- private:
-  FramePerception perception_;
-  VisualOdometry odometry_;
-  std::string sensor_;
-  bool isTurned_ = false, isUpsideDown_ = false;  // the first image, and what it says
-  std::vector<Eigen::Vector3d> above_, below_;    // near the robot's z, and near -z
-};
 
 /** How much a kind of odometry says about a pose: the higher, the more. */
 int rankOf(const std::string& kind)
@@ -153,41 +92,6 @@ std::string OdometrySurvey::warningOfLateOdometry(
   return rawlog + ": " + kind +
          " starts behind the first images, and visual odometry replaced it: records must be in the "
          "order of their times";
-}
-
-std::optional<Eigen::Vector3d> upOfFloor(
-    const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
-{
-  CObservationObjects noBoxes;
-  const auto surfaces = perception.measure(scan, noBoxes, std::nullopt);
-  const auto floor = std::find_if(
-      surfaces.seen.begin(), surfaces.seen.end(),
-      [](const SurfacePatch& patch) { return patch.kind == SurfaceKind::Floor; });
-  if (floor == surfaces.seen.end()) return std::nullopt;
-  return isometryOf(scan.sensorPose).linear() * floor->plane.n;
-}
-
-std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions)
-{
-  const double agreement = std::cos(5 * M_PI / 180);  // accuracy of the planes of a depth camera
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  int mostVotes = 0;
-  for (const auto& candidate : directions)
-  {
-    int votes = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const auto& other : directions)
-      if (candidate.dot(other) > agreement)
-      {
-        sum += other;
-        ++votes;
-      }
-    if (votes <= mostVotes) continue;
-    mostVotes = votes;
-    best = sum.normalized();
-  }
-  if (mostVotes == 0) return std::nullopt;
-  return best;
 }
 
 std::string bestOdometryKind(const std::string& rawlog, RawlogSourceOptions options)

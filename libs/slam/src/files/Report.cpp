@@ -52,20 +52,33 @@ Json inputJson(const RunRecord& run, std::size_t poses)
   return json;
 }
 
+const char* nameOf(UpOrigin origin)
+{
+  switch (origin)
+  {
+    case UpOrigin::Floor:
+      return "floor seen";
+    case UpOrigin::Surfaces:
+      return "level and upright surfaces";
+    default:
+      return "sensor pose";
+  }
+}
+
 /** Figures of visual odometry, or null when it was not used. */
 Json visualOdometryJson(const OdometrySummary& odometry)
 {
   if (!odometry.visual) return nullptr;
   const VisualOdometryCounts& counts = *odometry.visual;
   return {
-      {        "sensor",                               odometry.visualSensor},
-      {            "up", odometry.upFromFloor ? "floor seen" : "sensor pose"},
-      {        "frames",                                       counts.frames},
-      {       "by_flow",                                       counts.byFlow},
-      {"by_descriptors",                                counts.byDescriptors},
-      {        "failed",                                       counts.failed},
-      {     "keyframes",                                    counts.keyframes},
-      {          "gaps",                                         counts.gaps}
+      {        "sensor",     odometry.visualSensor},
+      {            "up", nameOf(odometry.upOrigin)},
+      {        "frames",             counts.frames},
+      {       "by_flow",             counts.byFlow},
+      {"by_descriptors",      counts.byDescriptors},
+      {        "failed",             counts.failed},
+      {     "keyframes",          counts.keyframes},
+      {          "gaps",               counts.gaps}
   };
 }
 

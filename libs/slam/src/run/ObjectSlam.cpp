@@ -30,6 +30,20 @@ std::string nameOfGivenPoses(const SlamOptions& options, const std::string& kind
   return "the rawlog's odometry" + (kind.empty() ? "" : ", " + kind);
 }
 
+/** Where up is taken from, for messages. */
+const char* textOf(UpOrigin origin)
+{
+  switch (origin)
+  {
+    case UpOrigin::Floor:
+      return "from the floor it sees";
+    case UpOrigin::Surfaces:
+      return "from what is level and upright: no floor seen at first";
+    default:
+      return "as the sensor is mounted: no floor seen at first";
+  }
+}
+
 }  // namespace
 
 ObjectSlam::ObjectSlam(
@@ -56,7 +70,7 @@ ObjectSlam::ObjectSlam(
     tasks_(kCapacity),
     pipeline_(stages(), configuration.slam.workingThreads(), kCapacity)
 {
-  result_.odometry.upFromFloor = survey.upFromFloor;
+  result_.odometry.upOrigin = survey.upOrigin;
   result_.map.insertionOptions = configuration.mapInsertion;
   result_.map.likelihoodOptions = configuration.mapLikelihood;
   result_.map.renderOptions = configuration.mapRender;
@@ -107,8 +121,7 @@ void ObjectSlam::tellOdometry(const RgbdFrame& frame)
   if (odometry_.source() == PoseSource::Visual)
     MRPT_LOG_INFO_FMT(
         "poses: visual odometry of sensor %s, up %s", frame.scan->sensorLabel.c_str(),
-        result_.odometry.upFromFloor ? "from the floor it sees"
-                                     : "as the sensor is mounted: no floor seen at first");
+        textOf(result_.odometry.upOrigin));
   else
     MRPT_LOG_INFO_STREAM("poses: " << nameOfGivenPoses(configuration_.slam, frame.odometryKind));
 }

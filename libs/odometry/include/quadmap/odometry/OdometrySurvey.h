@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "quadmap/odometry/PoseSource.h"
+#include "quadmap/odometry/UpDirection.h"
 #include "quadmap/odometry/VisualOdometryOptions.h"
 #include "quadmap/perception/PerceptionOptions.h"
 #include "quadmap/sensors/RawlogSource.h"
 
 namespace quadmap
 {
-class FramePerception;
-
 /** What the start of a rawlog tells about its poses. */
 struct OdometrySurvey
 {
   PoseSource source = PoseSource::Auto;  //!< Visual instead of Auto if there is no odometry
   Eigen::Vector3d up_robot = Eigen::Vector3d::UnitZ();  //!< Up at the first image
-  bool upFromFloor = false;  //!< The floor tells it. Otherwise it is as the images are held.
+  UpOrigin upOrigin = UpOrigin::Images;
   /** The best of several kinds of odometry (see RawlogSourceOptions::odometryKind). It is empty
    * when there is at most one kind. */
   std::string odometryKind;
@@ -67,14 +66,5 @@ OdometrySurvey surveyOdometry(
     PoseSource wanted,
     const PerceptionOptions& perception,
     const VisualOdometryOptions& visual);
-
-/** The normal of the plane on which everything in an image stands, in the robot's frame. It is
- * nothing when the image shows none. A wall that fills the image may be mistaken for it. */
-std::optional<Eigen::Vector3d> upOfFloor(
-    const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan);
-
-/** Mean of the largest set of directions that agree with one of them: doc/mathematics.md, section
- * 15. It is nothing when there are no directions. */
-std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions);
 
 }  // namespace quadmap

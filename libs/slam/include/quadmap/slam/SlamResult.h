@@ -12,6 +12,7 @@
 
 #include "quadmap/graph/FactorGraph.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/odometry/UpDirection.h"
 #include "quadmap/odometry/VisualOdometry.h"
 #include "quadmap/slam/MapContinuation.h"
 #include "quadmap/slam/SlamOptions.h"
@@ -80,7 +81,7 @@ struct OdometrySummary
 {
   PoseSource source = PoseSource::Auto;        //!< Auto means a single moment
   std::string visualSensor;                    //!< The camera of visual odometry
-  bool upFromFloor = false;                    //!< Otherwise the first image is upright
+  UpOrigin upOrigin = UpOrigin::Images;        //!< What told where up is, when it was used
   std::optional<VisualOdometryCounts> visual;  //!< Set when it was used
 };
 
