@@ -46,7 +46,7 @@ UpVotes votesOf(const FrameFolder& folder)
       const auto scan = folder.scan(i);
       const auto floor = upOfFloor(perception, *scan);
       if (floor && isWithin(*floor, Eigen::Vector3d::UnitZ(), kFarthestTilt))
-        votes.byFloor.push_back(R_world_robot * *floor);
+        votes.byFloor.push_back(R_world_robot * levelled(options, *scan, *floor));
       else if (const auto up = upOfSurfaces(options, *scan, Eigen::Vector3d::UnitZ()))
         votes.bySurfaces.push_back(R_world_robot * *up);
     }

@@ -10,6 +10,11 @@
 
 namespace quadmap
 {
+namespace
+{
+const double kAgreement = std::cos(5 * M_PI / 180);  // accuracy of the planes of a depth camera
+}
+
 std::optional<Eigen::Vector3d> upOfFloor(
     const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
 {
@@ -36,9 +41,17 @@ std::optional<Eigen::Vector3d> upOfSurfaces(
   return R_robot_optical * *up;
 }
 
+Eigen::Vector3d levelled(
+    const PerceptionOptions& options,
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const Eigen::Vector3d& up_robot)
+{
+  const auto better = upOfSurfaces(options, scan, up_robot);
+  return better && better->dot(up_robot) > kAgreement ? *better : up_robot;
+}
+
 std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions)
 {
-  const double agreement = std::cos(5 * M_PI / 180);  // accuracy of the planes of a depth camera
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   int mostVotes = 0;
   for (const auto& candidate : directions)
@@ -46,7 +59,7 @@ std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d
     int votes = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& other : directions)
-      if (candidate.dot(other) > agreement)
+      if (candidate.dot(other) > kAgreement)
       {
         sum += other;
         ++votes;

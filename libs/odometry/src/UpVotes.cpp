@@ -36,7 +36,8 @@ void UpVotes::add(const RgbdFrame& frame)
   const Eigen::Matrix3d R_first_robot = isometryOf(*T_first_robot).linear();
   const auto up_robot = upOfFloor(perception_, *frame.scan);
   if (up_robot && std::abs(up_robot->z()) > std::cos(kMaxTilt))
-    (up_robot->z() > 0 ? above_ : below_).push_back(R_first_robot * *up_robot);
+    (up_robot->z() > 0 ? above_ : below_)
+        .push_back(R_first_robot * levelled(options_, *frame.scan, *up_robot));
   else if (const auto up = upOfSurfaces(options_, *frame.scan, assumedUp()))
     surfaces_.push_back(R_first_robot * *up);
 }

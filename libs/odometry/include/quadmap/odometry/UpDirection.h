@@ -32,6 +32,13 @@ std::optional<Eigen::Vector3d> upOfSurfaces(
     const mrpt::obs::CObservation3DRangeScan& scan,
     const Eigen::Vector3d& guess);
 
+/** The up direction of an image's floor, made better by all that is level and upright in the image.
+ * \param up_robot Robot's frame, unit. \return The same where these say something else. */
+Eigen::Vector3d levelled(
+    const PerceptionOptions& options,
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const Eigen::Vector3d& up_robot);
+
 /** Mean of the largest set of directions that agree with one of them: doc/mathematics.md, section
  * 15. It is nothing when there are no directions. */
 std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions);
