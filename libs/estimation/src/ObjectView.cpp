@@ -99,7 +99,7 @@ void weakenCutFaces(
 struct BoundingEdges
 {
   std::array<bool, 4> bounds = {};
-  bool lower = false;  // the lower end of the box is that of the object
+  bool lower = true;  // the lower end of the box is that of the object
 };
 
 /** The edges that bound the object. When the lower end of the box is cut or hidden, the edges

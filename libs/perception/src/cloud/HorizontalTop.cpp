@@ -62,18 +62,21 @@ struct Heights
   double low, high;
 };
 
-/** \param seen The heights of all points: any of them may be the top's where it is not known from
- * which support the usual height counts. */
-Heights heightsOfTop(
-    const std::vector<double>& seen, bool isAboveSupport, const LabelProperties& label)
+/** Above the support the top is as high as such things are. */
+Heights heightsAboveSupport(const LabelProperties& label)
 {
-  if (!isAboveSupport)
-  {
-    const auto [lowest, highest] = std::minmax_element(seen.begin(), seen.end());
-    return {*lowest, *highest};
-  }
   const double spread = std::exp(kMaxSpreads * label.sizeSpread);
   return {label.typicalSize.z() / spread, label.typicalSize.z() * spread};
+}
+
+/** Where no support is known, the top may have any height below the camera. But a level surface
+ * that most points are above is what the thing stands on. \param seen Heights of all points, from
+ * the camera's; not empty. */
+Heights heightsBelowCamera(const std::vector<double>& seen, const PerceptionOptions& options)
+{
+  constexpr double kOnSurface = (kHalfWindow + 0.5) * kBin;
+  const double high = *std::max_element(seen.begin(), seen.end());
+  return {std::max(median(seen) - kOnSurface, -options.maxRange), std::min(high, 0.0)};
 }
 
 /** Adds what each point covers if it lies on a horizontal surface, equation (7.1).
@@ -94,15 +97,6 @@ void addAreas(
     const double below = cameraHeight - heights[i], z = points[i].z();
     if (below > kMinBelow) areas.add(heights[i], cell * z * z * z / below);
   }
-}
-
-/** Is most of what is seen above a height? The level surface there is what the thing stands on. */
-bool isUnderMost(double height, const std::vector<double>& heights)
-{
-  const double least = height + (kHalfWindow + 0.5) * kBin;
-  const auto above =
-      std::count_if(heights.begin(), heights.end(), [&](double h) { return h > least; });
-  return 2 * above > static_cast<std::ptrdiff_t>(heights.size());
 }
 
 /** The bin of the height with the largest area. It must stand out from the heights beside it, as a
@@ -137,12 +131,13 @@ std::optional<Plane> horizontalTop(
   const Plane from = support ? *support : Plane{up, 0};  // else from the camera's own height
   std::vector<double> heights;
   for (const auto& p : points) heights.push_back(from.signedDistance(p));
-  const Heights range = heightsOfTop(heights, support != nullptr, label);
+  const Heights range = support ? heightsAboveSupport(label) : heightsBelowCamera(heights, options);
+  if (range.low >= range.high) return {};
   const double cameraHeight = from.signedDistance(Eigen::Vector3d::Zero());
   AreaOfHeight areas(range.low, range.high);
   addAreas(cloud, points, heights, step, cameraHeight, areas);
   const auto top = largestHeight(areas);
-  if (!top || (!support && isUnderMost(areas.height(*top), heights))) return {};
+  if (!top) return {};
   std::vector<double> near, depths;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::abs(heights[i] - areas.height(*top)) < (kHalfWindow + 0.5) * kBin)

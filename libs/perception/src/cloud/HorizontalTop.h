@@ -17,9 +17,9 @@ namespace quadmap
  * angle too flat for a plane of the scene, down to a slope at which only the rim shows. What is
  * above the top stands on it. \param points Of every step-th cell of every step-th row in its box,
  * optical frame [m]. \param support What it stands on, normal up; null when that is not known: the
- * top may then have any height. \param up Unit, optical frame. \return Parallel to the support, or
- * level without one. Nothing when no height stands out or none is as high above the support as such
- * things are. */
+ * top may then have any height below the camera at which most points are not above it. \param up
+ * Unit, optical frame. \return Parallel to the support, or horizontal without one. Nothing when no
+ * height stands out, or, with a support, none is as high above it as such things are. */
 std::optional<Plane> horizontalTop(
     const DepthCloud& cloud,
     const std::vector<Eigen::Vector3d>& points,

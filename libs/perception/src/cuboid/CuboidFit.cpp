@@ -8,6 +8,7 @@
 #include "cuboid/HeadingEstimate.h"
 #include "cuboid/TopRim.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
+#include "support/UnseenFoot.h"
 
 namespace quadmap
 {
@@ -61,6 +62,14 @@ void placeHiddenPart(Faces& faces, const FaceEstimator& estimator, const LabelPr
       worth.kind = FaceKind::AtLeast;
     worth.sigma += kSideDoubt;
   }
+}
+
+/** Spreads of its kind by which what is seen of an object is lower than usual. */
+double spreadsTooLow(
+    const Faces& faces, const FaceEstimator& estimator, const LabelProperties& label)
+{
+  const double seen = faces[kTop].position - estimator.lowestSeen();
+  return label.spreadsBetween(std::max(seen, kMinHalfSize), label.typicalSize.z());
 }
 
 /** The heading by the sides of the object, or by the rim of its top where that tells it better. */
@@ -188,10 +197,10 @@ CompleteMeasurement fitCuboid(
     // Distance of the supporting plane below the camera, along the object's -z.
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
-    openThinSides(supportTolerance(estimator.range(), label, options), faces);
   }
-  if (object.support || label.support == UsualSupport::Floor)
+  if (object.support || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
     placeHiddenPart(faces, estimator, label);
+  if (object.support) openThinSides(supportTolerance(estimator.range(), label, options), faces);
   if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);

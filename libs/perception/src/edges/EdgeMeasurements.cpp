@@ -10,6 +10,7 @@
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/BoxEdges.h"
+#include "support/UnseenFoot.h"
 
 namespace quadmap
 {
@@ -25,10 +26,7 @@ constexpr double kMinStrip_px = 8.0;
  * the edge, equation (9.1)]. */
 constexpr double kBorderSigmas = 3.0;
 
-/** By so many spreads of its kind the box of what shows its foot is not too low. */
-constexpr double kTooLow = 2.0;
-/** Cosine of the least slope downwards of an edge below which the foot is, when a camera is turned.
- */
+/** Of turned cameras two edges may look down, so much of their normals or more [-]. */
 constexpr double kLooksDown = 0.5;
 
 /** Options in pixels are meant for images of this width, and grow with the image. */
@@ -69,18 +67,20 @@ class EdgeJudge
     const auto i = static_cast<std::size_t>(edge);
     if (nearBorder_[i]) return EdgeState::NearImageBorder;
     const HiddenEvidence seen = evidence(edge);
-    const bool isHidden = (upwards(edge) < -kLooksDown && standsOutOfSight(seen)) ||
+    const bool isHidden = isBeforeTheFoot(edge, seen) ||
                           hiddenProbability(sideOf(edge), seen) > options_.maxHiddenProbability;
     return isHidden ? EdgeState::Occluded : EdgeState::Usable;
   }
 
  private:
-  /** Does the object stand on a floor that is not seen? What leads up to it, as a table to a chair
-   * behind it, then hides its foot, of which the box is too low to show it. */
-  bool standsOutOfSight(const HiddenEvidence& seen) const
+  /** Is this a lower edge of a box that is too low to show the foot of its object? What leads up to
+   * the object, as a table to a chair behind it, shows no jump in depth. A box that is cut above is
+   * low for that reason. */
+  bool isBeforeTheFoot(BoxEdge edge, const HiddenEvidence& seen) const
   {
-    return !context_.object.support && context_.label.support == UsualSupport::Floor &&
-           seen.tooLow > kTooLow;
+    const bool isCutAbove = nearBorder_[(static_cast<std::size_t>(edge) + 2) % 4];
+    return upwards(edge) < -kLooksDown && !isCutAbove &&
+           isFootOutOfSight(context_.object, context_.label, seen.tooLow);
   }
 
   /** Cosine between up and the direction that looks out of the box over an edge. */
