@@ -5,11 +5,11 @@
 #include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "CameraImport.h"
-#include "FloorUp.h"
 #include "FolderSummary.h"
 #include "ImportCli.h"
 #include "ImportMessages.h"
 #include "RawlogImport.h"
+#include "WorldUp.h"
 #include "quadmap/folders/FolderCheck.h"
 #include "quadmap/folders/FolderKinds.h"
 

@@ -162,29 +162,57 @@ TEST_F(QuadmapImport, SaysThatUpIsNotKnown)
   EXPECT_NE(run("tum IN --check").out.find("  up: taken as +z"), kNotFound);
 }
 
-TEST_F(QuadmapImport, FindsUpByTheFloor)
+/** A recording whose camera sees planes, and does not say where up is. */
+class UpOfPlanes : public QuadmapImport
 {
-  auto calibration = std::string(SampleRecording::kCalibration);
-  recording_.writeCalibration(calibration.substr(0, calibration.find("world_up")));
-  // The camera looks down on a floor 1.2 m below it, whose normal in its frame is `up`.
+ protected:
+  /** \param normals Of planes that are 1.2 m from the camera and look at it; optical frame. */
+  void show(const std::vector<Eigen::Vector3d>& normals)
+  {
+    const std::string calibration = SampleRecording::kCalibration;
+    recording_.writeCalibration(calibration.substr(0, calibration.find("world_up")));
+    cv::Mat depth(48, 64, CV_16UC1);
+    for (int v = 0; v < depth.rows; ++v)
+      for (int u = 0; u < depth.cols; ++u)
+      {
+        double nearness = 0;  // of the nearest plane
+        for (const auto& n : normals)
+          nearness =
+              std::max(nearness, -n.dot(Eigen::Vector3d((u - 31.5) / 60, (v - 23.5) / 62, 1)));
+        depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(5000 * 1.2 / nearness);
+      }
+    for (int i = 0; i < SampleRecording::kFrames; ++i)
+      cv::imwrite(recording_.files.path(mrpt::format("depth/f%d.png", i)), depth);
+  }
+
+  /** Imports it. \param up Optical frame. \param by How the program says it found that. */
+  void expectUp(const Eigen::Vector3d& up, const std::string& by)
+  {
+    const auto result = run("tum IN -o OUT/x.rawlog");
+    EXPECT_EQ(result.status, 0);
+    EXPECT_NE(result.err.find(by), kNotFound) << result.err;
+    const auto frames = readAll(out_.path("x.rawlog"));
+    const Eigen::Vector3d up_robot(up.z(), -up.x(), -up.y());  // x forward, y left, z up
+    const Eigen::Vector3d up_map =
+        frames.at(0).T_odom_robot->getRotationMatrix().asEigen() * up_robot;
+    EXPECT_GT(up_map.z(), std::cos(mrpt::DEG2RAD(1.0))) << up_map.transpose();
+  }
+};
+
+TEST_F(UpOfPlanes, IsTheFloors)
+{
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.8, -0.6).normalized();
-  cv::Mat depth(48, 64, CV_16UC1);
-  for (int v = 0; v < depth.rows; ++v)
-    for (int u = 0; u < depth.cols; ++u)
-    {
-      const double away = -up.dot(Eigen::Vector3d((u - 31.5) / 60, (v - 23.5) / 62, 1));
-      depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(5000 * 1.2 / away);
-    }
-  for (int i = 0; i < SampleRecording::kFrames; ++i)
-    cv::imwrite(recording_.files.path(mrpt::format("depth/f%d.png", i)), depth);
-  const auto result = run("tum IN -o OUT/x.rawlog");
-  EXPECT_EQ(result.status, 0);
-  EXPECT_NE(result.err.find("by the floor in 6 images of 6"), kNotFound) << result.err;
-  const auto frames = readAll(out_.path("x.rawlog"));
-  const Eigen::Vector3d up_robot(up.z(), -up.x(), -up.y());  // x forward, y left, z up
-  const Eigen::Vector3d up_map =
-      frames.at(0).T_odom_robot->getRotationMatrix().asEigen() * up_robot;
-  EXPECT_GT(up_map.z(), std::cos(mrpt::DEG2RAD(1.0))) << up_map.transpose();
+  show({up});
+  expectUp(up, "by the floor in 6 images of 6");
+}
+
+TEST_F(UpOfPlanes, IsAlongTwoWalls)
+{
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.9, -0.3).normalized();
+  const Eigen::Vector3d left = up.cross(Eigen::Vector3d(1, 0, -1)).normalized();
+  const Eigen::Vector3d right = up.cross(left);
+  show({left.z() < 0 ? left : -left, right.z() < 0 ? right : -right});
+  expectUp(up, "by horizontal and vertical surfaces in 6 images of 6 without a floor");
 }
 
 TEST_F(QuadmapImport, FindsTheUpOfARealRecording)

@@ -170,7 +170,7 @@ TEST(Recordings, KitchenWithoutItsFloor)
     EXPECT_LE(f["rot_deg"], 5.0) << poses;
     EXPECT_GE(f["shape_iou"], 0.62) << poses;
   }
-  EXPECT_EQ(report(folder)["visual_odometry"]["up"], "level and upright surfaces");
+  EXPECT_EQ(report(folder)["visual_odometry"]["up"], "horizontal and vertical surfaces");
 }
 
 TEST(Recordings, DeskOfTumFr2FromOneSide)

@@ -223,6 +223,7 @@ TEST(OdometrySurvey, DirectionIsTheOneMostAgreeOn)
   const Eigen::Vector3d nearly = Eigen::Vector3d(0.02, 0, 1).normalized();
   const auto direction = agreedDirection({wall, up, nearly});
   ASSERT_TRUE(direction);
-  EXPECT_LT((*direction - (up + nearly).normalized()).norm(), 1e-12);
+  EXPECT_LT((direction->direction - (up + nearly).normalized()).norm(), 1e-12);
+  EXPECT_EQ(direction->votes, 2u);
   EXPECT_FALSE(agreedDirection({}));
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "quadmap/geometry/PinholeCamera.h"
-#include "quadmap/perception/FramePerception.h"
 #include "quadmap/surfaces/RoomUp.h"
 #include "visual/RigidMotion.h"
 
@@ -12,9 +11,11 @@ namespace quadmap
 {
 namespace
 {
-const double kAgreement = std::cos(5 * M_PI / 180);  // accuracy of the planes of a depth camera
-}
+const double kAgreement = std::cos(5 * M_PI / 180);    // accuracy of the planes of a depth camera
+const double kFarthest = std::cos(60 * M_PI / 180.0);  // a floor's normal from the guess
 
+/** The normal of the plane on which everything in an image stands, in the robot's frame. It is
+ * nothing when the image shows none. */
 std::optional<Eigen::Vector3d> upOfFloor(
     const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan)
 {
@@ -27,6 +28,7 @@ std::optional<Eigen::Vector3d> upOfFloor(
   return isometryOf(scan.sensorPose).linear() * floor->plane.n;
 }
 
+/** Up by horizontal and vertical surfaces, see upOfRoom(), in the robot's frame. */
 std::optional<Eigen::Vector3d> upOfSurfaces(
     const PerceptionOptions& options,
     const mrpt::obs::CObservation3DRangeScan& scan,
@@ -41,22 +43,35 @@ std::optional<Eigen::Vector3d> upOfSurfaces(
   return R_robot_optical * *up;
 }
 
-Eigen::Vector3d levelled(
-    const PerceptionOptions& options,
-    const mrpt::obs::CObservation3DRangeScan& scan,
-    const Eigen::Vector3d& up_robot)
+}  // namespace
+
+UpFinder::UpFinder(const PerceptionOptions& options) :
+    options_(options), perception_(options, LabelTable())
 {
-  const auto better = upOfSurfaces(options, scan, up_robot);
-  return better && better->dot(up_robot) > kAgreement ? *better : up_robot;
 }
 
-std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions)
+std::optional<SeenUp> UpFinder::find(
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const Eigen::Vector3d& guess,
+    BelievedFloors floors) const
 {
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  int mostVotes = 0;
+  const auto floor = upOfFloor(perception_, scan);
+  const double cosine = floor ? floor->dot(guess) : 0.0;
+  const bool isBelieved =
+      floors == BelievedFloors::Below ? cosine > kFarthest : std::abs(cosine) > kFarthest;
+  const auto up = upOfSurfaces(options_, scan, isBelieved ? *floor : guess);
+  // One plane of a depth image is wrong by a degree or two, and all surfaces together by less.
+  if (isBelieved) return SeenUp{up && up->dot(*floor) > kAgreement ? *up : *floor, UpOrigin::Floor};
+  if (!up) return std::nullopt;
+  return SeenUp{*up, UpOrigin::Surfaces};
+}
+
+std::optional<AgreedDirection> agreedDirection(const std::vector<Eigen::Vector3d>& directions)
+{
+  AgreedDirection best;
   for (const auto& candidate : directions)
   {
-    int votes = 0;
+    std::size_t votes = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& other : directions)
       if (candidate.dot(other) > kAgreement)
@@ -64,11 +79,9 @@ std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d
         sum += other;
         ++votes;
       }
-    if (votes <= mostVotes) continue;
-    mostVotes = votes;
-    best = sum.normalized();
+    if (votes > best.votes) best = {sum.normalized(), votes};
   }
-  if (mostVotes == 0) return std::nullopt;
+  if (best.votes == 0) return std::nullopt;
   return best;
 }
 

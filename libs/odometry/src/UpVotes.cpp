@@ -1,7 +1,5 @@
 #include "UpVotes.h"
 
-#include <cmath>
-
 #include "visual/RigidMotion.h"
 
 namespace quadmap
@@ -17,7 +15,7 @@ bool isUpsideDown(const RgbdFrame& frame)
 }  // namespace
 
 UpVotes::UpVotes(const PerceptionOptions& perception, const VisualOdometryOptions& visual) :
-    options_(perception), perception_(perception, LabelTable()), odometry_(visual)
+    finder_(perception), odometry_(visual)
 {
 }
 
@@ -32,29 +30,30 @@ void UpVotes::add(const RgbdFrame& frame)
   if (frame.scan->sensorLabel != sensor_) return;
   const auto T_first_robot = odometry_.add(*frame.scan);
   if (!T_first_robot || odometry_.counts().gaps > 0) return;
-  constexpr double kMaxTilt = M_PI / 3;
-  const Eigen::Matrix3d R_first_robot = isometryOf(*T_first_robot).linear();
-  const auto up_robot = upOfFloor(perception_, *frame.scan);
-  if (up_robot && std::abs(up_robot->z()) > std::cos(kMaxTilt))
-    (up_robot->z() > 0 ? above_ : below_)
-        .push_back(R_first_robot * levelled(options_, *frame.scan, *up_robot));
-  else if (const auto up = upOfSurfaces(options_, *frame.scan, assumedUp()))
-    surfaces_.push_back(R_first_robot * *up);
+  const auto floors = isTurned_ ? BelievedFloors::BelowOrAbove : BelievedFloors::Below;
+  const auto seen = finder_.find(*frame.scan, assumedUp(), floors);
+  if (!seen) return;
+  auto& votes = seen->origin == UpOrigin::Surfaces ? surfaces_
+                : seen->up_robot.z() > 0           ? above_
+                                                   : below_;
+  votes.push_back(isometryOf(*T_first_robot).linear() * seen->up_robot);
 }
 
 void UpVotes::tell(OdometrySurvey& survey) const
 {
-  survey.up_robot = assumedUp();
-  auto up_robot = agreedDirection(isUpsideDown_ ? below_ : above_);
+  auto floor = agreedDirection(isUpsideDown_ ? below_ : above_);
   // Only the floor shows that the stored images of a negative fy are upside down.
-  if (!up_robot && isTurned_) up_robot = agreedDirection(isUpsideDown_ ? above_ : below_);
-  survey.upOrigin = up_robot ? UpOrigin::Floor : UpOrigin::Images;
-  if (!up_robot)
-  {
-    up_robot = agreedDirection(surfaces_);
-    if (up_robot) survey.upOrigin = UpOrigin::Surfaces;
-  }
-  if (up_robot) survey.up_robot = *up_robot;
+  if (!floor && isTurned_) floor = agreedDirection(isUpsideDown_ ? above_ : below_);
+  const auto surfaces = agreedDirection(surfaces_);
+  const bool surfacesTell = surfaces && surfaces->isMajorityOf(surfaces_.size());
+  const bool floorTells = floor && (!surfacesTell || floor->votes >= surfaces->votes ||
+                                    floor->isMajorityOf(above_.size() + below_.size()));
+  survey.upOrigin = floorTells     ? UpOrigin::Floor
+                    : surfacesTell ? UpOrigin::Surfaces
+                                   : UpOrigin::Images;
+  survey.up_robot = floorTells     ? floor->direction
+                    : surfacesTell ? surfaces->direction
+                                   : assumedUp();
 }
 
 }  // namespace quadmap

@@ -50,7 +50,8 @@ TEST(RoomUp, OfATableAndOfWalls)
   const std::vector<std::pair<double, double>> cameras = {
       {   0,    0},
       { 0.5,  0.2},
-      {-0.4, -0.6}
+      {-0.4, -0.6},
+      { 0.7,  0.0}
   };
   for (const auto& [pitch, roll] : cameras)
   {

@@ -59,7 +59,7 @@ const char* nameOf(UpOrigin origin)
     case UpOrigin::Floor:
       return "floor seen";
     case UpOrigin::Surfaces:
-      return "level and upright surfaces";
+      return "horizontal and vertical surfaces";
     default:
       return "sensor pose";
   }

@@ -38,7 +38,7 @@ const char* textOf(UpOrigin origin)
     case UpOrigin::Floor:
       return "from the floor it sees";
     case UpOrigin::Surfaces:
-      return "from what is level and upright: no floor seen at first";
+      return "from horizontal and vertical surfaces: no floor seen at first";
     default:
       return "as the sensor is mounted: no floor seen at first";
   }

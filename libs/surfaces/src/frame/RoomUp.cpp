@@ -13,18 +13,18 @@ constexpr double kNear = M_SQRT1_2;                 // cosine, of 45 degrees
 struct Agreement
 {
   double share = 0;  // of the image's cells that they cover
-  /** Sum of share n n^t, of upright planes with the opposite sign. */
-  Eigen::Matrix3d level = Eigen::Matrix3d::Zero();
+  /** Sum of share n n^t, of vertical planes with the opposite sign. */
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
 
   Agreement(const std::vector<ScenePlane>& planes, const Eigen::Vector3d& up)
   {
     for (const auto& plane : planes)
     {
       const Eigen::Vector3d& n = plane.plane.n;
-      const bool isLevel = n.cross(up).norm() < kStraight;
-      if (!isLevel && std::abs(n.dot(up)) > kStraight) continue;
+      const bool isHorizontal = n.cross(up).norm() < kStraight;
+      if (!isHorizontal && std::abs(n.dot(up)) > kStraight) continue;
       share += plane.share;
-      level += (isLevel ? plane.share : -plane.share) * n * n.transpose();
+      moments += (isHorizontal ? plane.share : -plane.share) * n * n.transpose();
     }
   }
 
@@ -32,7 +32,7 @@ struct Agreement
   Eigen::Vector3d best(const Eigen::Vector3d& near) const
   {
     const Eigen::Vector3d up =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(level).eigenvectors().col(2);
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(2);
     return up.dot(near) < 0 ? Eigen::Vector3d(-up) : up;
   }
 };

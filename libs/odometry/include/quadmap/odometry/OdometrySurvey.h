@@ -18,7 +18,7 @@ struct OdometrySurvey
 {
   PoseSource source = PoseSource::Auto;  //!< Visual instead of Auto if there is no odometry
   Eigen::Vector3d up_robot = Eigen::Vector3d::UnitZ();  //!< Up at the first image
-  UpOrigin upOrigin = UpOrigin::Images;
+  UpOrigin upOrigin = UpOrigin::Images;                 //!< What tells up_robot
   /** The best of several kinds of odometry (see RawlogSourceOptions::odometryKind). It is empty
    * when there is at most one kind. */
   std::string odometryKind;

@@ -3,44 +3,70 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <Eigen/Dense>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "quadmap/perception/FramePerception.h"
 #include "quadmap/perception/PerceptionOptions.h"
 
 namespace quadmap
 {
-class FramePerception;
-
-/** What tells where up is at the first image. */
+/** What tells where up is. */
 enum class UpOrigin
 {
   Images,    //!< Nothing: the images are held upright
-  Surfaces,  //!< What is level and upright in the first images
-  Floor      //!< The floor, which they show
+  Surfaces,  //!< Horizontal and vertical surfaces that images show
+  Floor      //!< The floor that images show
 };
 
-/** The normal of the plane on which everything in an image stands, in the robot's frame. It is
- * nothing when the image shows none. A wall that fills the image may be mistaken for it. */
-std::optional<Eigen::Vector3d> upOfFloor(
-    const FramePerception& perception, const mrpt::obs::CObservation3DRangeScan& scan);
+/** Where up is in the robot's frame of an image. */
+struct SeenUp
+{
+  Eigen::Vector3d up_robot;  //!< Unit
+  UpOrigin origin = UpOrigin::Floor;
+};
 
-/** Up in the robot's frame by what is level and upright in an image, see upOfRoom().
- * \param guess Robot's frame, unit. */
-std::optional<Eigen::Vector3d> upOfSurfaces(
-    const PerceptionOptions& options,
-    const mrpt::obs::CObservation3DRangeScan& scan,
-    const Eigen::Vector3d& guess);
+/** Which floors are believed: a ceiling looks like the floor of an image that is upside down. */
+enum class BelievedFloors
+{
+  Below,        //!< Those whose normals are near the guess
+  BelowOrAbove  //!< Also those whose normals are near its opposite
+};
 
-/** The up direction of an image's floor, made better by all that is level and upright in the image.
- * \param up_robot Robot's frame, unit. \return The same where these say something else. */
-Eigen::Vector3d levelled(
-    const PerceptionOptions& options,
-    const mrpt::obs::CObservation3DRangeScan& scan,
-    const Eigen::Vector3d& up_robot);
+/** Finds the up direction of single images (doc/mathematics.md, 15, "Up"). */
+class UpFinder
+{
+ public:
+  explicit UpFinder(const PerceptionOptions& options);
+
+  /** By the floor, or else by horizontal and vertical surfaces.
+   * \param guess Robot's frame, unit. A wall that fills the image may be mistaken for the floor, so
+   * directions far from it are not believed.
+   * \return Nothing when neither tells it.
+   * \exception std::runtime_error When the scan has no depth image, or not that of its camera. */
+  std::optional<SeenUp> find(
+      const mrpt::obs::CObservation3DRangeScan& scan,
+      const Eigen::Vector3d& guess,
+      BelievedFloors floors = BelievedFloors::Below) const;
+
+ private:
+  PerceptionOptions options_;
+  FramePerception perception_;
+};
+
+/** The direction that most of some directions agree on. */
+struct AgreedDirection
+{
+  Eigen::Vector3d direction;  //!< Unit
+  std::size_t votes = 0;      //!< Number of those that agree
+
+  /** There are enough of them, and they are half of so many. */
+  bool isMajorityOf(std::size_t all) const { return votes >= 3 && 2 * votes >= all; }
+};
 
 /** Mean of the largest set of directions that agree with one of them: doc/mathematics.md, section
  * 15. It is nothing when there are no directions. */
-std::optional<Eigen::Vector3d> agreedDirection(const std::vector<Eigen::Vector3d>& directions);
+std::optional<AgreedDirection> agreedDirection(const std::vector<Eigen::Vector3d>& directions);
 
 }  // namespace quadmap

@@ -81,7 +81,7 @@ struct OdometrySummary
 {
   PoseSource source = PoseSource::Auto;        //!< Auto means a single moment
   std::string visualSensor;                    //!< The camera of visual odometry
-  UpOrigin upOrigin = UpOrigin::Images;        //!< What told where up is, when it was used
+  UpOrigin upOrigin = UpOrigin::Images;        //!< What told visual odometry where up is
   std::optional<VisualOdometryCounts> visual;  //!< Set when it was used
 };
 

@@ -9,10 +9,9 @@
 namespace quadmap
 {
 /** The up direction by what is flat in a frame that shows no floor: tops of tables and cupboards,
- * walls, fronts of furniture. People build level and upright, so it is the direction that most of
- * this is parallel to or at right angles with (doc/mathematics.md, (15.11)).
- * \param guess Unit, optical frame. Walls and levels change places with a direction far from it, so
- * only those within 45 degrees count.
+ * walls, fronts of furniture. Most of this is horizontal or vertical (doc/mathematics.md, (15.11)).
+ * \param guess Unit, optical frame. Directions more than 45 degrees from it are not tried: a camera
+ * that looks down more steeply would take the walls for horizontal.
  * \return Unit. Nothing when too little of the image is flat. */
 std::optional<Eigen::Vector3d> upOfRoom(
     const std::vector<ScenePlane>& planes, const Eigen::Vector3d& guess);
