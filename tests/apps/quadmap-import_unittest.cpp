@@ -169,20 +169,25 @@ class UpOfPlanes : public QuadmapImport
   /** \param normals Of planes that are 1.2 m from the camera and look at it; optical frame. */
   void show(const std::vector<Eigen::Vector3d>& normals)
   {
-    const std::string calibration = SampleRecording::kCalibration;
-    recording_.writeCalibration(calibration.substr(0, calibration.find("world_up")));
-    cv::Mat depth(48, 64, CV_16UC1);
-    for (int v = 0; v < depth.rows; ++v)
-      for (int u = 0; u < depth.cols; ++u)
+    constexpr int kColumns = 320, kRows = 240;
+    constexpr double kFocal = 300, kCx = 159.5, kCy = 119.5;  // [px]
+    recording_.writeCalibration(
+        "fx: 300.0\nfy: 300.0\ncx: 159.5\ncy: 119.5\nwidth: 320\nheight: 240\n"
+        "depth_factor: 5000.0\n");
+    cv::Mat depth(kRows, kColumns, CV_16UC1);
+    for (int v = 0; v < kRows; ++v)
+      for (int u = 0; u < kColumns; ++u)
       {
+        const Eigen::Vector3d ray((u - kCx) / kFocal, (v - kCy) / kFocal, 1);
         double nearness = 0;  // of the nearest plane
-        for (const auto& n : normals)
-          nearness =
-              std::max(nearness, -n.dot(Eigen::Vector3d((u - 31.5) / 60, (v - 23.5) / 62, 1)));
+        for (const auto& n : normals) nearness = std::max(nearness, -n.dot(ray));
         depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(5000 * 1.2 / nearness);
       }
     for (int i = 0; i < SampleRecording::kFrames; ++i)
+    {
+      recording_.writeColor(i, kColumns, kRows);
       cv::imwrite(recording_.files.path(mrpt::format("depth/f%d.png", i)), depth);
+    }
   }
 
   /** Imports it. \param up Optical frame. \param by How the program says it found that. */
