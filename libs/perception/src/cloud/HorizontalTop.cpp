@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -16,7 +17,6 @@ constexpr int kHalfWindow = 2;  // bins to either side that noise spreads a surf
 constexpr int kApart = 2 * kHalfWindow + 1;  // bins from one window to the next
 constexpr double kMinContrast = 2.0;         // to the windows above and below
 constexpr double kMinSlope = 0.15;           // of the view down; a flatter one shows the rim alone
-constexpr double kMaxSpreads = 2.0;          // of a height from the typical one
 
 /** The area that points cover if they lie on horizontal surfaces, by height above the support. It
  * is known in the window before the first and in that after the last bin of a range, too. */
@@ -65,7 +65,7 @@ struct Heights
 /** Above the support the top is as high as such things are. */
 Heights heightsAboveSupport(const LabelProperties& label)
 {
-  const double spread = std::exp(kMaxSpreads * label.sizeSpread);
+  const double spread = std::exp(kUsualSpreads * label.sizeSpread);
   return {label.typicalSize.z() / spread, label.typicalSize.z() * spread};
 }
 

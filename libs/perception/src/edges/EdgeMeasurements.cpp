@@ -26,7 +26,8 @@ constexpr double kMinStrip_px = 8.0;
  * the edge, equation (9.1)]. */
 constexpr double kBorderSigmas = 3.0;
 
-/** Of turned cameras two edges may look down, so much of their normals or more [-]. */
+/** An edge looks down when the direction out of the box over it does by 30 degrees or more. Of
+ * turned cameras two edges do [sine]. */
 constexpr double kLooksDown = 0.5;
 
 /** Options in pixels are meant for images of this width, and grow with the image. */

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cloud/ObjectCloud.h"
+#include "cloud/Precision.h"
 #include "quadmap/obs/LabelTable.h"
 
 namespace quadmap
@@ -11,8 +12,7 @@ namespace quadmap
 inline bool isFootOutOfSight(
     const ObjectCloud& object, const LabelProperties& label, double spreadsTooLow)
 {
-  constexpr double kTooLow = 2.0;  // spreads
-  return !object.support && label.support == UsualSupport::Floor && spreadsTooLow > kTooLow;
+  return !object.support && label.support == UsualSupport::Floor && spreadsTooLow > kUsualSpreads;
 }
 
 }  // namespace quadmap
