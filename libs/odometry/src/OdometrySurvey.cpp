@@ -10,7 +10,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::size_t kFrames = 15;  // images in which the floor is looked for
+constexpr std::size_t kFrames = 15;  // images that are looked at
 
 /** How much a kind of odometry says about a pose: the higher, the more. */
 int rankOf(const std::string& kind)

@@ -11,7 +11,7 @@ namespace quadmap
 {
 namespace
 {
-const double kAgreement = std::cos(5 * M_PI / 180);    // accuracy of the planes of a depth camera
+const double kAgreement = std::cos(kPlaneAccuracy);
 const double kFarthest = std::cos(60 * M_PI / 180.0);  // a floor's normal from the guess
 
 /** The normal of the plane on which everything in an image stands, in the robot's frame. It is

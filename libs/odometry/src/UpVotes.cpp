@@ -46,8 +46,8 @@ void UpVotes::tell(OdometrySurvey& survey) const
   if (!floor && isTurned_) floor = agreedDirection(isUpsideDown_ ? above_ : below_);
   const auto surfaces = agreedDirection(surfaces_);
   const bool surfacesTell = surfaces && surfaces->isMajorityOf(surfaces_.size());
-  const bool floorTells = floor && (!surfacesTell || floor->votes >= surfaces->votes ||
-                                    floor->isMajorityOf(above_.size() + below_.size()));
+  const bool floorTells =
+      floor && (!surfacesTell || floor->isMajorityOf(above_.size() + below_.size()));
   survey.upOrigin = floorTells     ? UpOrigin::Floor
                     : surfacesTell ? UpOrigin::Surfaces
                                    : UpOrigin::Images;

@@ -6,8 +6,8 @@ namespace quadmap
 {
 namespace
 {
-const double kStraight = std::sin(5 * M_PI / 180);  // accuracy of the planes of a depth camera
-constexpr double kNear = M_SQRT1_2;                 // cosine, of 45 degrees
+const double kStraight = std::sin(kPlaneAccuracy);
+constexpr double kNear = M_SQRT1_2;  // cosine, of 45 degrees
 
 /** The planes that agree with a direction. */
 struct Agreement

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 
 namespace quadmap
 {
+/** By so much may the normals of planes that a depth camera sees be wrong [rad]. */
+inline constexpr double kPlaneAccuracy = 5 * M_PI / 180;
+
 /** The up direction by what is flat in a frame that shows no floor: tops of tables and cupboards,
  * walls, fronts of furniture. Most of this is horizontal or vertical (doc/mathematics.md, (15.11)).
  * \param guess Unit, optical frame. Directions more than 45 degrees from it are not tried: a camera
