@@ -25,12 +25,14 @@ import threading
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 SOURCES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "cmake", "libs", "apps", "doc", "share")
-REAL = {  # name: folder, detections, poses
-    "kitchen_a NanoDet": ("kitchen_a", "detections", "ground-truth"),
-    "kitchen_a YOLOv8n": ("kitchen_a", "detections_yolov8n", "ground-truth"),
-    "tum_fr2_desk": ("tum_fr2_desk", "detections", "ground-truth"),
-    "tum_fr3_cabinet": ("tum_fr3_cabinet", "detections", "odometry"),
+REAL = {  # name: folder, detections, poses, share of the images that is left out at the start
+    "kitchen_a NanoDet": ("kitchen_a", "detections", "ground-truth", 0),
+    "kitchen_a YOLOv8n": ("kitchen_a", "detections_yolov8n", "ground-truth", 0),
+    "kitchen_a without its floor": ("kitchen_a", "detections_yolov8n", "ground-truth", 0.5),
+    "tum_fr2_desk": ("tum_fr2_desk", "detections", "ground-truth", 0),
+    "tum_fr3_cabinet": ("tum_fr3_cabinet", "detections", "odometry", 0),
 }
+SCENES = ("no-floor",)  # beside the rooms
 
 
 def read_rules():
@@ -113,28 +115,34 @@ class Bench:
         """{name: (folder, poses)}; those that are not there are made."""
         out = {}
         data = pathlib.Path(os.environ.get("QUADMAP_TEST_DATA", ROOT.parent / "shared/data"))
-        for name, (source, boxes, poses) in REAL.items():
+        for name, (source, boxes, poses, without) in REAL.items():
             if (data / source).exists():
-                out[name] = (self.recorded(name, data / source, boxes, poses), poses)
+                out[name] = (self.recorded(name, data / source, boxes, poses, without), poses)
+        for scene in SCENES:
+            out[f"room {scene}"] = (self.simulated(scene), "odometry")
         for seed in rooms:
-            out[f"room {seed}"] = (self.simulated(seed), "odometry")
+            out[f"room {seed}"] = (self.simulated("random", seed), "odometry")
         return out
 
-    def recorded(self, name, source, boxes, poses):
+    def recorded(self, name, source, boxes, poses, without):
         folder = self.folder / "recordings" / name.replace(" ", ".")
         if not (folder / "objects.gt.json").exists():
-            folder.mkdir(parents=True, exist_ok=True)
-            run(self.build / "bin/quadmap-import", "tum", source, "--poses-as", poses, "--detections", source / boxes,
-                "-o", folder / "x.rawlog")
+            shutil.rmtree(folder, ignore_errors=True)
+            shutil.copytree(source, folder / "images", copy_function=os.symlink)
+            associations = (source / "associations.txt").read_text().splitlines(keepends=True)
+            (folder / "images/associations.txt").unlink()
+            (folder / "images/associations.txt").write_text("".join(associations[int(without * len(associations)):]))
+            run(self.build / "bin/quadmap-import", "tum", folder / "images", "--images-anywhere", "--poses-as", poses,
+                "--detections", source / boxes, "-o", folder / "x.rawlog")
             shutil.copy(source / "groundtruth.txt", folder / "groundtruth.tum")
             shutil.copy(source / "objects_gt.json", folder / "objects.gt.json")
         return folder
 
-    def simulated(self, seed):
-        folder = self.folder / f"recordings/room.{seed}"
+    def simulated(self, scene, seed=1):
+        folder = self.folder / f"recordings/{scene}.{seed}"
         if not (folder / "objects.gt.json").exists():
             folder.mkdir(parents=True, exist_ok=True)
-            run(self.build / "bin/quadmap-simulate", "random", "--seed", seed, "--resolution", "320x240",
+            run(self.build / "bin/quadmap-simulate", scene, "--seed", seed, "--resolution", "320x240",
                 "-o", folder / "x.rawlog")
             for name in ("groundtruth.tum", "objects.gt.json"):
                 (folder / f"x.{name}").rename(folder / name)

@@ -48,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
         "lifelong",
         "approach",
         "dais",
-        "two-storeys"));
+        "two-storeys",
+        "no-floor"));
 
 std::size_t labelledIn(const Scene& scene)
 {
@@ -152,6 +153,29 @@ TEST(InstalledScenes, HaveFloorsOfSeveralHeights)
   EXPECT_NEAR(dais.highestEye - dais.lowestEye, 0.25, 0.05) << "the camera steps on it";
   EXPECT_EQ(storeys.bottoms_cm, (std::set<int>{0, 260}));
   EXPECT_NEAR(storeys.highestEye - storeys.lowestEye, 2.6, 0.1) << "the camera goes up";
+}
+
+TEST(InstalledScenes, NoFloorShowsHardlyAnyFloor)
+{
+  const Simulator simulator(readScene(findScene("no-floor")), LabelTable::installed(), 1);
+  const PinholeCamera camera = smallCamera();
+  const RayCaster caster(simulator.scene(), camera);
+  for (std::size_t i = 0; i < simulator.frameCount(); i += 5)
+  {
+    const auto& T_world_camera = simulator.truePoses()[i];
+    const RenderedFrame image = caster.render(T_world_camera);
+    std::size_t floor = 0;
+    for (std::size_t pixel = 0; pixel < image.depth.size(); ++pixel)
+    {
+      if (image.object[pixel] != RenderedFrame::kRoom) continue;
+      const double u = static_cast<double>(pixel % camera.width);
+      const double v = static_cast<double>(pixel / camera.width);
+      const Eigen::Vector3d optical = image.depth[pixel] * camera.ray(u, v);
+      const Eigen::Vector3d point(optical.z(), -optical.x(), -optical.y());
+      if (transformed(T_world_camera, point).z() < 0.01) ++floor;
+    }
+    EXPECT_LT(static_cast<double>(floor) / static_cast<double>(image.depth.size()), 0.01) << i;
+  }
 }
 
 TEST(InstalledScenes, AreWhatTheirNamesSay)

@@ -14,22 +14,21 @@ namespace
 /** Maps an installed scene, with fewer and smaller images than it says, and compares with the
  * truth.
  */
-class SeveralFloors : public ::testing::TestWithParam<const char*>
+class SceneFloors : public ::testing::Test
 {
  protected:
-  EvaluationReport map(const std::string& name, int frames) const
+  EvaluationReport map(const std::string& name, PoseSource odometry = PoseSource::Auto)
   {
     auto scene = simulator::readScene(simulator::findScene(name));
     scene.options.resize(240, 180);
-    scene.options.trajectory.frames = frames;
+    scene.options.trajectory.frames = 150;
     simulator::simulateToFiles(
         simulator::Simulator(scene, LabelTable::installed(), 1), folder_.path("a.rawlog"));
     RawlogRunRequest request;
     request.rawlog = folder_.path("a.rawlog");
     request.outputDirectory = folder_.path("out");
-    const auto run = runOnRawlog(request);
-    EXPECT_EQ(run.result.droppedFloors, 0U);
-    EXPECT_TRUE(run.result.warnings.empty());
+    request.configuration.slam.odometry = odometry;
+    run_ = runOnRawlog(request);
     EvaluationInput input;
     input.estimate = request.outputDirectory;
     input.trueObjectsPath = folder_.path("a.objects.gt.json");
@@ -37,7 +36,14 @@ class SeveralFloors : public ::testing::TestWithParam<const char*>
     return evaluateRun(input);
   }
 
+  RawlogRunSummary run_;
+
+ private:
   TemporaryFolder folder_;
+};
+
+class SeveralFloors : public SceneFloors, public ::testing::WithParamInterface<const char*>
+{
 };
 
 double bottomOf(const ObjectRecord& record)
@@ -49,7 +55,9 @@ double bottomOf(const ObjectRecord& record)
 
 TEST_P(SeveralFloors, AreMappedAtTheirHeights)
 {
-  const auto report = map(GetParam(), 150);
+  const auto report = map(GetParam());
+  EXPECT_EQ(run_.result.droppedFloors, 0U);
+  EXPECT_TRUE(run_.result.warnings.empty());
   EXPECT_GE(report.objects->f1().value_or(0), 0.9);
   EXPECT_LT(report.trajectory->ateRmse, *report.trajectory->ateRmseOdometry);
   std::size_t raised = 0;
@@ -65,3 +73,16 @@ TEST_P(SeveralFloors, AreMappedAtTheirHeights)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SeveralFloors, ::testing::Values("dais", "two-storeys"));
+
+TEST_F(SceneFloors, NoneInSightLosesNothing)
+{
+  const auto report = map("no-floor");
+  EXPECT_GE(report.objects->f1().value_or(0), 0.9);
+}
+
+TEST_F(SceneFloors, NoneInSightAndUpIsFoundBySurfaces)
+{
+  const auto report = map("no-floor", PoseSource::Visual);
+  EXPECT_EQ(run_.result.odometry.upOrigin, UpOrigin::Surfaces);
+  EXPECT_GE(report.objects->f1().value_or(0), 0.9);
+}
