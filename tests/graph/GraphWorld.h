@@ -193,4 +193,27 @@ double positionError(const std::vector<mrpt::poses::CPose3D>& truth, const PoseO
   return std::sqrt(sum);
 }
 
+inline FactorGraphOptions plain()
+{
+  FactorGraphOptions options;
+  options.floorSigma = 0;
+  return options;
+}
+
+/** The drive as it happens: each pose is predicted from the last estimate, then the window is
+ * optimised. */
+inline FactorGraph driveOnline(GraphWorld& world, std::size_t window)
+{
+  FactorGraph graph(plain());
+  for (std::size_t k = 0; k < world.truth.size(); ++k)
+  {
+    const mrpt::poses::CPose3D guess =
+        k == 0 ? world.odometry[0]
+               : graph.pose(k - 1) + (world.odometry[k] - world.odometry[k - 1]);
+    world.add(graph, k, guess);
+    graph.optimiseWindow(k < window ? 1 : k + 1 - window);
+  }
+  return graph;
+}
+
 }  // namespace quadmap::testing

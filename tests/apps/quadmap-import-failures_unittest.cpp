@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ImportFixture.h"
+
+using namespace quadmap;
+
+TEST_F(QuadmapImport, RefusesResultsOfOtherImages)
+{
+  const std::string file = recording_.files.write(
+      "r.json", R"([{"image_id": "other", "category_id": 0, "bbox": [1, 2, 3, 4]}])");
+  const std::string boxes =
+      " --detections " + file + " --labels " + recording_.files.write("my.names", "tv\n");
+  const std::string what = "none of its boxes is of an image of ";
+  expectImportFailure(run("tum IN -o OUT/x.rawlog" + boxes), what);
+  const auto kept = run("tum IN -o OUT/x.rawlog --keep-going" + boxes);
+  EXPECT_EQ(kept.status, 0);
+  EXPECT_NE(kept.err.find("warning: "), kNotFound) << kept.err;
+}
+
+TEST_F(QuadmapImport, NeverReplacesTheRecordingThatItReads)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog").status, 0);
+  const auto before = readFile(out_.path("x.rawlog"));
+  const auto result = run("rawlog OUT/x.rawlog -o OUT/x.rawlog --every 2");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("is the recording itself"), kNotFound) << result.err;
+  EXPECT_TRUE(readFile(out_.path("x.rawlog")) == before);
+}
+
+TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)
+{
+  const auto expect = [&](const std::string& file, const std::string& text, const std::string& part)
+  {
+    const auto good = readFile(recording_.files.path(file));
+    if (text.empty())
+      std::filesystem::remove(recording_.files.path(file));
+    else
+      recording_.files.write(file, text);
+    expectImportFailure(run("tum IN -o OUT/x.rawlog"), part);
+    EXPECT_EQ(out_.fileCount(), 0u);
+    recording_.files.write(file, good);
+  };
+  expect("calibration.yaml", "", "calibration.yaml: no such file");
+  expect("calibration.yaml", "%YAML:1.0\n---\nfx: 0.\nfy: 1.\n", "calibration.yaml: fx=0");
+  expect("associations.txt", "1 2 3\n", "associations.txt:1: expected 4 columns");
+  expect("rgb/f3.png", "", "rgb/f3.png: no such file");
+  expect("depth/f3.png", "x", "depth/f3.png: cannot be read as an image");
+  expect("detections/f3.txt", "1 cup 1 9 9 5 5\n", "detections/f3.txt: cup (x1=9 y1=9 x2=5 y2=5)");
+  expect("groundtruth.txt", "1 2\n", "groundtruth.txt:1");
+  expect(
+      "associations.txt",
+      SampleRecording::line(0, 2) + SampleRecording::line(1, 1) + SampleRecording::line(2, 3),
+      "associations.txt:2: time 1.000000 s is not after the frame before");
+  expectImportFailure(run("tum OUT/none -o OUT/x.rawlog"), "none: no such folder");
+  expectImportFailure(run("tum IN -o OUT/x.rawlog --detections OUT/none"), "none: no such folder");
+}
+
+TEST_F(QuadmapImport, KeepsGoingAndSaysWhatItDropped)
+{
+  std::filesystem::remove(recording_.files.path("rgb/f3.png"));
+  recording_.files.write("detections/f1.txt", "1 cup 1 9 9 5 5\n1 cup 1 1 1 5 5\n");
+  const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("dropped: "), kNotFound);
+  EXPECT_NE(result.err.find("rgb/f3.png: no such file"), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("is inverted"), kNotFound) << result.err;
+  EXPECT_NE(result.out.find("(2 things dropped)"), kNotFound) << result.out;
+  const auto frames = readAll(out_.path("x.rawlog"));
+  ASSERT_EQ(frames.size(), 5u);
+  ASSERT_TRUE(frames[1].objects);
+  EXPECT_EQ(frames[1].objects->objects.size(), 1u);
+}
+
+TEST_F(QuadmapImport, KeepGoingWithoutAnyFrameIsAFailure)
+{
+  std::filesystem::remove_all(recording_.files.path("rgb"));
+  const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("no frame could be imported"), kNotFound) << result.err;
+  EXPECT_EQ(out_.fileCount(), 0u);
+}
+
+TEST_F(QuadmapImport, UnwritableOutput)
+{
+  expectImportFailure(run("tum IN -o OUT/no/x.rawlog"), "no/x.rawlog");
+  std::filesystem::create_directory(out_.path("x.rawlog"));
+  expectImportFailure(run("tum IN -o OUT/x.rawlog"), "x.rawlog");
+  EXPECT_EQ(out_.fileCount(), 1u);
+}
+
+TEST_F(QuadmapImport, FullDiskLeavesNothing)
+{
+  for (const std::string option : {"", " --external"})
+  {
+    ProgramResult result;
+    {
+      const FileSizeLimit full(400);  // the program inherits it
+      result = run("tum IN -o OUT/x.rawlog" + option);
+    }
+    expectImportFailure(
+        result, option.empty() ? "x.rawlog: cannot be written: " : "x_Images/camera_000000");
+    EXPECT_EQ(out_.fileCount(), 0u);
+  }
+}
+
+TEST_F(QuadmapImport, WrongUsageIsStatus2)
+{
+  for (const char* arguments :
+       {"", "tum", "tum IN", "tom IN -o OUT/x.rawlog", "tum IN -o OUT/x.rawlog --every 0",
+        "tum IN -o OUT/x.rawlog --every -1", "tum IN -o OUT/x.rawlog --every two",
+        "tum IN -o OUT/x.rawlog --poses-as truth", "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o",
+        "tum IN --check --max-gap -1", "tum IN --check --max-speed 0",
+        "openni2 live -o OUT/x.rawlog --labels IN/x",
+        "openni2 live -o OUT/x.rawlog --images-anywhere",
+        "rawlog x.rawlog -o OUT/x.rawlog --trajectory IN/groundtruth.txt --poses-as none"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << arguments << "\n" << result.err;
+    EXPECT_EQ(out_.fileCount(), 0u);
+  }
+}

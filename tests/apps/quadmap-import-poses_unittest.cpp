@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include "../sensors/SampleRawlog.h"
+#include "ImportFixture.h"
+
+using namespace quadmap;
+
+TEST_F(QuadmapImport, SaysHowManyFramesHaveNoPose)
+{
+  recording_.files.write("groundtruth.txt", SampleRecording::pose(0, 0));
+  const auto result = run("tum IN -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("warning: 5 of 6 frames have no pose in groundtruth.txt"), kNotFound);
+}
+
+TEST_F(QuadmapImport, SaysThatNoFrameHasAPose)
+{
+  recording_.files.write("groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  const std::string what = "warning: 6 of 6 frames have no pose in groundtruth.txt";
+  EXPECT_NE(run("tum IN -o OUT/x.rawlog").err.find(what), kNotFound);
+  EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").err.find(what), kNotFound);
+}
+
+TEST_F(QuadmapImport, TellsOfPosesThatCannotBeReadAndOfTheRest)
+{
+  recording_.files.write("groundtruth.txt", SampleRecording::pose(0, 0) + "nonsense\n");
+  const auto checked = run("tum IN --check");
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_NE(checked.out.find("frames: 6 in"), kNotFound) << checked.out;
+  EXPECT_NE(checked.out.find("groundtruth.txt:2: "), kNotFound) << checked.out;
+  expectImportFailure(run("tum IN -o OUT/x.rawlog"), "groundtruth.txt:2: ");
+  const auto without = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(without.status, 0) << without.err;
+  EXPECT_NE(without.err.find("dropped: "), kNotFound) << without.err;
+  EXPECT_NE(without.err.find("6 of 6 frames have no pose"), kNotFound) << without.err;
+  EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").status, 0);
+}
+
+TEST_F(QuadmapImport, TakesPosesAsAsked)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);
+  auto frame = readAll(out_.path("x.rawlog")).at(0);
+  EXPECT_TRUE(frame.T_world_robot);
+  EXPECT_FALSE(frame.T_odom_robot);
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  frame = readAll(out_.path("x.rawlog")).at(0);
+  EXPECT_FALSE(frame.T_world_robot || frame.T_odom_robot);
+}
+
+TEST_F(QuadmapImport, TruePosesOfARawlogStay)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);
+  std::string elsewhere;
+  for (int i = 0; i < SampleRecording::kFrames; ++i) elsewhere += SampleRecording::pose(i, 7);
+  recording_.files.write("odometry.tum", elsewhere);
+  const auto result = run(
+      "rawlog OUT/x.rawlog -o OUT/y.rawlog --poses-as ground-truth --trajectory IN/odometry.tum");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("6 frames, 6 poses as ground-truth"), kNotFound) << result.out;
+  const auto before = readAll(out_.path("x.rawlog")), after = readAll(out_.path("y.rawlog"));
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    ASSERT_TRUE(after[i].T_world_robot);
+    EXPECT_LT((*after[i].T_world_robot - *before[i].T_world_robot).norm(), 1e-9);
+    EXPECT_FALSE(after[i].T_odom_robot);
+  }
+}
+
+TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  EXPECT_EQ(run("rawlog OUT/x.rawlog -o OUT/y.rawlog").err, "") << "it has none at all";
+  recording_.files.write("start.tum", SampleRecording::pose(0, 0) + SampleRecording::pose(1, 0.05));
+  const auto result = run("auto OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/start.tum");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("warning: 4 of 6 frames have no pose in "), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("start.tum"), kNotFound) << result.err;
+}
+
+TEST_F(QuadmapImport, TakesTheOdometryThatCoversTheFramesOfARawlog)
+{
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 8; ++i)
+  {
+    const mrpt::poses::CPose3D pose(0.1 * i, 0, 0, 0, 0, 0);
+    records.push_back(samplePose(kStart + 0.5 * i + 1.5, pose, "wheels"));
+    records.push_back(samplePose(kStart + 0.5 * i, pose));
+    records.push_back(sampleScan(kStart + 0.5 * i));
+  }
+  writeObjects(out_.path("x.rawlog"), records);
+  const auto check = run("rawlog OUT/x.rawlog --check");
+  EXPECT_NE(check.out.find("odometry for 8 frames (CObservationRobotPose odometry)"), kNotFound)
+      << check.out;
+  ASSERT_EQ(run("rawlog OUT/x.rawlog -o OUT/y.rawlog").status, 0);
+  const auto frames = readAll(out_.path("y.rawlog"));
+  ASSERT_EQ(frames.size(), 8u);
+  for (int i = 0; i < 8; ++i) EXPECT_NEAR(frames[i].T_odom_robot.value().x(), 0.1 * i, 1e-9);
+}
+
+TEST_F(QuadmapImport, TellsOfOdometryBehindTheFramesOfARawlog)
+{
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 8; ++i) records.push_back(sampleScan(kStart + 0.5 * i));
+  for (int i = 0; i < 8; ++i) records.push_back(samplePose(kStart + 0.5 * i, {}));
+  writeObjects(out_.path("x.rawlog"), records);
+  const auto result = run("rawlog OUT/x.rawlog -o OUT/y.rawlog");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("of 8 frames have no pose in "), kNotFound) << result.err;
+  EXPECT_EQ(run("rawlog OUT/x.rawlog --check").status, 1) << "frames without a pose";
+}

@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ObjectMapFixture.h"
+#include "quadmap/geometry/Overlap.h"
+
+using namespace quadmap;
+using namespace quadmap::testing;
+
+TEST(CQuadricObjectMap, WreckedCuboidsAndClutterLeaveNoConfirmedGhosts)
+{
+  CQuadricObjectMap map;
+  SyntheticCamera camera(7);
+  camera.disturbances.wreckProbability = 0.15;
+  camera.disturbances.missProbability = 0.2;
+  const std::vector<TrueObject> world = {
+      cuboid("suitcase", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4),
+      cuboid("chair", {0.9, -0.5, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  for (int i = 0; i < 60; ++i)
+  {
+    const Eigen::Vector3d eye(2.5 * std::cos(0.1 * i), 2.5 * std::sin(0.1 * i), 1.4);
+    const auto T = SyntheticCamera::lookAt(eye, {0.3, -0.2, 0.4});
+    auto seen = world;
+    if (i % 3 == 0)  // a false alarm somewhere else each time
+      seen.push_back(cuboid(
+          "vase", {1.2 * camera.uniform() - 0.6, 1.2 * camera.uniform() - 0.6, 0.9},
+          {0.15, 0.15, 0.3}, 0));
+    map.insertObservation(camera.observe(T, seen), camera.disturbed(T));
+  }
+  map.consolidate();
+  expectMapOf(map, world, 0.04);
+}
+
+TEST(CQuadricObjectMap, WhatIsNotSeenAgainIsNotReported)
+{
+  const std::vector<TrueObject> ghost = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  walkAround(map, camera, ghost, 4);
+  EXPECT_EQ(map.confirmedObjects().size(), 1u);
+  walkAround(map, camera, {}, 30);
+  EXPECT_TRUE(map.confirmedObjects().empty());
+  EXPECT_EQ(map.objects().begin()->second.missCount, 30u);
+}
+
+TEST(CQuadricObjectMap, WhatIsFoundInHalfOfTheImagesFromOnePlaceIsThere)
+{
+  const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  walkAround(map, camera, chair, 6);
+  ASSERT_EQ(map.confirmedObjects().size(), 1u);
+  camera.disturbances.missProbability = 0.5;
+  const auto T = poseAround(0, 6);
+  for (int i = 0; i < 400; ++i) map.insertObservation(camera.observe(T, chair), T);
+  ASSERT_EQ(map.confirmedObjects().size(), 1u);
+  EXPECT_GT(map.confirmedObjects()[0]->missCount, 150u);
+}
+
+TEST(CQuadricObjectMap, ASteadyFalseAlarmFromOnePlaceIsNotReported)
+{
+  const std::vector<TrueObject> ghost = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  const auto T = poseAround(0, 6);
+  for (int i = 0; i < 100; ++i)
+  {
+    map.insertObservation(camera.observe(T, ghost), T);
+    EXPECT_TRUE(map.confirmedObjects().empty()) << i;
+  }
+}
+
+TEST(CQuadricObjectMap, AMissOfWhatIsAlwaysFoundSaysMore)
+{
+  const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto lostByMisses = [&](double missProbability)
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(8);
+    camera.disturbances.missProbability = missProbability;
+    walkAround(map, camera, chair, 40);
+    const double before = map.objects().begin()->second.existenceLogOdds;
+    walkAround(map, camera, {}, 4, {0, 0, 0.5}, 3.5);
+    return before - map.objects().begin()->second.existenceLogOdds;
+  };
+  EXPECT_GT(lostByMisses(0), 2 * lostByMisses(0.6));
+}
+
+TEST(CQuadricObjectMap, BoxesThatCannotBeUsedAreNoMisses)
+{
+  const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto T = SyntheticCamera::lookAt({2.5, 0, 1.4}, {0, 0, 0.5});
+  struct Case
+  {
+    const char* what;
+    std::string label;
+    double shift;  // of the box [px]
+    unsigned misses;
+  };
+  for (const Case& c : {
+           Case{"a rejected box of its own", "chair",   0,  0u},
+           {     "a label taken for it", "couch",   0,  0u},
+           {         "some other thing",   "cup",   0, 10u},
+           { "a rejected box elsewhere", "chair", 250, 10u}
+  })
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(9);
+    walkAround(map, camera, world, 6);
+    for (int i = 0; i < 10; ++i)
+    {
+      auto obs = camera.observe(T, world);
+      ASSERT_EQ(obs.objects.size(), 1u);
+      auto& box = obs.objects[0];
+      box.label = c.label;
+      box.box.x1 += c.shift;
+      box.box.x2 += c.shift;
+      box.measurement = {};
+      box.measurement.kind = MeasurementKind::Rejected;
+      map.insertObservation(obs, T);
+    }
+    EXPECT_EQ(map.objects().begin()->second.missCount, c.misses) << c.what;
+  }
+}
+
+TEST(CQuadricObjectMap, HiddenObjectsAreNotMissed)
+{
+  const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto T = SyntheticCamera::lookAt({2.5, 0, 1.4}, {0, 0, 0.5});
+  struct Case
+  {
+    const char* what;
+    float depth;
+    unsigned misses;
+  };
+  for (const Case& c : {
+           Case{"a wall in front", 1.0f,  0u},
+           {      "free view", 8.0f, 10u},
+           {       "no depth",  0.f,  0u}
+  })
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(9);
+    walkAround(map, camera, world, 6);
+    for (int i = 0; i < 10; ++i)
+    {
+      auto obs = camera.observe(T, {});
+      std::fill(obs.coarseDepth.depth.begin(), obs.coarseDepth.depth.end(), c.depth);
+      map.insertObservation(obs, T);
+    }
+    EXPECT_EQ(map.objects().begin()->second.missCount, c.misses) << c.what;
+  }
+}
+
+/** A detector finds chairs behind tables, too: that it found none there counts as well, unless
+ * hardly anything of one would show. */
+TEST(CQuadricObjectMap, WhatIsHiddenInPartIsMissed)
+{
+  const std::vector<TrueObject> world = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  const auto T = SyntheticCamera::lookAt({2.5, 0, 1.4}, {0, 0, 0.5});
+  const auto missesBehind = [&](unsigned firstHiddenRow)
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(9);
+    walkAround(map, camera, world, 6);
+    for (int i = 0; i < 10; ++i)
+    {
+      auto obs = camera.observe(T, {});
+      CoarseDepth& coarse = obs.coarseDepth;
+      for (unsigned cell = 0; cell < coarse.rows * coarse.columns; ++cell)
+        coarse.depth[cell] = cell / coarse.columns < firstHiddenRow ? 8.0f : 1.0f;
+      map.insertObservation(obs, T);
+    }
+    return map.objects().begin()->second.missCount;
+  };
+  EXPECT_EQ(missesBehind(13), 10u) << "about its lower 40 % are hidden";
+  EXPECT_EQ(missesBehind(10), 0u) << "about its lower 70 % are hidden";
+}
+
+TEST(CQuadricObjectMap, PartialMeasurementsStartAnObjectOnlyWithParallax)
+{
+  const std::vector<TrueObject> world = {cuboid("suitcase", {0, 0, 0.3}, {0.6, 0.45, 0.6}, 0.4)};
+  SyntheticCamera camera(10);
+  camera.disturbances.partialProbability = 1;
+  CQuadricObjectMap still;
+  const auto T = SyntheticCamera::lookAt({2.5, 0, 1.2}, {0, 0, 0.3});
+  for (int i = 0; i < 20; ++i) still.insertObservation(camera.observe(T, world), T);
+  EXPECT_TRUE(still.isEmpty()) << "one direction does not fix the distance";
+
+  CQuadricObjectMap moving;
+  walkAround(moving, camera, world, 24, {0, 0, 0.3});
+  moving.consolidate();
+  expectMapOf(moving, world, 0.08);
+  EXPECT_EQ(moving.objects().begin()->second.completeCount, 0u);
+}
+
+TEST(CQuadricObjectMap, TwoBoxesOfOneImageAreNotTwoViews)
+{
+  const std::vector<TrueObject> world = {cuboid("suitcase", {0, 0, 0.3}, {0.6, 0.45, 0.6}, 0.4)};
+  SyntheticCamera camera(10);
+  camera.disturbances.partialProbability = 1;
+  CQuadricObjectMap map;
+  ASSERT_EQ(map.insertionOptions.waiting.minViews, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_TRUE(map.isEmpty()) << i << " images";
+    const auto T = poseAround(i, 12, {0, 0, 0.3});
+    auto obs = camera.observe(T, world);
+    obs.objects.push_back(obs.objects.at(0));
+    obs.objects[1].box.x1 += 0.6 * (obs.objects[1].box.x2 - obs.objects[1].box.x1);
+    map.insertObservation(obs, T);
+  }
+  ASSERT_EQ(map.objects().size(), 1u);
+  EXPECT_EQ(map.objects().begin()->second.observations(), 3u);
+}

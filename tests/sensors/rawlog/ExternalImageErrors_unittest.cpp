@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "RawlogProblems.h"
+#include "quadmap/sensors/RawlogWriter.h"
+
+using namespace quadmap;
+
+TEST(RawlogErrors, MissingExternalImages)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path("x.rawlog");
+  RawlogWriterOptions external;
+  external.external = true;
+  RawlogWriter writer(file, external);
+  for (int i = 0; i < 3; ++i) writer.write(*sampleScan(kStart + i));
+  writer.finish();
+  ASSERT_EQ(readAll(file).size(), 3u);
+
+  ASSERT_TRUE(std::filesystem::remove(folder.path("x_Images/camera_000001.jpg")));
+  expectProblem(file, {"x.rawlog: record 1 (camera): ", "camera_000001.jpg", "missing"}, 2);
+  ASSERT_TRUE(std::filesystem::remove(folder.path("x_Images/camera_000002_depth.bin")));
+  RawlogSource source(file, keepGoing());
+  EXPECT_EQ(readAll(source).size(), 1u);
+  ASSERT_EQ(source.problems().size(), 2u);
+  EXPECT_NE(source.problems()[1].text().find("camera_000002_depth.bin"), std::string::npos);
+}
+
+TEST(RawlogErrors, UnreadableExternalImages)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path("x.rawlog");
+  RawlogWriterOptions external;
+  external.external = true;
+  RawlogWriter writer(file, external);
+  for (int i = 0; i < 2; ++i) writer.write(*sampleScan(kStart + i));
+  writer.finish();
+  const std::string depth = "x_Images/camera_000001_depth.bin",
+                    color = "x_Images/camera_000001.jpg";
+  const auto goodDepth = readFile(folder.path(depth)), goodColor = readFile(folder.path(color));
+
+  const std::string where = "x.rawlog: record 1 (camera): ";
+  folder.write(depth, "no depth here");
+  expectProblem(file, {where, depth + " cannot be read: ", "not plausible"}, 1);
+  folder.write(depth, goodDepth.substr(0, goodDepth.size() / 2));
+  expectProblem(file, {where, depth + " cannot be read: ", "truncated"}, 1);
+  folder.write(depth, "");
+  expectProblem(file, {where, depth + " cannot be read: ", "empty"}, 1);
+  folder.write(depth, goodDepth);
+  folder.write(color, "no image here");
+  expectProblem(file, {where, color + " cannot be read"}, 1);
+  folder.write(color, goodColor.substr(0, goodColor.size() / 2));
+  ::testing::internal::CaptureStderr();
+  expectProblem(file, {where, color + " cannot be read", "cannot be read as an image"}, 1);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "libjpeg prints nothing itself";
+  folder.write(color, goodColor);
+  EXPECT_EQ(readAll(file).size(), 2u);
+}
+
+TEST(RawlogErrors, ExternalImagesOutsideTheFolder)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("x_Images"));
+  fs::create_directory(folder.path("other"));
+  const auto picture = sampleScan(kStart)->intensityImage;
+  ASSERT_TRUE(picture.saveToFile(folder.path("other/secret.jpg")));
+  ASSERT_TRUE(picture.saveToFile(folder.path("x_Images/own.jpg")));
+  fs::create_symlink("../other/secret.jpg", folder.path("x_Images/link.jpg"));
+  fs::create_directory_symlink(folder.path("other"), folder.path("x_Images/linked"));
+  const auto named = [&](const std::string& name)
+  {
+    auto scan = sampleScan(kStart);
+    scan->intensityImage.setExternalStorage(name);
+    return writeObjects(folder.path("x.rawlog"), {scan});
+  };
+  EXPECT_EQ(readAll(named("own.jpg")).size(), 1u);
+  RawlogSourceOptions anywhere;
+  anywhere.imagesAnywhere = true;
+  for (const std::string& name :
+       {std::string("../other/secret.jpg"), folder.path("other/secret.jpg"),
+        std::string("link.jpg"), std::string("linked/secret.jpg")})
+  {
+    SCOPED_TRACE(name);
+    const auto file = named(name);
+    expectProblem(file, {"x.rawlog: record 0 (camera): ", name, "lies outside"}, 0);
+    EXPECT_EQ(readAll(file, anywhere).size(), 1u);
+  }
+  const auto withZero = named(std::string("own.jpg\0x", 9));
+  expectProblem(withZero, {"external image own.jpg?x has a zero byte in its name"}, 0);
+}
+
+TEST(RawlogErrors, AnImageFolderThatIsALinkOutOfTheRawlogsFolderIsRefused)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path("given"));
+  fs::create_directory(folder.path("other"));
+  ASSERT_TRUE(sampleScan(kStart)->intensityImage.saveToFile(folder.path("other/secret.jpg")));
+  fs::create_directory_symlink("../other", folder.path("given/x_Images"));
+  auto scan = sampleScan(kStart);
+  scan->intensityImage.setExternalStorage("secret.jpg");
+  const auto file = writeObjects(folder.path("given/x.rawlog"), {scan});
+  expectProblem(
+      file, {"x.rawlog: record 0 (camera): ", "secret.jpg lies outside " + folder.path("given")},
+      0);
+
+  RawlogSourceOptions anywhere;
+  anywhere.imagesAnywhere = true;
+  EXPECT_EQ(readAll(file, anywhere).size(), 1u);
+
+  fs::create_directory_symlink("given", folder.path("link"));
+  fs::remove(folder.path("given/x_Images"));
+  fs::rename(folder.path("other"), folder.path("given/pictures"));
+  fs::create_directory_symlink("pictures", folder.path("given/x_Images"));
+  EXPECT_EQ(readAll(folder.path("link/x.rawlog")).size(), 1u) << "both links stay inside";
+}
+
+TEST(RawlogErrors, OnlyWhereAUserCanAllowImagesAnywhereTheMessageSaysHow)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  folder.write("secret.jpg", "");
+  fs::create_directory(folder.path("x_Images"));
+  auto scan = sampleScan(kStart);
+  scan->intensityImage.setExternalStorage("../secret.jpg");
+  const auto file = writeObjects(folder.path("x.rawlog"), {scan});
+  RawlogSourceOptions options;
+  EXPECT_EQ(errorOf([&] { readAll(file, options); }).find("would allow"), std::string::npos);
+  options.imagesHint = "--images-anywhere";
+  const auto error = errorOf([&] { readAll(file, options); });
+  EXPECT_NE(error.find("(--images-anywhere would allow that)"), std::string::npos) << error;
+}
