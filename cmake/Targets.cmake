@@ -36,6 +36,10 @@ function(quadmap_target_options target)
   endif()
 endfunction()
 
+# For programs and tests: undefined behaviour is looked for in the libraries, which do the work. Looking for it in those
+# that call them, too, takes a third of the time to compile.
+set(QUADMAP_CALLER_OPTIONS $<$<BOOL:${QUADMAP_SANITIZE}>:-fno-sanitize=undefined>)
+
 # quadmap_precompile(<owner> LINK ... HEADERS ... OPTIONS ...): an object library that reads heavy headers once
 # for all targets that reuse it (quadmap_reuse_precompiled). The flags make what the compilers write
 # reproducible, so that ccache recognises it.
@@ -131,6 +135,7 @@ function(quadmap_add_program name)
   target_compile_definitions(${name} PRIVATE QUADMAP_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${arg_LINK} quadmap_cli)
   quadmap_target_options(${name})
+  target_compile_options(${name} PRIVATE ${QUADMAP_CALLER_OPTIONS})
   add_dependencies(programs ${name})
   set(manual ${CMAKE_BINARY_DIR}/share/man/man1/${name}.1)
   set(completion ${CMAKE_BINARY_DIR}/share/bash-completion/completions/${name})
