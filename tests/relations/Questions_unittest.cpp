@@ -275,3 +275,33 @@ TEST(Questions, AskAMapItself)
   };
   EXPECT_EQ(std::count_if(relations.begin(), relations.end(), isCupOnTable), 1);
 }
+
+TEST(Questions, AboutThousandsOfThingsAreAnsweredAtOnceOrNotAtAll)
+{
+  Inventory hall;
+  while (hall.items.size() < 1000)
+  {
+    InventoryItem chair = livingRoom().items.front();
+    chair.record.id = std::to_string(hall.items.size());
+    chair.record.label = "chair";
+    hall.items.push_back(chair);
+  }
+  EXPECT_EQ(ask(hall, "chairs").found.size(), 1000U);
+  EXPECT_FALSE(ask(hall, "chairs near chair 7").found.empty());
+  const auto complaint = [&](const std::string& question)
+  {
+    try
+    {
+      return std::to_string(ask(hall, question).found.size());
+    }
+    catch (const QuestionError& e)
+    {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_EQ(
+      complaint("chairs between the chairs"),
+      "of 1000 \"chairs\" too many would be compared with others: name one by its id, or ask "
+      "within limits");
+  EXPECT_NE(complaint("chairs on the chairs").find("too many"), std::string::npos);
+}

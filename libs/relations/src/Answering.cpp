@@ -13,6 +13,9 @@ namespace quadmap
 {
 namespace
 {
+/** Pairs or triples of objects that are looked at in a few seconds. */
+constexpr double kMostComparisons = 3e7;
+
 std::string countOf(std::size_t count, const Noun& noun)
 {
   return std::to_string(count) + " \"" + oneLine(noun.text) + "\"";
@@ -33,8 +36,28 @@ Answering::Answering(
 {
 }
 
+/** How many objects are compared with how many. What carries what is looked for among all. */
+double Answering::comparisons() const
+{
+  const auto count = [this](const Noun& noun) { return double(referents(noun).size()); };
+  const double asked = double(subjects().size()), all = double(geometry_.size());
+  double sum = question_.extremeTo ? asked * count(*question_.extremeTo) : 0;
+  for (const Clause& clause : question_.clauses)
+  {
+    const bool isCarried = clause.kind == RelationKind::On || clause.kind == RelationKind::In ||
+                           clause.kind == RelationKind::Under;
+    const double pairs = asked * std::max(count(clause.object), 1.0);
+    sum += pairs * (clause.second ? count(*clause.second) : isCarried ? all : 1.0) + asked * all;
+  }
+  return sum;
+}
+
 Answer Answering::answer() const
 {
+  if (comparisons() > kMostComparisons)
+    throw QuestionError(
+        "of " + countOf(subjects().size(), question_.subject) +
+        " too many would be compared with others: name one by its id, or ask within limits");
   std::vector<Candidate> candidates;
   for (const std::size_t subject : subjects())
   {

@@ -33,6 +33,7 @@ class Answering
   };
 
   bool isMeant(const InventoryItem& item, const Noun& noun) const;
+  double comparisons() const;
   Indices subjects() const;
   Indices referents(const Noun& noun) const;
   std::optional<Reason> reasonFor(std::size_t subject, const Clause& clause) const;

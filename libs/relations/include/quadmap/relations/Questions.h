@@ -63,7 +63,8 @@ struct AnswerLimits
  * Case, articles and question words play no part. A word that ends a label means all labels that
  * end so: "table" is also a coffee table. Things are on what carries them, however many lie
  * between. Doubtful objects are what the question refers to only when there are no others.
- * \exception QuestionError For an empty question and for words that are not understood. */
+ * \exception QuestionError For an empty question, for words that are not understood, and when it
+ * compares so many objects that it would take minutes. */
 Answer ask(
     const Inventory& inventory, const std::string& question, const AnswerLimits& limits = {});
 Answer ask(
