@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -94,7 +95,7 @@ TEST(RequireReadableIni, AcceptsWhatMrptReads)
   const TemporaryFolder folder;
   EXPECT_NO_THROW(requireReadableIni(folder.write(
       "good.ini",
-      "; comment\n# comment\n// comment\n\n@define N 3\n[a b]\nx = 1\ny = 1 2 \\\n  3 "
+      "; comment\n# comment\n// comment\n\n[a b]\nx = 1\ny = 1 2 \\\n  3 "
       "4\n[c]\nx=1\n")));
 }
 
@@ -115,6 +116,20 @@ TEST(RequireReadableIni, RefusesWhatMrptWouldSilentlyDrop)
   }
 }
 
+TEST(RequireReadableIni, RefusesWhatMrptWouldRun)
+{
+  const TemporaryFolder folder;
+  for (const char* line :
+       {"@define a 1", "  @if a", "x = ${a}", "x = $env{HOME}", "; $eval{repeat 1 until (0)}",
+        "x = $eval{repeat 1 until (0)}"})
+  {
+    const auto path = folder.write("bad.ini", std::string("[a]\n") + line + "\n");
+    expectParts(errorOf([&] { requireReadableIni(path); }), {path, ":2: ", "not allowed"});
+  }
+  const auto path = folder.write("good.ini", "[a]\nx = $5, me@example.org {1}\n");
+  EXPECT_EQ(errorOf([&] { requireReadableIni(path); }), "");
+}
+
 TEST(RequireReadableIni, RefusesMissingFilesAndFolders)
 {
   const TemporaryFolder folder;
@@ -133,4 +148,17 @@ TEST(RequireModestText, NamesFileAndSize)
       path + ": has 3 MB, more than the 1 MB that such a file may have");
   EXPECT_EQ(errorOf([&] { requireModestText(path, 3u << 20); }), "");
   EXPECT_NE(errorOf([&] { requireReadableIni(path); }), "");
+}
+
+TEST(RequireModestText, RefusesPipesAndDevices)
+{
+  const TemporaryFolder folder;
+  const auto pipe = folder.path("pipe.ini");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero")})
+  {
+    EXPECT_EQ(errorOf([&] { requireModestText(path); }), path + ": is a pipe or a device, no file");
+    EXPECT_EQ(
+        errorOf([&] { requireReadableIni(path); }), path + ": is a pipe or a device, no file");
+  }
 }

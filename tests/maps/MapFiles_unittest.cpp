@@ -123,6 +123,21 @@ TEST(MapFiles, AnAbsurdObjectIsNotRead)
   EXPECT_NE(refused(CPose3D(), 1e300).find("has a size that is"), std::string::npos);
 }
 
+TEST(MapFiles, OptionsThatMrptWouldRunAreNotRead)
+{
+  const TemporaryFolder folder;
+  CQuadricObjectMap map = smallMap();
+  std::string bytes = archiveOf(map);
+  const auto line = bytes.find("alpha");
+  ASSERT_NE(line, std::string::npos);
+  const std::string loop = "a=$eval{repeat 1 until(0)}";
+  bytes.replace(line, loop.size(), loop);
+  const auto path = folder.write("a.quadmap", gzipped(bytes));
+  const auto error = errorOf([&] { map.loadFromFile(path); });
+  EXPECT_NE(error.find("a.quadmap: "), std::string::npos) << error;
+  EXPECT_NE(error.find("its options:"), std::string::npos) << error;
+}
+
 TEST(MapFiles, WhatGoesWrongWithAFrameNamesItsFile)
 {
   const TemporaryFolder folder;

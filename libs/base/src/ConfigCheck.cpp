@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "quadmap/base/InsideFolder.h"
+
 namespace quadmap
 {
 namespace
@@ -34,9 +36,18 @@ std::optional<std::string> textOf(
   throw std::invalid_argument("[" + section + "] " + key + "=" + value + ": must be " + expected);
 }
 
-bool isCommentOrDirective(const std::string& line)
+bool isComment(const std::string& line)
 {
-  return line[0] == ';' || line[0] == '#' || line[0] == '@' || line.compare(0, 2, "//") == 0;
+  return line[0] == ';' || line[0] == '#' || line.compare(0, 2, "//") == 0;
+}
+
+/** MRPT runs these when it reads an INI text, also in comments: loops without an end, texts that
+ * double line by line, and the secrets of who reads the file. */
+bool isProgram(const std::string& line)
+{
+  if (!line.empty() && line[0] == '@') return true;
+  return line.find("${") != std::string::npos || line.find("$env{") != std::string::npos ||
+         line.find("$eval{") != std::string::npos;
 }
 
 /** Checks the lines of one INI text, as far as requireReadableIni() promises. */
@@ -47,9 +58,10 @@ class IniLineCheck
   std::string check(const std::string& rawLine)
   {
     const std::string line = trim(rawLine);
+    if (isProgram(line)) return "@define, @if, ${}, $env{} and $eval{} are not allowed";
     const bool continuation = continued_;
     continued_ = !line.empty() && line.back() == '\\';
-    if (continuation || line.empty() || isCommentOrDirective(line)) return {};
+    if (continuation || line.empty() || isComment(line)) return {};
     if (line[0] == '[') return checkSection(line);
     const auto equals = line.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -106,6 +118,7 @@ std::optional<bool> parseFlag(const std::string& text)
 
 void requireModestText(const std::string& path, std::uintmax_t mostBytes)
 {
+  requireNoDevice(path);
   std::error_code ignored;
   const auto size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > mostBytes)
@@ -115,24 +128,28 @@ void requireModestText(const std::string& path, std::uintmax_t mostBytes)
         static_cast<unsigned long long>(mostBytes >> 20)));
 }
 
+void requirePlainIni(std::istream& text, const std::string& name)
+{
+  IniLineCheck lines;
+  std::string line;
+  for (unsigned number = 1; std::getline(text, line); ++number)
+  {
+    const std::string problem = lines.check(line);
+    if (!problem.empty())
+      throw std::runtime_error(mrpt::format("%s:%u: %s", name.c_str(), number, problem.c_str()));
+  }
+  if (text.bad()) throw std::runtime_error(name + ": read error");
+}
+
 void requireReadableIni(const std::string& path)
 {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw std::runtime_error(path + ": is a directory, expected an INI file");
+  requireModestText(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
-
-  requireModestText(path);
-  IniLineCheck lines;
-  std::string line;
-  for (unsigned number = 1; std::getline(file, line); ++number)
-  {
-    const std::string problem = lines.check(line);
-    if (!problem.empty())
-      throw std::runtime_error(mrpt::format("%s:%u: %s", path.c_str(), number, problem.c_str()));
-  }
-  if (file.bad()) throw std::runtime_error(path + ": read error");
+  requirePlainIni(file, path);
 }
 
 void rejectUnknownKeys(

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "quadmap/base/InsideFolder.h"
 #include "quadmap/base/OutputSet.h"
 
 namespace quadmap
@@ -70,11 +71,10 @@ GzInput::GzInput(const std::string& path, bool isResult) : path_(path)
 {
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(path + ": is a directory, not a file");
+  requireNoDevice(path);
   if (isResult) requireOneRun(path);
   file_ = openOrThrow(path);
-  std::error_code unknown;  // of a pipe
-  const auto size = std::filesystem::file_size(path, unknown);
-  fileBytes_ = unknown ? 0 : size;
+  fileBytes_ = std::filesystem::file_size(path);
 }
 
 GzInput::~GzInput() { gzclose_r(file_); }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "quadmap/base/InsideFolder.h"
 #include "quadmap/base/OutputSet.h"
 
 namespace quadmap
@@ -35,6 +36,7 @@ class TreeLimit
 Json readJson(const std::string& path)
 {
   requireOneRun(path);
+  requireNoDevice(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
   TreeLimit limit;

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "LabelSource.h"
 #include "MapLimits.h"
 #include "quadmap/base/ArchiveFields.h"
+#include "quadmap/base/ConfigCheck.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/obs/Plausible.h"
 
@@ -29,8 +31,11 @@ void writeOptions(CArchive& out, const Options& options)
 template <typename Options>
 void readOptions(CArchive& in, Options& options)
 {
+  const std::string text = readText(in);
+  std::istringstream lines(text);
+  requirePlainIni(lines, "its options");
   Options stored;  // what an older archive does not have gets its default
-  stored.loadFromConfigFile(mrpt::config::CConfigFileMemory(readText(in)), "options");
+  stored.loadFromConfigFile(mrpt::config::CConfigFileMemory(text), "options");
   options = stored;
 }
 

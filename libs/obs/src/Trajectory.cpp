@@ -70,10 +70,10 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
 Trajectory readTumTrajectory(const std::string& path)
 {
   requireOneRun(path);
+  requireModestText(path, kMostBytes);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read the trajectory");
 
-  requireModestText(path, kMostBytes);
   Trajectory trajectory;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number)

@@ -51,9 +51,9 @@ class GraphFile
   explicit GraphFile(const std::string& path) : path_(path)
   {
     requireOneRun(path);
+    requireModestText(path, kMostBytes);
     std::ifstream file(path);
     if (!file) throw std::runtime_error(path + ": cannot be read");
-    requireModestText(path, kMostBytes);
     std::stringstream text;
     text << file.rdbuf();
     readTimes(text.str());

@@ -3,6 +3,7 @@
 #include <mrpt/config/CConfigFileBase.h>
 
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,14 +21,19 @@ std::optional<long double> parseLongNumber(const std::string& text);
 std::optional<bool> parseFlag(const std::string& text);
 
 /** Texts that people write are small. Larger ones are read into memory several times over.
- * \exception std::runtime_error If the file has more bytes; names it. */
+ * \exception std::runtime_error If the file has more bytes, or is a device; names it. */
 void requireModestText(const std::string& path, std::uintmax_t mostBytes = std::uintmax_t{1} << 20);
 
-/** Opens an INI file strictly: MRPT reads a missing file as an empty one, drops lines it does not
- * understand, and lets the last of two equal keys win.
- * \exception std::runtime_error If the file does not exist or cannot be read, for a line that is
- * neither `[section]`, `key = value`, a comment nor an @-directive, and for a section or key that
- * stands there twice; names file and line. */
+/** Checks an INI text before MRPT reads it, which drops lines it does not understand, lets the last
+ * of two equal keys win, and runs what is written in its language of @-directives, ${} and $eval{}.
+ * \param name For messages.
+ * \exception std::runtime_error For a line that is neither `[section]`, `key = value` nor a
+ * comment, for one that MRPT would run, and for a section or key that stands there twice; names the
+ * line. */
+void requirePlainIni(std::istream& text, const std::string& name);
+
+/** Does so with a file, of which MRPT reads a missing one as an empty one.
+ * \exception std::runtime_error As requirePlainIni(), and if the file cannot be read. */
 void requireReadableIni(const std::string& path);
 
 /** \exception std::invalid_argument If the section has a key that is not in `known`: a misspelt key
