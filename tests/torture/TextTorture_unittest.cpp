@@ -18,6 +18,10 @@ Cases damagesOf(const std::string& whole)
   cases.push_back({"binary", std::string("\0\1\2\xff\xfe", 5), true});
   cases.push_back({"section twice", whole + "\n[a]\n[a]\n", true});
   cases.push_back({"no section", "key = value\n"});
+  for (const char* line :
+       {"x = $eval{repeat 1 until (0)}", "; $eval{repeat 1 until (0)}", "x = $env{HOME}",
+        "@define a 1"})
+    cases.push_back({line, whole + "\n" + line + "\n", true});
   return cases;
 }
 
