@@ -82,13 +82,13 @@ void loadExternalDepth(CObservation3DRangeScan& scan, const ImageRules& rules)
   scan.rangeImage_forceResetExternalStorage();
 }
 
-void loadExternalColor(CObservation3DRangeScan& scan, const ImageRules& rules)
+void loadExternal(mrpt::img::CImage& image, int flags, const ImageRules& rules)
 {
-  const std::string path = pathOf(scan.intensityImage.getExternalStorageFile(), rules);
+  const std::string path = pathOf(image.getExternalStorageFile(), rules);
   try
   {
-    const cv::Mat image = decodeImageFile(path, cv::IMREAD_COLOR, rules.mostPixels);
-    scan.intensityImage = mrpt::img::CImage(image, mrpt::img::SHALLOW_COPY);
+    const cv::Mat loaded = decodeImageFile(path, flags, rules.mostPixels);
+    image = mrpt::img::CImage(loaded, mrpt::img::SHALLOW_COPY);
   }
   catch (const std::exception& e)
   {
@@ -101,7 +101,9 @@ void loadExternalImages(CObservation3DRangeScan& scan, const ImageRules& rules)
 {
   if (scan.rangeImage_isExternallyStored()) loadExternalDepth(scan, rules);
   if (scan.hasIntensityImage && scan.intensityImage.isExternallyStored())
-    loadExternalColor(scan, rules);
+    loadExternal(scan.intensityImage, cv::IMREAD_COLOR, rules);
+  if (scan.hasConfidenceImage && scan.confidenceImage.isExternallyStored())
+    loadExternal(scan.confidenceImage, cv::IMREAD_GRAYSCALE, rules);
 }
 
 void requireCalibration(const CObservation3DRangeScan& scan)
