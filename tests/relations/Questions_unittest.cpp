@@ -304,4 +304,6 @@ TEST(Questions, AboutThousandsOfThingsAreAnsweredAtOnceOrNotAtAll)
       "of 1000 \"chairs\" too many would be compared with others: name one by its id, or ask "
       "within limits");
   EXPECT_NE(complaint("chairs on the chairs").find("too many"), std::string::npos);
+  EXPECT_EQ(complaint("chairs between the chairs and chair 7").find("too many"), std::string::npos)
+      << "a million triples";
 }

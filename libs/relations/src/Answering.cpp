@@ -3,9 +3,7 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <limits>
-#include <map>
 
 #include "quadmap/base/ErrorText.h"
 
@@ -15,6 +13,12 @@ namespace
 {
 /** Pairs or triples of objects that are looked at in a few seconds. */
 constexpr double kMostComparisons = 3e7;
+
+bool isOfCarriers(const Clause& clause)
+{
+  return clause.kind == RelationKind::On || clause.kind == RelationKind::In ||
+         clause.kind == RelationKind::Under;
+}
 
 std::string countOf(std::size_t count, const Noun& noun)
 {
@@ -34,36 +38,45 @@ Answering::Answering(
     limits_(limits),
     geometry_(inventory)
 {
+  for (const Clause& clause : question_.clauses)
+    clauseReferents_.push_back(
+        {referents(clause.object), clause.second ? referents(*clause.second) : Indices()});
+  if (question_.extremeTo) extremeReferents_ = referents(*question_.extremeTo);
 }
 
-/** How many objects are compared with how many. What carries what is looked for among all. */
-double Answering::comparisons() const
+/** How many objects are compared with how many. */
+double Answering::comparisons(const Indices& asked) const
 {
-  const auto count = [this](const Noun& noun) { return double(referents(noun).size()); };
-  const double asked = double(subjects().size()), all = double(geometry_.size());
-  double sum = question_.extremeTo ? asked * count(*question_.extremeTo) : 0;
-  for (const Clause& clause : question_.clauses)
+  const double subjects = double(asked.size()), all = double(geometry_.size());
+  double sum = subjects * double(extremeReferents_.size());
+  for (std::size_t i = 0; i < question_.clauses.size(); ++i)
   {
-    const bool isCarried = clause.kind == RelationKind::On || clause.kind == RelationKind::In ||
-                           clause.kind == RelationKind::Under;
-    const double pairs = asked * std::max(count(clause.object), 1.0);
-    sum += pairs * (clause.second ? count(*clause.second) : isCarried ? all : 1.0) + asked * all;
+    const double first = double(clauseReferents_[i].first.size());
+    const double second = double(clauseReferents_[i].second.size());
+    const bool isBetween = question_.clauses[i].kind == RelationKind::Between;
+    sum += subjects * first * (isBetween ? second : 1.0);
+    // A chain of things that carry each other may have all of them.
+    if (isOfCarriers(question_.clauses[i])) sum += (all + subjects * first) * all;
   }
   return sum;
 }
 
-Answer Answering::answer() const
+Answer Answering::answer()
 {
-  if (comparisons() > kMostComparisons)
+  const Indices asked = subjects();
+  if (comparisons(asked) > kMostComparisons)
     throw QuestionError(
-        "of " + countOf(subjects().size(), question_.subject) +
+        "of " + countOf(asked.size(), question_.subject) +
         " too many would be compared with others: name one by its id, or ask within limits");
+  if (std::any_of(question_.clauses.begin(), question_.clauses.end(), isOfCarriers))
+    carriers_.emplace(geometry_);
   std::vector<Candidate> candidates;
-  for (const std::size_t subject : subjects())
+  for (const std::size_t subject : asked)
   {
     Candidate candidate{subject, {}};
-    for (const Clause& clause : question_.clauses)
-      if (auto found = reasonFor(subject, clause)) candidate.reasons.push_back(std::move(*found));
+    for (std::size_t i = 0; i < question_.clauses.size(); ++i)
+      if (auto found = reasonFor(subject, question_.clauses[i], clauseReferents_[i]))
+        candidate.reasons.push_back(std::move(*found));
     if (candidate.reasons.size() == question_.clauses.size()) candidates.push_back(candidate);
   }
   addPlace(candidates);
@@ -124,11 +137,12 @@ Reason Answering::reason(
 }
 
 /** The relation of the clause to the object for which its distance is smallest. */
-std::optional<Reason> Answering::reasonFor(std::size_t subject, const Clause& clause) const
+std::optional<Reason> Answering::reasonFor(
+    std::size_t subject, const Clause& clause, const Referents& referents) const
 {
-  if (clause.kind == RelationKind::Between) return betweenReason(subject, clause);
+  if (clause.kind == RelationKind::Between) return betweenReason(subject, referents);
   std::optional<Reason> best;
-  for (const std::size_t object : referents(clause.object))
+  for (const std::size_t object : referents.first)
   {
     auto found = relationTo(subject, object, clause.kind);
     if (found && (!best || found->distance < best->distance)) best = std::move(found);
@@ -156,34 +170,10 @@ std::optional<Reason> Answering::relationTo(
   return reason(kind, {object}, *distance, text);
 }
 
-/** What carries the subject on the way to the object, which is the last and carries it as `kind`
- * says; nothing when it does not. The way is the shortest. */
-std::optional<Answering::Indices> Answering::carriers(
-    std::size_t subject, std::size_t object, RelationKind kind) const
-{
-  std::map<std::size_t, std::size_t> cameFrom = {
-      {subject, subject}
-  };
-  for (std::deque<std::size_t> open = {subject}; !open.empty(); open.pop_front())
-  {
-    const std::size_t i = open.front();
-    if (kind == RelationKind::On ? geometry_.on(i, object) : geometry_.in(i, object))
-    {
-      Indices way = {object};
-      for (std::size_t k = i; k != subject; k = cameFrom.at(k)) way.insert(way.begin(), k);
-      return way;
-    }
-    for (std::size_t k = 0; k < geometry_.size(); ++k)
-      if ((geometry_.on(i, k) || geometry_.in(i, k)) && cameFrom.emplace(k, i).second)
-        open.push_back(k);
-  }
-  return std::nullopt;
-}
-
 std::optional<Reason> Answering::carriedReason(
     std::size_t subject, std::size_t object, RelationKind kind) const
 {
-  const auto way = carriers(subject, object, kind);
+  const auto way = carriers_->way(subject, object, kind);
   if (!way || subject == object) return std::nullopt;
   std::string text;
   std::size_t last = subject;
@@ -199,17 +189,18 @@ std::optional<Reason> Answering::carriedReason(
 std::optional<Reason> Answering::underReason(std::size_t subject, std::size_t object) const
 {
   const bool isCovered = geometry_.hasLevelTop(object) && geometry_.in(subject, object);
-  if (subject == object || (!isCovered && !carriers(object, subject, RelationKind::On)))
+  if (subject == object || (!isCovered && !carriers_->way(object, subject, RelationKind::On)))
     return std::nullopt;
   return reason(
       RelationKind::Under, {object}, geometry_.gap(subject, object), "under " + nameOf(object));
 }
 
-std::optional<Reason> Answering::betweenReason(std::size_t subject, const Clause& clause) const
+std::optional<Reason> Answering::betweenReason(
+    std::size_t subject, const Referents& referents) const
 {
   std::optional<Reason> best;
-  for (const std::size_t first : referents(clause.object))
-    for (const std::size_t second : referents(*clause.second))
+  for (const std::size_t first : referents.first)
+    for (const std::size_t second : referents.second)
     {
       const auto detour = geometry_.between(subject, first, second);
       if (!detour || (best && *detour >= best->distance)) continue;
@@ -245,7 +236,7 @@ std::optional<Reason> Answering::distanceReason(std::size_t subject) const
   const RelationKind kind = *question_.extreme;
   if (!question_.extremeTo) return placeReason(subject);
   std::optional<Reason> best;
-  for (const std::size_t object : referents(*question_.extremeTo))
+  for (const std::size_t object : extremeReferents_)
   {
     if (object == subject) continue;
     const double distance = geometry_.gap(subject, object);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "Carriers.h"
 #include "Geometry.h"
 #include "QuestionParser.h"
 #include "quadmap/relations/Questions.h"
@@ -20,7 +21,7 @@ class Answering
       const Question& question,
       const AnswerLimits& limits);
 
-  Answer answer() const;
+  Answer answer();
 
  private:
   using Indices = std::vector<std::size_t>;
@@ -32,18 +33,24 @@ class Answering
     std::vector<Reason> reasons;
   };
 
+  /** What a clause refers to. */
+  struct Referents
+  {
+    Indices first, second;  // the second ones of "between" only
+  };
+
   bool isMeant(const InventoryItem& item, const Noun& noun) const;
-  double comparisons() const;
+  double comparisons(const Indices& asked) const;
   Indices subjects() const;
   Indices referents(const Noun& noun) const;
-  std::optional<Reason> reasonFor(std::size_t subject, const Clause& clause) const;
+  std::optional<Reason> reasonFor(
+      std::size_t subject, const Clause& clause, const Referents& referents) const;
   std::optional<Reason> relationTo(
       std::size_t subject, std::size_t object, RelationKind kind) const;
-  std::optional<Reason> betweenReason(std::size_t subject, const Clause& clause) const;
+  std::optional<Reason> betweenReason(std::size_t subject, const Referents& referents) const;
   std::optional<Reason> carriedReason(
       std::size_t subject, std::size_t object, RelationKind kind) const;
   std::optional<Reason> underReason(std::size_t subject, std::size_t object) const;
-  std::optional<Indices> carriers(std::size_t subject, std::size_t object, RelationKind kind) const;
   std::optional<Reason> distanceReason(std::size_t subject) const;
   Reason placeReason(std::size_t subject) const;
   void addPlace(std::vector<Candidate>& candidates) const;
@@ -58,6 +65,9 @@ class Answering
   const Question& question_;
   const AnswerLimits& limits_;
   Geometry geometry_;
+  std::vector<Referents> clauseReferents_;  // in the order of the clauses
+  Indices extremeReferents_;
+  std::optional<Carriers> carriers_;  // set when a clause asks for them
 };
 
 }  // namespace quadmap
