@@ -82,13 +82,13 @@ void loadExternalDepth(CObservation3DRangeScan& scan, const ImageRules& rules)
   scan.rangeImage_forceResetExternalStorage();
 }
 
-void loadExternal(mrpt::img::CImage& image, int flags, const ImageRules& rules)
+void loadExternalColor(CObservation3DRangeScan& scan, const ImageRules& rules)
 {
-  const std::string path = pathOf(image.getExternalStorageFile(), rules);
+  const std::string path = pathOf(scan.intensityImage.getExternalStorageFile(), rules);
   try
   {
-    const cv::Mat loaded = decodeImageFile(path, flags, rules.mostPixels);
-    image = mrpt::img::CImage(loaded, mrpt::img::SHALLOW_COPY);
+    const cv::Mat image = decodeImageFile(path, cv::IMREAD_COLOR, rules.mostPixels);
+    scan.intensityImage = mrpt::img::CImage(image, mrpt::img::SHALLOW_COPY);
   }
   catch (const std::exception& e)
   {
@@ -101,9 +101,15 @@ void loadExternalImages(CObservation3DRangeScan& scan, const ImageRules& rules)
 {
   if (scan.rangeImage_isExternallyStored()) loadExternalDepth(scan, rules);
   if (scan.hasIntensityImage && scan.intensityImage.isExternallyStored())
-    loadExternal(scan.intensityImage, cv::IMREAD_COLOR, rules);
-  if (scan.hasConfidenceImage && scan.confidenceImage.isExternallyStored())
-    loadExternal(scan.confidenceImage, cv::IMREAD_GRAYSCALE, rules);
+    loadExternalColor(scan, rules);
+}
+
+/** Nothing uses confidences, and MRPT would read whatever file an external image of them names. */
+void dropExternalConfidence(CObservation3DRangeScan& scan)
+{
+  if (!scan.hasConfidenceImage || !scan.confidenceImage.isExternallyStored()) return;
+  scan.confidenceImage = mrpt::img::CImage();
+  scan.hasConfidenceImage = false;
 }
 
 void requireCalibration(const CObservation3DRangeScan& scan)
@@ -147,6 +153,7 @@ void prepareScan(CObservation3DRangeScan& scan, const ImageRules& rules)
     throw std::runtime_error(
         scan.hasPoints3D ? "has 3D points but no range image" : "has no range image");
   loadExternalImages(scan, rules);
+  dropExternalConfidence(scan);
   if (scan.rangeImage.rows() == 0 || scan.rangeImage.cols() == 0)
     throw std::runtime_error("its range image is empty");
   if (!isPlausibleDepthUnit(scan.rangeUnits))
