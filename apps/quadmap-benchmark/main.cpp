@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "common/Subcommands.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/Json.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/benchmark/BenchmarkPlots.h"
@@ -230,6 +231,7 @@ void mergeCommand(int argc, char** argv)
     for (const auto& [name, text] : sections) std::cout << "## " << name << "\n\n" << text << "\n";
   else
   {
+    requireModestText(page.getValue());
     std::ifstream in(page.getValue());
     if (!in) throw std::runtime_error(page.getValue() + ": cannot be read");
     std::ostringstream text;

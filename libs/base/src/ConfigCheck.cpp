@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "quadmap/base/InsideFolder.h"
+#include "quadmap/base/InputFile.h"
 
 namespace quadmap
 {
@@ -41,13 +41,13 @@ bool isComment(const std::string& line)
   return line[0] == ';' || line[0] == '#' || line.compare(0, 2, "//") == 0;
 }
 
-/** MRPT runs these when it reads an INI text, also in comments: loops without an end, texts that
- * double line by line, and the secrets of who reads the file. */
+/** Whether MRPT would execute something of the line, which may be a comment: loops without an end,
+ * texts that double, values of the reader's environment. */
 bool isProgram(const std::string& line)
 {
-  if (!line.empty() && line[0] == '@') return true;
-  return line.find("${") != std::string::npos || line.find("$env{") != std::string::npos ||
-         line.find("$eval{") != std::string::npos;
+  for (const char* mark : {"@define", "${", "$env{", "$eval{"})
+    if (line.find(mark) != std::string::npos) return true;
+  return false;
 }
 
 /** Checks the lines of one INI text, as far as requireReadableIni() promises. */
@@ -58,7 +58,7 @@ class IniLineCheck
   std::string check(const std::string& rawLine)
   {
     const std::string line = trim(rawLine);
-    if (isProgram(line)) return "@define, @if, ${}, $env{} and $eval{} are not allowed";
+    if (isProgram(line)) return "@define, ${}, $env{} and $eval{} are not allowed";
     const bool continuation = continued_;
     continued_ = !line.empty() && line.back() == '\\';
     if (continuation || line.empty() || isComment(line)) return {};
@@ -114,18 +114,6 @@ std::optional<bool> parseFlag(const std::string& text)
   if (word == "true" || word == "yes" || word == "1") return true;
   if (word == "false" || word == "no" || word == "0") return false;
   return std::nullopt;
-}
-
-void requireModestText(const std::string& path, std::uintmax_t mostBytes)
-{
-  requireNoDevice(path);
-  std::error_code ignored;
-  const auto size = std::filesystem::file_size(path, ignored);
-  if (!ignored && size > mostBytes)
-    throw std::runtime_error(mrpt::format(
-        "%s: has %llu MB, more than the %llu MB that such a file may have", path.c_str(),
-        static_cast<unsigned long long>(size >> 20),
-        static_cast<unsigned long long>(mostBytes >> 20)));
 }
 
 void requirePlainIni(std::istream& text, const std::string& name)

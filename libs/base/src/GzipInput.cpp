@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "quadmap/base/InsideFolder.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputSet.h"
 
 namespace quadmap
@@ -74,7 +74,9 @@ GzInput::GzInput(const std::string& path, bool isResult) : path_(path)
   requireNoDevice(path);
   if (isResult) requireOneRun(path);
   file_ = openOrThrow(path);
-  fileBytes_ = std::filesystem::file_size(path);
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  fileBytes_ = unknown ? 0 : size;
 }
 
 GzInput::~GzInput() { gzclose_r(file_); }

@@ -1,7 +1,5 @@
 #include "quadmap/base/InsideFolder.h"
 
-#include <stdexcept>
-
 #include "FileSystem.h"
 
 namespace quadmap
@@ -15,11 +13,6 @@ bool isInside(const fs::path& path, const fs::path& folder)
   const fs::path place = fs::weakly_canonical(withoutLink(fs::absolute(path)), noPath);
   const fs::path inFolder = place.lexically_relative(fs::canonical(folder, noFolder));
   return !noPath && !noFolder && !inFolder.empty() && *inFolder.begin() != "..";
-}
-
-void requireNoDevice(const fs::path& path)
-{
-  if (isDevice(path)) throw std::runtime_error(path.string() + ": is a pipe or a device, no file");
 }
 
 }  // namespace quadmap

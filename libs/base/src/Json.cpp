@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "quadmap/base/InsideFolder.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputSet.h"
 
 namespace quadmap

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "quadmap/base/InputFile.h"
+
 namespace quadmap
 {
 namespace
@@ -93,6 +95,7 @@ std::string sha256(std::string_view bytes)
 
 std::string sha256OfFile(const std::string& path)
 {
+  requireNoDevice(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
   Sha256 sum;

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/Json.h"
 
 namespace quadmap
@@ -34,6 +35,7 @@ Figures numbersOf(const Json& json)
 
 std::string firstLine(const fs::path& path)
 {
+  requireModestText(path.string());
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line)) throw std::runtime_error(path.string() + ": cannot be read");
@@ -130,7 +132,9 @@ BenchmarkResults readBenchmarkResults(const std::string& folder)
     lines.insert(results.done.back().job.line());
   }
   requireOneCommit(folder, results.done);
-  std::ifstream list(fs::path(folder) / "jobs.txt");
+  const fs::path jobs = fs::path(folder) / "jobs.txt";
+  requireModestText(jobs.string());
+  std::ifstream list(jobs);
   for (std::string line; std::getline(list, line);)
     if (!line.empty() && lines.count(line) == 0) results.missing.push_back(line);
   return results;

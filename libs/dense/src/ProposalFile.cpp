@@ -5,7 +5,6 @@
 #include <mrpt/core/format.h>
 
 #include <cctype>
-#include <optional>
 #include <stdexcept>
 
 #include "quadmap/base/ConfigCheck.h"
@@ -165,17 +164,9 @@ std::string proposalText(const std::vector<CuboidProposal>& proposals)
 std::vector<JudgedProposal> readProposals(const std::string& path)
 {
   requireReadableIni(path);
-  std::optional<mrpt::config::CConfigFile> config;
-  try
-  {
-    config.emplace(path);
-  }
-  catch (const std::exception& e)  // a directive of MRPT, such as ${x}, that means nothing
-  {
-    throw std::invalid_argument(path + ": " + rootMessage(e));
-  }
+  const mrpt::config::CConfigFile config(path);
   std::vector<std::string> sections;
-  config->getAllSections(sections);
+  config.getAllSections(sections);
   std::vector<JudgedProposal> proposals;
   for (const std::string& section : sections)
   {
@@ -183,7 +174,7 @@ std::vector<JudgedProposal> readProposals(const std::string& path)
       throw std::invalid_argument(path + ": [" + section + "]: expected [object ID]");
     try
     {
-      proposals.push_back(readSection(*config, section));
+      proposals.push_back(readSection(config, section));
     }
     catch (const std::invalid_argument& e)
     {

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/geometry/PosePosition.h"

@@ -13,6 +13,7 @@
 
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/base/StderrCapture.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/InputFile.h"
 
 namespace quadmap
 {

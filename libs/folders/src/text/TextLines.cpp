@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/InputFile.h"
 
 namespace quadmap
 {

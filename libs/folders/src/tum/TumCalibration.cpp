@@ -11,6 +11,7 @@
 
 #include "frames/RigidMatrix.h"
 #include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/sensors/DepthUnit.h"
 #include "tum/TumFiles.h"
 

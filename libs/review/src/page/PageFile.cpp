@@ -8,6 +8,7 @@
 
 #include "page/Base64.h"
 #include "page/PageData.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/Sha256.h"
 #include "quadmap/base/ShareFiles.h"
@@ -26,6 +27,7 @@ constexpr const char* kThreeNotice =
 
 std::string readText(const std::string& path, const std::string& advice = {})
 {
+  requireNoDevice(path);
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file || text.empty()) throw std::runtime_error(path + ": cannot be read" + advice);

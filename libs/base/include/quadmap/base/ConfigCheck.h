@@ -2,7 +2,6 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 
-#include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <set>
@@ -20,16 +19,12 @@ std::optional<long double> parseLongNumber(const std::string& text);
 /** True for true, yes and 1, false for false, no and 0, nothing for other texts. */
 std::optional<bool> parseFlag(const std::string& text);
 
-/** Texts that people write are small. Larger ones are read into memory several times over.
- * \exception std::runtime_error If the file has more bytes, or is a device; names it. */
-void requireModestText(const std::string& path, std::uintmax_t mostBytes = std::uintmax_t{1} << 20);
-
 /** Checks an INI text before MRPT reads it, which drops lines it does not understand, lets the last
- * of two equal keys win, and runs what is written in its language of @-directives, ${} and $eval{}.
+ * of two equal keys win, and executes @define, ${}, $env{} and $eval{}.
  * \param name For messages.
  * \exception std::runtime_error For a line that is neither `[section]`, `key = value` nor a
- * comment, for one that MRPT would run, and for a section or key that stands there twice; names the
- * line. */
+ * comment, for one that MRPT would execute, and for a section or key that stands there twice; names
+ * the line. */
 void requirePlainIni(std::istream& text, const std::string& name);
 
 /** Does so with a file, of which MRPT reads a missing one as an empty one.

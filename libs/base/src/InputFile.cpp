@@ -1,0 +1,29 @@
+#include "quadmap/base/InputFile.h"
+
+#include <mrpt/core/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "FileSystem.h"
+
+namespace quadmap
+{
+void requireNoDevice(const std::string& path)
+{
+  if (isDevice(path)) throw std::runtime_error(path + ": is a pipe or a device, no file");
+}
+
+void requireModestText(const std::string& path, std::uintmax_t mostBytes)
+{
+  requireNoDevice(path);
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(path, ignored);
+  if (!ignored && size > mostBytes)
+    throw std::runtime_error(mrpt::format(
+        "%s: has %llu MB, more than the %llu MB that such a file may have", path.c_str(),
+        static_cast<unsigned long long>(size >> 20),
+        static_cast<unsigned long long>(mostBytes >> 20)));
+}
+
+}  // namespace quadmap

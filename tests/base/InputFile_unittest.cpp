@@ -1,0 +1,44 @@
+#include "quadmap/base/InputFile.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <functional>
+#include <vector>
+
+#include "../obs/TemporaryFolder.h"
+#include "quadmap/base/ConfigCheck.h"
+#include "quadmap/base/GzipInput.h"
+#include "quadmap/base/Json.h"
+#include "quadmap/base/Sha256.h"
+#include "quadmap/obs/Trajectory.h"
+
+using namespace quadmap;
+
+TEST(RequireModestText, NamesFileAndSize)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("x.ini", std::string(3u << 20, '#'));
+  EXPECT_EQ(
+      errorOf([&] { requireModestText(path); }),
+      path + ": has 3 MB, more than the 1 MB that such a file may have");
+  EXPECT_EQ(errorOf([&] { requireModestText(path, 3u << 20); }), "");
+}
+
+TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)
+{
+  const std::vector<std::function<void(const std::string&)>> readers = {
+      [](const std::string& path) { requireNoDevice(path); },
+      [](const std::string& path) { requireModestText(path); },
+      [](const std::string& path) { requireReadableIni(path); },
+      [](const std::string& path) { readJson(path); },
+      [](const std::string& path) { readTumTrajectory(path); },
+      [](const std::string& path) { sha256OfFile(path); },
+      [](const std::string& path) { GzInput file(path); }};
+  const TemporaryFolder folder;
+  const auto pipe = folder.path("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
+  for (std::size_t i = 0; i < readers.size(); ++i)
+    for (const std::string& path : {pipe, std::string("/dev/zero")})
+      EXPECT_EQ(errorOf([&] { readers[i](path); }), path + ": is a pipe or a device, no file") << i;
+}
