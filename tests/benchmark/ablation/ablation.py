@@ -114,7 +114,7 @@ class Bench:
     def recordings(self, rooms):
         """{name: (folder, poses)}; those that are not there are made."""
         out = {}
-        data = pathlib.Path(os.environ.get("QUADMAP_TEST_DATA", ROOT.parent / "shared/data"))
+        data = pathlib.Path(os.environ.get("QUADMAP_TEST_DATA", ROOT.parent / "shared/data")).resolve()
         for name, (source, boxes, poses, without) in REAL.items():
             if (data / source).exists():
                 out[name] = (self.recorded(name, data / source, boxes, poses, without), poses)
@@ -128,9 +128,11 @@ class Bench:
         folder = self.folder / "recordings" / name.replace(" ", ".")
         if not (folder / "objects.gt.json").exists():
             shutil.rmtree(folder, ignore_errors=True)
-            shutil.copytree(source, folder / "images", copy_function=os.symlink)
+            (folder / "images").mkdir(parents=True)
+            for path in source.iterdir():
+                if path.name != "associations.txt":
+                    (folder / "images" / path.name).symlink_to(path)
             associations = (source / "associations.txt").read_text().splitlines(keepends=True)
-            (folder / "images/associations.txt").unlink()
             (folder / "images/associations.txt").write_text("".join(associations[int(without * len(associations)):]))
             run(self.build / "bin/quadmap-import", "tum", folder / "images", "--images-anywhere", "--poses-as", poses,
                 "--detections", source / boxes, "-o", folder / "x.rawlog")

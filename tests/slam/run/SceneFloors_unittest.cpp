@@ -74,10 +74,29 @@ TEST_P(SeveralFloors, AreMappedAtTheirHeights)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SeveralFloors, ::testing::Values("dais", "two-storeys"));
 
+namespace
+{
+/** Chairs and a table end at the floor that no image shows, and not where a table hides them. */
+void expectFurnitureReachesDown(const EvaluationReport& report)
+{
+  std::size_t judged = 0;
+  for (const auto& match : report.objects->matches)
+  {
+    if (match.truth.label != "chair" && match.truth.label != "dining table") continue;
+    ++judged;
+    EXPECT_NEAR(bottomOf(match.estimated), bottomOf(match.truth), 0.12) << match.truth.id;
+    EXPECT_GE(match.comparison.shapeIoU, 0.65) << match.truth.id;
+  }
+  EXPECT_EQ(judged, 6U);
+}
+}  // namespace
+
 TEST_F(SceneFloors, NoneInSightLosesNothing)
 {
   const auto report = map("no-floor");
+  EXPECT_TRUE(run_.result.warnings.empty());
   EXPECT_GE(report.objects->f1().value_or(0), 0.9);
+  expectFurnitureReachesDown(report);
 }
 
 TEST_F(SceneFloors, NoneInSightAndUpIsFoundBySurfaces)
