@@ -176,6 +176,39 @@ TEST_F(WithJpeg, DamagedHuffmanTablesAreAnError)  // libjpeg alone ends the prog
   EXPECT_NE(errorOf([&] { read(bytes); }).find("cannot be read as an image"), std::string::npos);
 }
 
+TEST_F(WithJpeg, WhatFollowsADamagedImageIsRead)
+{
+  const TemporaryFolder folder;
+  const auto first = bytesOf(*sampleScan(kStart)), last = bytesOf(*sampleScan(kStart + 2));
+  auto bytes = bytesOf(*sampleScan(kStart + 1));
+  bytes.replace(bytes.find("\xff\xda") + 14, 40, 40, '\0');  // the scan's first pixels
+  GzInput file(folder.write("x", first + bytes + last));
+  CheckedReader reader(file);
+  file.startRecord();
+  EXPECT_TRUE(reader.next());
+  file.startRecord();
+  try
+  {
+    reader.next();
+    ADD_FAILURE() << "the damage is not seen";
+  }
+  catch (const DamagedImage& e)
+  {
+    EXPECT_EQ(e.sensor, "camera");
+  }
+  file.startRecord();
+  EXPECT_TRUE(reader.next());
+  file.startRecord();
+  EXPECT_FALSE(reader.next());
+
+  const auto rawlog = folder.path("x");
+  const auto error = errorOf([&] { readAll(rawlog); });
+  EXPECT_NE(error.find("x: record 1 (camera): "), std::string::npos) << error;
+  RawlogSourceOptions keepGoing;
+  keepGoing.keepGoing = true;
+  EXPECT_EQ(readAll(rawlog, keepGoing).size(), 2u);
+}
+
 TEST_F(WithJpeg, LargeImagesAreRefusedByTheirHead)
 {
   const auto bytes = bytesOf(*sampleScan(kStart));

@@ -66,7 +66,7 @@ bool RawlogSource::Impl::readRecord()
   catch (const InputError& e)
   {
     report(e.problem);
-    return false;
+    return !reader.hasEnded();
   }
 }
 

@@ -62,6 +62,10 @@ mrpt::serialization::CSerializable::Ptr RecordReader::next()
       ended_ = true;
     return object;
   }
+  catch (const DamagedImage& e)
+  {
+    throw InputError({file_, recordsRead_++, e.sensor, explain(e)});
+  }
   catch (const std::exception& e)
   {
     ended_ = true;

@@ -20,9 +20,11 @@ class RecordReader
   explicit RecordReader(const std::string& file, const RecordLimits& limits = {});
 
   /** The next object, or null at the clean end of the file.
-   *  \exception InputError If reading cannot go on, because of an unknown class or because the file
-   *  is truncated or damaged. Afterwards next() returns null. */
+   *  \exception InputError For an object with a damaged image, and if reading cannot go on, because
+   *  of an unknown class or because the file is truncated or damaged: see hasEnded(). */
   mrpt::serialization::CSerializable::Ptr next();
+
+  bool hasEnded() const { return ended_; }  //!< Nothing more can be read: next() returns null
 
   const std::string& file() const { return file_; }
   std::size_t recordsRead() const { return recordsRead_; }  //!< Index of the next object

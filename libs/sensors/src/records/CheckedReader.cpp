@@ -1,5 +1,7 @@
 #include "quadmap/sensors/CheckedReader.h"
 
+#include <mrpt/obs/CObservation.h>
+
 #include "records/RecordBytes.h"
 #include "records/RecordCheck.h"
 
@@ -18,9 +20,19 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::next()
   const auto head = check.headAfterFirstByte();
   // Callers would take the null pointer for the end of the file.
   RecordCheck::require(head.name != "nullptr", "holds an empty object");
-  if (!RecordCheck::knows(head.name)) return check.readUnknown(head.begin);
-  check.content(head);
-  return check.readByMrpt(head.begin);
+  mrpt::serialization::CSerializable::Ptr object;
+  if (RecordCheck::knows(head.name))
+  {
+    check.content(head);
+    object = check.readByMrpt(head.begin);
+  }
+  else
+    object = check.readUnknown(head.begin);
+  if (check.damage.empty()) return object;
+  DamagedImage error(check.damage);
+  if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+    error.sensor = observation->sensorLabel;
+  throw error;
 }
 
 }  // namespace quadmap

@@ -2,6 +2,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "quadmap/base/ErrorText.h"
 #include "quadmap/sensors/EncodedImage.h"
 #include "records/RecordLayouts.h"
 
@@ -42,7 +43,8 @@ void grayImage(RecordCheck& c, int version)
   c.bytes.copy(stated);
 }
 
-/** Decodes the JPEG that follows. Where nobody needs the pixels, the image is empty. */
+/** Decodes the JPEG that follows. The image is empty where nobody needs its pixels, and when it is
+ * damaged. */
 cv::Mat decodedJpeg(RecordCheck& c)
 {
   const auto size = c.bytes.number<std::uint32_t>();
@@ -53,7 +55,15 @@ cv::Mat decodedJpeg(RecordCheck& c)
   }
   const std::size_t begin = c.bytes.size();
   c.bytes.copy(size);
-  return decodeImage(c.bytes.at(begin), size, cv::IMREAD_COLOR, c.limits.imagePixels);
+  try
+  {
+    return decodeImage(c.bytes.at(begin), size, cv::IMREAD_COLOR, c.limits.imagePixels);
+  }
+  catch (const std::exception& e)
+  {
+    if (c.damage.empty()) c.damage = rootMessage(e);
+    return {};
+  }
 }
 
 /** Puts the pixels of the JPEG that follows in place of what begins at `from`. */

@@ -173,9 +173,9 @@ void RecordCheck::image()
 
 std::uint64_t RecordCheck::pixels(std::uint64_t rows, std::uint64_t columns) const
 {
+  require((rows == 0) == (columns == 0), "states an image without rows, or without columns");
   require(
-      (rows == 0 && columns == 0) || (rows > 0 && columns > 0 && rows <= limits.imagePixels &&
-                                      columns <= limits.imagePixels / rows),
+      rows == 0 || (rows <= limits.imagePixels && columns <= limits.imagePixels / rows),
       mrpt::format(
           "states an image of %llux%llu pixels, more than %llu million",
           static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),

@@ -66,6 +66,8 @@ class RecordCheck
   const RecordLimits& limits;
   /** Whether the pixels of the next images are needed. Else what a JPEG holds is left out. */
   bool needsPixels = false;
+  /** Why the first image that cannot be decoded cannot. An empty one was put in its place. */
+  std::string damage;
 
  private:
   Head headAfterName(std::size_t begin);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,14 @@ struct RecordLimits
   std::uint64_t imagePixels = std::uint64_t{1} << 24;
   /** Most bytes of one object. */
   std::uint64_t recordBytes = std::uint64_t{1} << 28;
+};
+
+/** An object has an embedded image that cannot be decoded, though its place is known: the objects
+ * behind it can be read. */
+struct DamagedImage : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+  std::string sensor;  //!< The sensor's label, when the object is an observation
 };
 
 /** Reads the objects of a stream of MRPT one by one. Before MRPT's own readers see an object, its
@@ -39,6 +48,7 @@ class CheckedReader
   explicit CheckedReader(mrpt::io::CStream& from, const RecordLimits& limits = {});
 
   /** The next object, or null at the end of the stream.
+   *  \exception DamagedImage See there.
    *  \exception std::exception If it cannot be read. Reading cannot go on afterwards. */
   mrpt::serialization::CSerializable::Ptr next();
 
