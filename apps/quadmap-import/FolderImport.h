@@ -33,6 +33,7 @@ struct FolderImportReport
   bool hasOdometry = false;          //!< A rawlog has some, be it at the times of its images or not
   std::size_t copiedImages = 0;      //!< Number of colour images that were not encoded anew
   std::vector<std::string> dropped;  //!< One text for each that keepGoing left out
+  std::vector<std::string> notes;    //!< What may be off in what was written
 };
 
 /** Called with the share that is done, in [0, 1]. */

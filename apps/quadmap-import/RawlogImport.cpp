@@ -149,6 +149,17 @@ void writeFrame(
   writer.write(*frame.objects);
   report.boxes += frame.objects->objects.size();
 }
+
+/** Puts what the source warns of into a list instead of on the terminal, in MRPT's form. */
+void keepWarnings(RawlogSource& source, std::vector<std::string>& warnings)
+{
+  source.logging_enable_console_output = false;
+  source.logRegisterCallback(
+      [&warnings](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
+      {
+        if (level == mrpt::system::LVL_WARN) warnings.emplace_back(text);
+      });
+}
 }  // namespace
 
 FolderImportReport importRawlog(
@@ -161,6 +172,7 @@ FolderImportReport importRawlog(
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty()) trajectory = readTumTrajectory(options.trajectory);
   FolderImportReport report;
+  keepWarnings(source, report.notes);
   std::map<std::string, std::size_t> seen;  // frames of each sensor
   while (const auto frame = source.next())
   {
@@ -184,6 +196,8 @@ bool checkRawlog(
     const ProgressCallback& progress)
 {
   RawlogSource source(rawlog, readingOptions(rawlog, true, imagesAnywhere));
+  std::vector<std::string> warnings;
+  keepWarnings(source, warnings);
   RawlogContent content;
   while (const auto frame = source.next())
   {
@@ -205,6 +219,7 @@ bool checkRawlog(
   for (const auto& [label, sensor] : content.sensors) out << sensorText(label, sensor);
   if (content.frames > 0) out << posesText(content) << boxesText(content);
   out << "  records: " << oneLine(source.contentSummary()) << "\n";
+  for (const auto& warning : warnings) out << "  note: " << oneLine(warning) << "\n";
   writeProblems(problems, out);
   return problems.empty();
 }

@@ -65,6 +65,7 @@ int importFromRawlog(ImportCli& cli)
   RawlogWriter writer = writerOf(cli);
   const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
   tellDropped(report);
+  tellNotes(report.notes);
   // A rawlog may have no poses at all, as a folder, but a trajectory is given for the sake of them.
   const bool hasPoses = report.poses > 0 || report.hasOdometry || cli.trajectory.isSet();
   if (options.posesAs != PosesAs::None && hasPoses)

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "../obs/FileSizeLimit.h"
+#include "../sensors/SampleRawlog.h"
 #include "ImportFixture.h"
 
 using namespace quadmap;

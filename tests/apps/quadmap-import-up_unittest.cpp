@@ -28,14 +28,14 @@ class UpOfPlanes : public QuadmapImport
   /** \param normals Of planes that are 1.2 m from the camera and look at it; optical frame. */
   void show(const std::vector<Eigen::Vector3d>& normals)
   {
-    constexpr int kColumns = 320, kRows = 240;
+    constexpr int kWidth = 320, kHeight = 240;
     constexpr double kFocal = 300, kCx = 159.5, kCy = 119.5;  // [px]
     recording_.writeCalibration(
         "fx: 300.0\nfy: 300.0\ncx: 159.5\ncy: 119.5\nwidth: 320\nheight: 240\n"
         "depth_factor: 5000.0\n");
-    cv::Mat depth(kRows, kColumns, CV_16UC1);
-    for (int v = 0; v < kRows; ++v)
-      for (int u = 0; u < kColumns; ++u)
+    cv::Mat depth(kHeight, kWidth, CV_16UC1);
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u)
       {
         const Eigen::Vector3d ray((u - kCx) / kFocal, (v - kCy) / kFocal, 1);
         double nearness = 0;  // of the nearest plane
@@ -44,7 +44,7 @@ class UpOfPlanes : public QuadmapImport
       }
     for (int i = 0; i < SampleRecording::kFrames; ++i)
     {
-      recording_.writeColor(i, kColumns, kRows);
+      recording_.writeColor(i, kWidth, kHeight);
       cv::imwrite(recording_.files.path(mrpt::format("depth/f%d.png", i)), depth);
     }
   }
