@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "../obs/TemporaryFolder.h"
@@ -21,7 +22,7 @@ TEST(RequireModestText, NamesFileAndSize)
   const auto path = folder.write("x.ini", std::string(3u << 20, '#'));
   EXPECT_EQ(
       errorOf([&] { requireModestText(path); }),
-      path + ": has 3 MB, more than the 1 MB that such a file may have");
+      path + ": has 3.0 MB, more than the 1 MB that such a file may have");
   EXPECT_EQ(errorOf([&] { requireModestText(path, 3u << 20); }), "");
 }
 

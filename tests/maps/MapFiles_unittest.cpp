@@ -13,6 +13,7 @@
 
 using namespace quadmap;
 using namespace quadmap::testing;
+using mrpt::poses::CPose3D;
 
 namespace
 {

@@ -2,6 +2,7 @@
 
 #include <mrpt/core/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -21,8 +22,8 @@ void requireModestText(const std::string& path, std::uintmax_t mostBytes)
   const auto size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > mostBytes)
     throw std::runtime_error(mrpt::format(
-        "%s: has %llu MB, more than the %llu MB that such a file may have", path.c_str(),
-        static_cast<unsigned long long>(size >> 20),
+        "%s: has %.1f MB, more than the %llu MB that such a file may have", path.c_str(),
+        std::ldexp(static_cast<double>(size), -20),
         static_cast<unsigned long long>(mostBytes >> 20)));
 }
 

@@ -7,6 +7,7 @@
 #include "quadmap/sensors/RawlogWriter.h"
 
 using namespace quadmap;
+using mrpt::poses::CPose3D;
 
 namespace
 {
