@@ -39,7 +39,10 @@ endfunction()
 # For programs and tests: undefined behaviour is looked for in the libraries, which do the work and keep their own copies
 # of what is inline. Looking for it in those that call them, too, takes a third of their time to compile; what is theirs
 # alone, the code of apps and templates that only tests use, is not looked at.
-set(QUADMAP_CALLER_OPTIONS $<$<BOOL:${QUADMAP_SANITIZE}>:-fno-sanitize=undefined>)
+set(QUADMAP_CALLER_OPTIONS)
+if(QUADMAP_SANITIZE)
+  set(QUADMAP_CALLER_OPTIONS -fno-sanitize=undefined)
+endif()
 
 # quadmap_precompile(<owner> LINK ... HEADERS ... OPTIONS ...): an object library that reads heavy headers once
 # for all targets that reuse it (quadmap_reuse_precompiled). The flags make what the compilers write
