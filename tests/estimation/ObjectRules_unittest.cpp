@@ -16,7 +16,7 @@ ObjectView partialView()
   view.label = "potted plant";
   view.center = {4, 0, 0};
   view.centerCovariance = Eigen::Vector3d(0.25, 0.1, 0.1).array().square().matrix().asDiagonal();
-  view.wrongDepthSigma = 1.5;
+  view.blindSigma = 1.5;
   return view;
 }
 

@@ -166,7 +166,7 @@ double partialLogLikelihood(
     double wrongDepthShare)
 {
   const Eigen::Matrix3d S = S_object + view.centerCovariance;
-  const Eigen::Vector3d alongRay = view.wrongDepthSigma * (view.center - view.camera).normalized();
+  const Eigen::Vector3d alongRay = view.blindSigma * (view.center - view.camera).normalized();
   const double own = std::log(1 - wrongDepthShare) + logGaussian(off, S);
   const double other =
       std::log(wrongDepthShare) + logGaussian(off, S + alongRay * alongRay.transpose());
