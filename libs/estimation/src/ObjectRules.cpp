@@ -154,26 +154,6 @@ double agreementLogLikelihood(
          labelLogLikelihood(labelAgreement(object, view.label, labels), options);
 }
 
-namespace
-{
-/** Most depths of partial measurements are the object's. The others are of what hides it or stands
- * behind it, and their objects are anywhere along the ray: doc/mathematics.md, (12.11).
- * \param off From the object to the measurement. \param S_object Of the object's position. */
-double partialLogLikelihood(
-    const ObjectView& view,
-    const Eigen::Vector3d& off,
-    const Eigen::Matrix3d& S_object,
-    double wrongDepthShare)
-{
-  const Eigen::Matrix3d S = S_object + view.centerCovariance;
-  const Eigen::Vector3d alongRay = view.blindSigma * (view.center - view.camera).normalized();
-  const double own = std::log(1 - wrongDepthShare) + logGaussian(off, S);
-  const double other =
-      std::log(wrongDepthShare) + logGaussian(off, S + alongRay * alongRay.transpose());
-  return std::max(own, other) + std::log1p(std::exp(-std::abs(own - other)));
-}
-}  // namespace
-
 double positionLogLikelihood(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options)
 {
@@ -181,7 +161,8 @@ double positionLogLikelihood(
   const Eigen::Matrix3d S_object =
       object.covariance.topLeftCorner<3, 3>() +
       options.extentShare * options.extentShare * object.object.shapeMatrix();
-  if (!view.complete) return partialLogLikelihood(view, off, S_object, options.wrongDepthShare);
+  // (12.3)
+  if (!view.complete) return logGaussian(off, S_object + view.centerCovariance);
 
   double log = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -17,8 +17,6 @@ struct AgreementOptions
   double imageWeight = 1.5;   //!< Times ln(IoU / 0.5) of the boxes in the image [-], >= 0
   double minImageIoU = 0.05;  //!< Bound of that term, (0, 1)
   double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
-  double wrongDepthShare =
-      0.05;                   //!< Of partial measurements whose depth is of another thing, [0, 1)
   double duplicateIoU = 0.8;  //!< Two boxes of one frame this alike show the same thing, (0, 1]
 };
 

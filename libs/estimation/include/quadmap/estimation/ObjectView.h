@@ -35,8 +35,6 @@ struct ObjectView : MeasuredGeometry
   std::string label;     //!< Canonical
   PoseNoise pose{0, 0};  //!< Of the pose it was taken from; the sigmas include it
   Eigen::Matrix3d centerCovariance = Eigen::Matrix3d::Identity();  //!< Of `center` [m^2]
-  /** Of the distance to the center of a partial one when its depth is that of another thing [m]. */
-  double blindSigma = 0;
   double yaw = 0;           //!< Of the cuboid's x axis [rad]; the cuboid is turned upright
   std::vector<Edge> edges;  //!< The usable box edges
 
