@@ -20,7 +20,7 @@ std::optional<long double> parseLongNumber(const std::string& text);
 std::optional<bool> parseFlag(const std::string& text);
 
 /** Checks an INI text before MRPT reads it, which drops lines it does not understand, lets the last
- * of two equal keys win, and executes @define, ${}, $env{} and $eval{}.
+ * of two equal keys win, and executes \@define, ${}, $env{} and $eval{}.
  * \param name For messages.
  * \exception std::runtime_error For a line that is neither `[section]`, `key = value` nor a
  * comment, for one that MRPT would execute, and for a section or key that stands there twice; names
