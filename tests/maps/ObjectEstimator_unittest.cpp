@@ -216,6 +216,21 @@ TEST(MedianState, DoesNotDependOnWhereTheMapsOriginIs)
   expectNear(*state, kCabinet.object, 0.03, 8.0);
 }
 
+TEST(MedianState, LeavesOutTheDepthsOfOtherThings)
+{
+  std::deque<ObjectView> views(5);
+  for (std::size_t k = 0; k < views.size(); ++k)
+  {
+    views[k].hasOwnDepth = k >= 3;
+    views[k].center = {views[k].hasOwnDepth ? 6.0 : 4.0, 1, 0.5};
+  }
+  const auto state = medianState(views, boxy("suitcase"));
+  ASSERT_TRUE(state);
+  EXPECT_NEAR((*state)[0], 6, 1e-9);
+  views.resize(3);
+  EXPECT_NEAR((*medianState(views, boxy("suitcase")))[0], 4, 1e-9) << "when there are no others";
+}
+
 TEST(ObjectEstimator, NothingToEstimateIsAnError)
 {
   EXPECT_THROW(ObjectEstimator().estimate({}, boxy("x"), {}), std::logic_error);

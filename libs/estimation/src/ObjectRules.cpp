@@ -154,16 +154,51 @@ double agreementLogLikelihood(
          labelLogLikelihood(labelAgreement(object, view.label, labels), options);
 }
 
-double positionLogLikelihood(
+namespace
+{
+/** Covariance of a measured centre minus the object's, of which the last term is a share of its
+ * size: S_ik - S_k of doc/mathematics.md, (12.3). */
+Eigen::Matrix3d positionCovariance(const MapObject& object, const AgreementOptions& options)
+{
+  return object.covariance.topLeftCorner<3, 3>() +
+         options.extentShare * options.extentShare * object.object.shapeMatrix();
+}
+
+/** Covariance of the place of a partial measurement whose depth is that of another thing. */
+Eigen::Matrix3d blindCovariance(const ObjectView& view)
+{
+  const Eigen::Vector3d alongRay = view.blindSigma * (view.center - view.camera).normalized();
+  return view.centerCovariance + alongRay * alongRay.transpose();
+}
+
+/** Log-likelihoods of a partial measurement's place, doc/mathematics.md, (12.11). */
+struct DepthHypotheses
+{
+  double own;    //!< The depth is the object's
+  double other;  //!< It is of what hides the object or stands behind it
+};
+
+DepthHypotheses depthHypotheses(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options)
 {
   const Eigen::Vector3d off = view.center - object.object.center();
-  const Eigen::Matrix3d S_object =
-      object.covariance.topLeftCorner<3, 3>() +
-      options.extentShare * options.extentShare * object.object.shapeMatrix();
-  // (12.3)
-  if (!view.complete) return logGaussian(off, S_object + view.centerCovariance);
+  const Eigen::Matrix3d S_object = positionCovariance(object, options);
+  return {
+      std::log(1 - options.wrongDepthShare) + logGaussian(off, S_object + view.centerCovariance),
+      std::log(options.wrongDepthShare) + logGaussian(off, S_object + blindCovariance(view))};
+}
+}  // namespace
 
+double positionLogLikelihood(
+    const ObjectView& view, const MapObject& object, const AgreementOptions& options)
+{
+  if (!view.complete)
+  {
+    const auto [own, other] = depthHypotheses(view, object, options);
+    return std::max(own, other) + std::log1p(std::exp(-std::abs(own - other)));
+  }
+  const Eigen::Vector3d off = view.center - object.object.center();
+  const Eigen::Matrix3d S_object = positionCovariance(object, options);
   double log = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -172,6 +207,20 @@ double positionLogLikelihood(
     log += axisLogLikelihood(view, axis, n.dot(off), objectHalf, n.dot(S_object * n));
   }
   return log;
+}
+
+std::optional<ObjectView> measurementOf(
+    const MapObject& object,
+    ObjectView view,
+    const LabelTable& labels,
+    const AgreementOptions& options)
+{
+  if (!labels.compatible(view.label, object.label())) return std::nullopt;
+  if (view.complete) return view;
+  const auto [own, other] = depthHypotheses(view, object, options);
+  view.hasOwnDepth = own >= other;
+  if (!view.hasOwnDepth) view.centerCovariance = blindCovariance(view);
+  return view;
 }
 
 }  // namespace quadmap

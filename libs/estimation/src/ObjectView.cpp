@@ -24,6 +24,13 @@ constexpr double kBlindRange = 2.5, kBlindRangeSigma = 1.2;
  * objects of a kind differ by: they are seen from their narrow and their broad side. */
 constexpr double kAspectSpread = 0.2;
 
+/** Standard deviation of a range [m] that follows from the size of a box. */
+double sigmaBySize(double range, const LabelProperties& properties)
+{
+  if (!properties.known) return kBlindRangeSigma / kBlindRange * range;
+  return range * std::hypot(properties.sizeSpread, kAspectSpread);
+}
+
 /** Standard deviation of a seed's position [m] for a mean size [m], doc/mathematics.md, (11.8).
  * They are fitted to simulated scenes, in which parts of most objects are hidden. */
 constexpr double sigmaAlongRay(double meanWidth) { return 0.05 + 0.5 * meanWidth; }
@@ -158,11 +165,11 @@ BlindPosition blindPosition(
   // Two opposite tangent planes are halved by the one with the difference of their normals.
   Eigen::Vector3d direction = (left - right).cross(top - bottom).normalized();
   if (direction.dot(left + top + right + bottom) < 0) direction = -direction;
-  if (!properties.known) return {direction, kBlindRange, kBlindRangeSigma};
+  if (!properties.known) return {direction, kBlindRange, sigmaBySize(kBlindRange, properties)};
   const double width = std::sqrt(properties.typicalSize.x() * properties.typicalSize.y());
   const double range = std::sqrt(
       rangeThatFills(width, left, right) * rangeThatFills(properties.typicalSize.z(), top, bottom));
-  return {direction, range, range * std::hypot(properties.sizeSpread, kAspectSpread)};
+  return {direction, range, sigmaBySize(range, properties)};
 }
 
 /** Position of a partial measurement: the seed, pushed inwards by half the smaller typical width,
@@ -195,6 +202,7 @@ void setPartialPosition(
     view.center = view.camera + blind.range * direction;
     alongRay = blind.sigma;
   }
+  view.blindSigma = sigmaBySize((view.center - view.camera).norm(), properties);
   const double acrossRay = sigmaAcrossRay(size.mean());
   view.centerCovariance =
       acrossRay * acrossRay * Eigen::Matrix3d::Identity() +

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "InsertionFrame.h"
+#include "quadmap/estimation/ObjectRules.h"
 #include "quadmap/obs/PixelLabels.h"
 #include "quadmap/perception/RoomPerception.h"
 
@@ -133,9 +134,8 @@ void CQuadricObjectMap::addView(Entry& object, const WaitingList::Entry& entry)
   object.looks.add(
       {entry.view.camera, mrpt::Clock::toDouble(entry.time), true}, entry.view.center,
       insertionOptions.existence);
-  // As another kind of thing it was measured with what holds for that kind.
-  if (labels().compatible(entry.view.label, object.label()))
-    object.estimator.add(entry.view, insertionOptions.estimator);
+  if (auto view = measurementOf(object, entry.view, labels(), insertionOptions.agreement))
+    object.estimator.add(std::move(*view), insertionOptions.estimator);
 }
 
 }  // namespace quadmap

@@ -42,6 +42,9 @@ void describeAgreement(InsertionOptions& o, OptionList& list)
       "labelPenalty", o.agreement.labelPenalty, {0, 1000}, "ln",
       "Log-likelihood lost by labels that are never taken for each other.");
   list.number(
+      "wrongDepthShare", o.agreement.wrongDepthShare, {0, 1 - kSmall}, "",
+      "Share of partial measurements whose depth is that of another thing.");
+  list.number(
       "duplicateIoU", o.agreement.duplicateIoU, {kSmall, 1}, "",
       "Two boxes of one frame with at least this IoU show the same thing.");
 }

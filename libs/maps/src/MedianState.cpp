@@ -65,13 +65,17 @@ std::array<Side, kFaces> collectSides(
   return sides;
 }
 
+/** Of the views whose depth is the object's, or of all when there is none. */
 Eigen::Vector3d medianOfCenters(const std::deque<ObjectView>& views)
 {
+  const bool anyOwn =
+      std::any_of(views.begin(), views.end(), [](const auto& v) { return v.hasOwnDepth; });
   Eigen::Vector3d center;
   for (Eigen::Index i = 0; i < 3; ++i)
   {
     std::vector<double> values;
-    for (const auto& v : views) values.push_back(v.center[i]);
+    for (const auto& v : views)
+      if (v.hasOwnDepth || !anyOwn) values.push_back(v.center[i]);
     center[i] = median(values);
   }
   return center;

@@ -6,6 +6,7 @@
 #include "GraphOptions.h"
 #include "MergedObjects.h"
 #include "PoseMarginals.h"
+#include "quadmap/estimation/ObjectRules.h"
 #include "quadmap/estimation/RepeatedErrors.h"
 #include "quadmap/estimation/ViewRedundancy.h"
 #include "quadmap/estimation/ViewResiduals.h"
@@ -55,6 +56,7 @@ JointBackEnd::JointBackEnd(
     viewNoise_(mapOptions.poseNoise),
     estimator_(mapOptions.estimator),
     existence_(mapOptions.existence),
+    agreement_(mapOptions.agreement),
     labels_(labels),
     graph_(graphOptions(options, mapOptions.estimator, GraphScope::Window))
 {
@@ -67,10 +69,11 @@ std::optional<BoxMeasurement> JointBackEnd::viewFor(
     const MapObject& object) const
 {
   const DetectedObject& detected = boxes.objects.at(box);
-  const auto view = viewOf(
+  auto view = viewOf(
       detected, T_map_robot + boxes.sensorPose,
       labels_.properties(labels_.canonical(detected.label)), viewNoise_);
-  if (!view || !labels_.compatible(view->label, object.label())) return std::nullopt;
+  if (view) view = measurementOf(object, std::move(*view), labels_, agreement_);
+  if (!view) return std::nullopt;
   BoxMeasurement r = measurementFromRobot(
       detected, *view, T_map_robot, boxes.sensorPose, estimator_, options_.tiltSigma);
   r.weight = viewWeight(*view, uprightStateOf(object.object));

@@ -79,6 +79,7 @@ class JointBackEnd : public BackEnd
   PoseNoise viewNoise_;  //!< Of the map's options: what a view errs by beyond its faces
   EstimatorOptions estimator_;
   ExistenceOptions existence_;
+  AgreementOptions agreement_;
   const LabelTable& labels_;
   FactorGraph graph_;
   StepFit stepFit_;  //!< Of the steps that have left the window

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/estimation/ObjectView.h"
 #include "quadmap/estimation/Visibility.h"
@@ -17,6 +19,8 @@ struct AgreementOptions
   double imageWeight = 1.5;   //!< Times ln(IoU / 0.5) of the boxes in the image [-], >= 0
   double minImageIoU = 0.05;  //!< Bound of that term, (0, 1)
   double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
+  double wrongDepthShare =
+      0.05;                   //!< Of partial measurements whose depth is of another thing, [0, 1)
   double duplicateIoU = 0.8;  //!< Two boxes of one frame this alike show the same thing, (0, 1]
 };
 
@@ -66,5 +70,14 @@ double agreementLogLikelihood(
  * object's and a share of its extent. */
 double positionLogLikelihood(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options);
+
+/** What a view that shows the object says of its shape and place; nothing when the label is that of
+ * another kind, as it was measured with what holds for that kind. The depth of a partial view that
+ * is more likely another thing's tells little (doc/mathematics.md, (12.11)). */
+std::optional<ObjectView> measurementOf(
+    const MapObject& object,
+    ObjectView view,
+    const LabelTable& labels,
+    const AgreementOptions& options);
 
 }  // namespace quadmap
