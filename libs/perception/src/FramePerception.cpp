@@ -189,7 +189,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   std::optional<CompleteMeasurement> cuboid;
   if (!object.empty()) cuboid = fitCuboid(cloud, planes, object, task.label, options);
   // 10 Choice: fit of the cuboid (10.1)
-  const auto verdict = judgeCuboid(cloud, task, object, cuboid, options);
+  const auto verdict = judgeCuboid(cloud, task, object, cuboid, planes.up, options);
   // 10 Seed
   const auto seed = seedOf(cloud, *visible, object, verdict.complete.has_value());
   // 9 Edges (9.1) - (9.5)

@@ -48,9 +48,12 @@ struct Seen
   FaceKind backKind = FaceKind::Unknown;
 };
 
-Seen look(const SyntheticFrame& frame, const mrpt::obs::CObservation3DRangeScan& scan, double loose)
+Seen look(
+    const SyntheticFrame& frame,
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const DetectedObject& box)
 {
-  CObservationObjects boxes = frame.observation({boxOf(frame, loose)});
+  CObservationObjects boxes = frame.observation({box});
   FramePerception(PerceptionOptions(), LabelTable::installed())
       .measure(scan, boxes, frame.up_sensor());
   Seen out{boxes.objects.front().measurement};
@@ -66,6 +69,16 @@ Seen look(const SyntheticFrame& frame, const mrpt::obs::CObservation3DRangeScan&
   out.backKind =
       out.measurement.complete->faces[static_cast<std::size_t>(2 * deep) + (isPlus ? 0 : 1)].kind;
   return out;
+}
+
+/** A picture of 0.6 by 0.45 m on the wall. */
+Seen lookAtPicture(double thick, double noise)
+{
+  SyntheticFrame frame(1.3, 0.0);
+  frame.noise = noise;
+  frame.add(kWall + 0.05, 0.0, 0.0, 0.0, {0.1, 5.0, 2.6});
+  frame.add(kWall - 0.5 * thick, 0.2, 1.2, 0.0, {thick, 0.6, 0.45});
+  return look(frame, frame.scan(), frame.detect(1, "picture"));
 }
 
 /** The rims of the wall's part of the image bleed towards the screen, as those of real cameras do.
@@ -96,7 +109,7 @@ mrpt::obs::CObservation3DRangeScan bleeding(const SyntheticFrame& frame)
 TEST(Screens, TheWallBehindIsNoPartOfWhatHangsOnIt)
 {
   const SyntheticFrame frame = television(-0.4);
-  const Seen seen = look(frame, bleeding(frame), 8);
+  const Seen seen = look(frame, bleeding(frame), boxOf(frame, 8));
   ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
   EXPECT_NEAR(seen.front, kFront, 0.01);
   EXPECT_LT(seen.back, kFront + 0.05) << "the wall is " << kWall - kFront << " m behind the front";
@@ -107,7 +120,7 @@ TEST(Screens, TheWallBehindIsNoPartOfWhatHangsOnIt)
 TEST(Screens, EndWhereTheBoxDoesWhenDepthShowsAPartOfTheFrontOnly)
 {
   const SyntheticFrame frame = television(0.1);
-  const Seen seen = look(frame, frame.scan(), 0);
+  const Seen seen = look(frame, frame.scan(), boxOf(frame, 0));
   ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
   EXPECT_NEAR(seen.front, kFront, 0.01);
   EXPECT_NEAR(seen.width, 0.8, 0.02);
@@ -123,9 +136,30 @@ TEST(Screens, WhatErrsMostIsNotWhereTheFrontIs)
   // A front is where most of its points are, also when they scatter twice as much as expected.
   SyntheticFrame frame = television(-0.4);
   frame.noise = 0.003;
-  const Seen seen = look(frame, frame.scan(), 0);
+  const Seen seen = look(frame, frame.scan(), boxOf(frame, 0));
   ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
   EXPECT_NEAR(seen.front, kFront, 0.008);
+}
+
+TEST(OnWall, ThingsEndAtTheWall)
+{
+  const Seen seen = lookAtPicture(0.12, 0.0012);
+  ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
+  EXPECT_EQ(seen.measurement.reason, "cuboid fits the box");
+  EXPECT_NEAR(seen.back, kWall, 0.003);
+  EXPECT_NEAR(seen.front, kWall - 0.12, 0.003);
+  EXPECT_EQ(seen.backKind, FaceKind::Measured);
+}
+
+TEST(OnWall, ThingsTooFlatToStandOutAreMeasuredToo)
+{
+  const Seen seen = lookAtPicture(0.01, 0.0012);
+  ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
+  EXPECT_EQ(seen.measurement.reason, "flat on its wall");
+  EXPECT_NEAR(seen.front, kWall - 0.01, 0.002);
+  EXPECT_NEAR(seen.back - seen.front, 0.016, 1e-9) << "the least that is measured";
+  EXPECT_NEAR(seen.width, 0.6, 0.02);
+  EXPECT_NEAR(seen.height, 0.45, 0.02);
 }
 
 }  // namespace quadmap

@@ -20,7 +20,9 @@ constexpr double kMaxLeak = 0.2;
 
 }  // namespace
 
-CuboidVerdict judgeCuboid(
+namespace
+{
+CuboidVerdict judgeOwnCuboid(
     const DepthCloud& cloud,
     const ObjectTask& task,
     const ObjectCloud& object,
@@ -60,6 +62,26 @@ CuboidVerdict judgeCuboid(
   {
     out.reason = "cuboid fits the box";
     out.complete = weakenFacesInsideBox(cloud.camera(), box, tolerance, *cuboid);
+    out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
+  }
+  return out;
+}
+}  // namespace
+
+CuboidVerdict judgeCuboid(
+    const DepthCloud& cloud,
+    const ObjectTask& task,
+    const ObjectCloud& object,
+    const std::optional<CompleteMeasurement>& cuboid,
+    const Eigen::Vector3d& up,
+    const PerceptionOptions& options)
+{
+  CuboidVerdict out = judgeOwnCuboid(cloud, task, object, cuboid, options);
+  if (out.complete || !object.onWall || options.models == ObservationModels::Partial) return out;
+  out.complete = plateInBox(cloud.camera(), task.detection->box, *object.onWall, up, options);
+  if (out.complete)
+  {
+    out.reason = "flat on its wall";
     out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
   }
   return out;

@@ -26,6 +26,7 @@ CuboidVerdict judgeCuboid(
     const ObjectTask& task,
     const ObjectCloud& object,
     const std::optional<CompleteMeasurement>& cuboid,
+    const Eigen::Vector3d& up,
     const PerceptionOptions& options);
 
 /** Makes the measurement of a box: complete, partial or rejected (doc/mathematics.md, 10,

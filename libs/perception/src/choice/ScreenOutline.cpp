@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuboid/CuboidFit.h"
+#include "cuboid/FaceSigmas.h"
+
 namespace quadmap
 {
 namespace
@@ -82,6 +85,37 @@ std::optional<CompleteMeasurement> screenInBox(
   pose.y(center.y());
   pose.z(center.z());
   out.object_sensor = Ellipsoid(pose, semiAxes);
+  return out;
+}
+
+std::optional<CompleteMeasurement> plateInBox(
+    const PinholeCamera& camera,
+    const ImageBox& box,
+    const WallDistance& onWall,
+    const Eigen::Vector3d& up,
+    const PerceptionOptions& options)
+{
+  constexpr double kWallHeading = 0.01;  // sigma of the direction of a wall [rad]
+  const Eigen::Vector3d along = up.cross(onWall.wall.n).normalized();
+  Eigen::Matrix3d R;
+  R << along.cross(up), along, up;  // x out of the wall
+  const Eigen::Vector3d ray = camera.ray(box.centerX(), box.centerY());
+  const Eigen::Vector3d onFront = ray * (onWall.distance - onWall.wall.d) / onWall.wall.n.dot(ray);
+  const auto rectangle = inscribed(boxEdgePlanes(camera, box), onFront, along, up);
+  if (!rectangle) return {};
+
+  CompleteMeasurement out;
+  out.yawDefined = true;
+  out.yawSigma = kWallHeading;
+  const double sigma = surfaceSigma(onFront.z(), options);
+  for (std::size_t f = 0; f < 2; ++f) out.faces[f] = {FaceKind::Measured, sigma};
+  const Eigen::Vector3d semiAxes(
+      std::max(kMinHalfSize, 0.5 * onWall.distance), rectangle->halfWidth, rectangle->halfHeight);
+  const Eigen::Vector3d center = rectangle->middle - semiAxes.x() * R.col(0);
+  out.object_sensor = Ellipsoid(
+      mrpt::poses::CPose3D::FromRotationAndTranslation(
+          mrpt::math::CMatrixDouble33(R), mrpt::math::TPoint3D(center.x(), center.y(), center.z())),
+      semiAxes);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "cloud/WallDistance.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectMeasurement.h"
@@ -18,5 +19,15 @@ std::optional<CompleteMeasurement> screenInBox(
     const ImageBox& box,
     const LabelProperties& label,
     const CompleteMeasurement& cuboid);
+
+/** The cuboid of what hangs on a wall too flat to stand out from it: the rectangle before the wall
+ * whose outline is the box. Its front and its back say something; the edges of the box tell the
+ * rest. \param up Unit vector, optical frame, as the result. */
+std::optional<CompleteMeasurement> plateInBox(
+    const PinholeCamera& camera,
+    const ImageBox& box,
+    const WallDistance& onWall,
+    const Eigen::Vector3d& up,
+    const PerceptionOptions& options);
 
 }  // namespace quadmap

@@ -127,6 +127,9 @@ class Segmenter
     if (!boxOf(index).isValid()) return out;
     out.object.coverage = coverageOf(cloud_, boxOf(index));
     out.object.inBox = cloud_.cellsOf(boxOf(index));
+    if (task.wall && task.label.support == UsualSupport::Wall)
+      out.object.onWall =
+          distanceFromWall(cloud_, out.object.inBox, planes_.plane(*task.wall).plane);
     if (!candidates_[index])
       candidates_[index].emplace(candidatesIn(cloud_, planes_, task, options_));
     BoxCandidates& candidates = *candidates_[index];

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cloud/WallDistance.h"
 #include "quadmap/obs/DetectedObject.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
@@ -83,6 +84,7 @@ struct ObjectCloud
   std::vector<Eigen::Vector3d> points;  //!< Of these cells, optical frame [m]
   CellMask mask;                        //!< All its cells
   std::optional<int> support;           //!< Plane it stands on, index in ScenePlanes
+  std::optional<WallDistance> onWall;   //!< Of things that usually hang on walls, and do
   std::optional<Plane> top;             //!< Where its kind ends in a horizontal surface; normal up
   double coverage = 0;                  //!< Share of the box's cells with valid depth
   DepthCloud::CellRange inBox;          //!< Cells of the detector's box; some lie around it

@@ -6,6 +6,7 @@
 #include "cuboid/FaceEstimator.h"
 #include "cuboid/FaceSigmas.h"
 #include "cuboid/HeadingEstimate.h"
+#include "cuboid/OnWall.h"
 #include "cuboid/TopRim.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/UnseenFoot.h"
@@ -202,6 +203,7 @@ CompleteMeasurement fitCuboid(
     placeHiddenPart(faces, estimator, label);
   if (object.support) openThinSides(supportTolerance(estimator.range(), label, options), faces);
   if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
+  if (object.onWall) endAtWall(*object.onWall, estimator, options, faces);
   if (label.dominantDirection)
     addHeadingSigma(faces, yaw);
   else

@@ -71,6 +71,13 @@ double FaceEstimator::facingAway(std::size_t face) const
   return normalOf(face).dot(centroid_.normalized());
 }
 
+double FaceEstimator::behind(std::size_t face, const Plane& plane) const
+{
+  const Eigen::Vector3d n = R_obj_optical_ * plane.n;
+  const double ahead = n.dot(centroid_) + plane.d;
+  return normalOf(face).dot(centroid_) - ahead / n.dot(normalOf(face));
+}
+
 double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
 bool FaceEstimator::isFootInSight() const

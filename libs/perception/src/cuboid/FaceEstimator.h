@@ -52,6 +52,11 @@ class FaceEstimator
   /** Cosine between a face's outward normal and the line of sight: > 0 faces away. */
   double facingAway(std::size_t face) const;
 
+  Eigen::Vector3d normalOf(std::size_t face) const;  //!< Outward, in the object's frame
+
+  /** Where a plane is behind the middle of what is seen, along a face's outward normal [m]. */
+  double behind(std::size_t face, const Plane& plane) const;
+
   double lowestSeen() const;  //!< Along the object's z, from the camera [m]
 
   /** Does little of what the box shows below the visible part stand in front of the object? Then
@@ -83,7 +88,6 @@ class FaceEstimator
     double metresPerCell = 0;  // along the outward normal
   };
 
-  Eigen::Vector3d normalOf(std::size_t face) const;  // in the object's frame
   /** Coordinate of a point, cosine of its normal, along a face's outward normal. */
   double along(std::size_t face, std::size_t point) const
   {
