@@ -103,12 +103,12 @@ TEST_F(QuadmapImport, TakesTheOdometryThatCoversTheFramesOfARawlog)
 TEST_F(QuadmapImport, TellsOfOdometryBehindTheFramesOfARawlog)
 {
   std::vector<mrpt::serialization::CSerializable::Ptr> records;
-  for (int i = 0; i < 8; ++i) records.push_back(sampleScan(kStart + 0.5 * i));
-  for (int i = 0; i < 8; ++i) records.push_back(samplePose(kStart + 0.5 * i, {}));
+  for (int i = 0; i < 20; ++i) records.push_back(sampleScan(kStart + 0.5 * i));
+  for (int i = 0; i < 20; ++i) records.push_back(samplePose(kStart + 0.5 * i, {}));
   writeObjects(out_.path("x.rawlog"), records);
   const auto result = run("rawlog OUT/x.rawlog -o OUT/y.rawlog");
   EXPECT_EQ(result.status, 0);
   EXPECT_TRUE(isOneLine(result.err)) << result.err;
-  EXPECT_NE(result.err.find("of 8 frames have no pose in "), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("of 20 frames have no pose in "), kNotFound) << result.err;
   EXPECT_EQ(run("rawlog OUT/x.rawlog --check").status, 1) << "frames without a pose";
 }

@@ -225,12 +225,11 @@ TEST_F(EveryOdometry, BrokenRecordsAreNamedOrLeftOut)
     return records;
   };
   const std::vector<std::pair<std::string, Records>> cases = {
-      {                      "not finite",
-       spoilt([](auto& o) { o.pose.mean.x(std::numeric_limits<double>::quiet_NaN()); })                  },
-      {              "the time goes back", spoilt([](auto& o) { o.timestamp = stamp(moments_[2].time); })},
-      {"ahead of that of the next record",
-       spoilt([](auto& o) { o.timestamp += std::chrono::hours(1); })                                     },
-      {           "the negative variance",                 spoilt([](auto& o) { o.pose.cov(0, 0) = -1; })}
+      {             "not finite",
+       spoilt([](auto& o) { o.pose.mean.x(std::numeric_limits<double>::quiet_NaN()); })         },
+      {     "the time goes back", spoilt([](auto& o) { o.timestamp = stamp(moments_[2].time); })},
+      {"ahead of that of record",  spoilt([](auto& o) { o.timestamp += std::chrono::hours(1); })},
+      {  "the negative variance",                 spoilt([](auto& o) { o.pose.cov(0, 0) = -1; })}
   };
   for (const auto& [what, records] : cases)
   {

@@ -2,7 +2,12 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <string>
+#include <tuple>
+#include <vector>
+
 #include "../SampleRawlog.h"
+#include "odometry/RecordClock.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;
@@ -71,57 +76,147 @@ TEST(WrongClocks, ASecondSourceAheadLosesNothing)
   }
 }
 
-TEST(WrongClocks, OneRecordAnHourAheadIsDroppedAlone)
+/** Records in a row whose clock is an hour ahead: those of one source, from one frame on. */
+struct Burst
 {
-  const TemporaryFolder folder;
-  const auto truthAt = [](int i, double ahead)
-  { return samplePose(timeOf(i) + ahead, CPose3D(0.1 * i, 0, 0, 0, 0, 0), "ground_truth"); };
-  for (const std::string kind : {"odometry", "ground_truth", "camera"})
-    for (const int bad : {0, 40})
-    {
-      SCOPED_TRACE(kind + " " + std::to_string(bad));
-      Objects records;
-      std::size_t badRecord = 0;
-      for (int i = 0; i <= kDriveFrames; ++i)
-      {
-        const auto ahead = [&](const std::string& of)
-        {
-          if (of != kind || i != bad) return 0.0;
-          badRecord = records.size();
-          return 3600.0;
-        };
-        records.push_back(
-            samplePose(timeOf(i) + ahead("odometry"), CPose3D(0.1 * i, 0, 0, 0, 0, 0)));
-        records.push_back(truthAt(i, ahead("ground_truth")));
-        records.push_back(sampleScan(timeOf(i) + 0.03 + ahead("camera")));
-      }
-      const auto file = writeObjects(folder.path("x.rawlog"), records);
-      const std::string expected =
-          file + ": record " + std::to_string(badRecord) + " (" + kind +
-          "): the time is 3599.900000 s ahead of that of the next record of this sensor";
-      EXPECT_EQ(errorOf([&] { readAll(file); }), expected);
+  std::string of;  // label
+  int first, count;
 
-      RawlogSourceOptions options;
-      options.keepGoing = true;
-      RawlogSource source(file, options);
-      const auto frames = readAll(source);
-      ASSERT_EQ(source.problems().size(), 1u);
-      EXPECT_EQ(source.problems()[0].text(), expected);
-      EXPECT_EQ(frames.size(), kDriveFrames + (kind == "camera" ? 0u : 1u));
-      std::size_t posed = 0, withTruth = 0;
-      for (const auto& frame : frames)
-      {
-        posed += frame.T_odom_robot ? 1 : 0;
-        withTruth += frame.T_world_robot ? 1 : 0;
-        if (!frame.T_odom_robot) continue;
-        EXPECT_NEAR(frame.T_odom_robot->x(), frame.time() - kStart, 1e-6);
-      }
-      // The last image has no pose behind it, and the first none before it when that one is bad.
-      const auto without = [&](const std::string& of) { return of == kind && bad == 0 ? 1u : 0u; };
-      const unsigned all = kDriveFrames - (kind == "camera" ? 1u : 0u);
-      EXPECT_EQ(posed, all - without("odometry"));
-      EXPECT_EQ(withTruth, all - without("ground_truth"));
-    }
+  double ahead(const std::string& label, int i) const
+  {
+    return label == of && i >= first && i < first + count ? 3600 : 0;
+  }
+};
+
+/** A drive with true poses. \param strays Receives the indices of the burst's records, and of the
+ * first of their sensor behind them. */
+Objects driveWith(const Burst& burst, std::vector<std::size_t>& strays)
+{
+  Objects records;
+  const auto add = [&](const std::string& label, int i, auto&& make)
+  {
+    const double ahead = burst.ahead(label, i);
+    if (ahead > 0 || (burst.of == label && i == burst.first + burst.count))
+      strays.push_back(records.size());
+    records.push_back(make(timeOf(i) + ahead));
+  };
+  for (int i = 0; i <= kDriveFrames; ++i)
+  {
+    const CPose3D pose(0.1 * i, 0, 0, 0, 0, 0);
+    for (const std::string label : {"odometry", "ground_truth"})
+      add(label, i, [&](double time) { return samplePose(time, pose, label); });
+    add("camera", i, [](double time) { return sampleScan(time + 0.03); });
+  }
+  return records;
+}
+
+class AheadForAWhile : public testing::TestWithParam<std::tuple<std::string, int, int>>
+{
+};
+
+TEST_P(AheadForAWhile, ItsRecordsAreDroppedAlone)
+{
+  const std::string kind = std::get<0>(GetParam());
+  const int first = std::get<1>(GetParam()), count = std::get<2>(GetParam());
+  std::vector<std::size_t> strays;
+  const Objects records = driveWith({kind, first, count}, strays);
+  const TemporaryFolder folder;
+  const auto file = writeObjects(folder.path("x.rawlog"), records);
+  const auto expected = [&](int k)
+  {
+    return file + ": record " + std::to_string(strays.at(static_cast<std::size_t>(k))) + " (" +
+           kind + "): the time is " + std::to_string(3600 - 0.1 * (count - k)) +
+           " s ahead of that of record " + std::to_string(strays.back()) + " of this sensor";
+  };
+  EXPECT_EQ(errorOf([&] { readAll(file); }), expected(0));
+
+  RawlogSourceOptions options;
+  options.keepGoing = true;
+  RawlogSource source(file, options);
+  const auto frames = readAll(source);
+  ASSERT_EQ(source.problems().size(), static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k)
+    EXPECT_EQ(source.problems()[static_cast<std::size_t>(k)].text(), expected(k));
+  EXPECT_EQ(
+      frames.size(), static_cast<std::size_t>(kDriveFrames + 1 - (kind == "camera" ? count : 0)));
+  int posed = 0, withTruth = 0;
+  for (const auto& frame : frames)
+  {
+    posed += frame.T_odom_robot ? 1 : 0;
+    withTruth += frame.T_world_robot ? 1 : 0;
+    if (!frame.T_odom_robot) continue;
+    EXPECT_NEAR(frame.T_odom_robot->x(), frame.time() - kStart, 1e-6);
+  }
+  // The last image has no pose behind it, and the first none before them when those are bad.
+  const auto without = [&](const std::string& of)
+  { return kind == "camera" || (of == kind && first == 0) ? count : 0; };
+  EXPECT_EQ(posed, kDriveFrames - without("odometry"));
+  EXPECT_EQ(withTruth, kDriveFrames - without("ground_truth"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    WrongClocks,
+    AheadForAWhile,
+    testing::Combine(
+        testing::Values("odometry", "ground_truth", "camera"),
+        testing::Values(0, 40),
+        testing::Values(1, 2, 3, 8)));
+
+TEST(WrongClocks, AClockThatIsSetForwardForGoodIsBelieved)
+{
+  const auto jumped = [](int i) { return timeOf(i) + (i < 40 ? 0 : 3600); };
+  Objects records;
+  for (int i = 0; i <= kDriveFrames; ++i)
+  {
+    records.push_back(samplePose(jumped(i), CPose3D(0.1 * i, 0, 0, 0, 0, 0)));
+    if (i < kDriveFrames) records.push_back(sampleScan(jumped(i) + 0.03));
+  }
+  const TemporaryFolder folder;
+  const auto frames = readAll(writeObjects(folder.path("x.rawlog"), records));
+  ASSERT_EQ(frames.size(), std::size_t{kDriveFrames});
+  for (std::size_t i = 0; i < frames.size(); ++i)  // the jump itself has no poses around it
+    EXPECT_EQ(frames[i].T_odom_robot.has_value(), i != 39) << i;
+}
+
+TEST(WrongClocks, AJumpIsBelievedWhenTenRecordsHaveFollowed)
+{
+  RecordClock clock;
+  std::size_t record = 0;
+  for (; record < 20; ++record)
+    EXPECT_TRUE(clock.advance(0.1 * static_cast<double>(record), record).empty());
+  const double before = clock.latest();
+  EXPECT_NEAR(before, 1.9, 1e-9);
+  for (int i = 0; i < 10; ++i, ++record) EXPECT_TRUE(clock.advance(3600 + 0.5 * i, record).empty());
+  EXPECT_EQ(clock.latest(), before);
+  EXPECT_EQ(clock.lastBefore(2), before) << "it may still come back";
+  EXPECT_EQ(clock.lastBefore(1.8), 3604.5) << "but not to what was before";
+  EXPECT_TRUE(clock.advance(3605, record).empty());
+  EXPECT_EQ(clock.latest(), 3605);
+  EXPECT_EQ(clock.lastBefore(2), 3605);
+}
+
+TEST(WrongClocks, RareRecordsAreNoStraysBeforeOneThatGoesBack)
+{
+  RecordClock clock;
+  for (std::size_t i = 0; i < 8; ++i) clock.advance(4.3 * static_cast<double>(i), i);
+  EXPECT_NEAR(clock.latest(), 6 * 4.3, 1e-9);
+  EXPECT_NEAR(clock.lastBefore(2 * 4.3), 7 * 4.3, 1e-9);
+}
+
+TEST(WrongClocks, StraysMayBeAheadOfEachOther)
+{
+  RecordClock clock;
+  for (std::size_t i = 0; i < 20; ++i) clock.advance(0.1 * static_cast<double>(i), i);
+  clock.advance(3600, 20);
+  clock.advance(5000, 21);
+  const auto last = clock.advance(3600.2, 22);
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_EQ(last[0].record, 21u);
+  const auto both = clock.advance(2.3, 23);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].record, 20u);
+  EXPECT_EQ(both[1].record, 22u);
+  EXPECT_EQ(clock.latest(), 2.3);
 }
 
 TEST(WrongClocks, APauseIsNoWrongClock)
@@ -171,7 +266,7 @@ TEST(WrongClocks, OneListOfBoxesAheadDoesNotEndTheWaitingForOthers)
   {
     records.push_back(samplePose(timeOf(i), CPose3D(0.1 * i, 0, 0, 0, 0, 0)));
     records.push_back(sampleScan(timeOf(i)));
-    if (i == 9) records.push_back(sampleBoxes(timeOf(i) + 3600));
+    if (i == 19) records.push_back(sampleBoxes(timeOf(i) + 3600));
     if (i >= 3) records.push_back(sampleBoxes(timeOf(i - 3)));  // a detector takes its time
   }
   const TemporaryFolder folder;
@@ -179,6 +274,6 @@ TEST(WrongClocks, OneListOfBoxesAheadDoesNotEndTheWaitingForOthers)
   RawlogSource source(writeObjects(folder.path("x.rawlog"), records), {});
   source.logging_enable_console_output = false;
   for (const auto& frame : readAll(source)) withBoxes += frame.objects ? 1 : 0;
-  // Three each at the start, at the wrong clock and at the end, where the detector stops.
-  EXPECT_EQ(withBoxes, 31u);
+  // Three each are lost at the wrong clock and at the end, where the detector stops.
+  EXPECT_EQ(withBoxes, 34u);
 }

@@ -111,22 +111,22 @@ bool OdometryReader::accept(const std::string& kind)
   return false;
 }
 
-std::optional<StrayRecord> OdometryReader::read(
+std::vector<StrayRecord> OdometryReader::read(
     std::size_t record, const mrpt::obs::CObservation& observation)
 {
   using mrpt::obs::CObservationOdometry;
   using mrpt::obs::CObservationRobotPose;
   if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
   {
-    if (!accept("CObservationOdometry " + odometry->sensorLabel)) return std::nullopt;
+    if (!accept("CObservationOdometry " + odometry->sensorLabel)) return {};
     const CPose3DPDFGaussian pose(mrpt::poses::CPose3D(odometry->odometry));
     return odometry_.add({secondsOf(*odometry), pose, record});
   }
   const auto* pose = dynamic_cast<const CObservationRobotPose*>(&observation);
-  if (!pose) return std::nullopt;
+  if (!pose) return {};
   if (pose->sensorLabel == kGroundTruthLabel)
     return truth_.add({secondsOf(*pose), CPose3DPDFGaussian(pose->pose.mean), record});
-  if (!accept("CObservationRobotPose " + pose->sensorLabel)) return std::nullopt;
+  if (!accept("CObservationRobotPose " + pose->sensorLabel)) return {};
   return odometry_.add({secondsOf(*pose), withFiniteCovariance(pose->pose), record});
 }
 

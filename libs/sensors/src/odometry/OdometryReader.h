@@ -5,7 +5,6 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,9 +23,9 @@ class OdometryReader
 
   /** Reads a record, which may have nothing to do with poses.
    *  \param record Its index.
-   *  \return A record of the same source that has to be dropped, if there is one.
+   *  \return The records of the same source that have to be dropped.
    *  \exception std::runtime_error If the pose cannot be used or time goes backwards. */
-  std::optional<StrayRecord> read(std::size_t record, const mrpt::obs::CObservation& observation);
+  std::vector<StrayRecord> read(std::size_t record, const mrpt::obs::CObservation& observation);
 
   /** Reads the motion of an action. Actions without a motion are legal. */
   void read(const mrpt::obs::CActionCollection& actions);

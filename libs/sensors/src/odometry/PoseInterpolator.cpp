@@ -70,18 +70,18 @@ std::optional<std::string> whyUnusable(const CPose3DPDFGaussian& pose)
   return whyUnusable(PoseCovariance(pose.cov.asEigen()));
 }
 
-std::optional<StrayRecord> PoseInterpolator::add(const Stamped& next)
+std::vector<StrayRecord> PoseInterpolator::add(const Stamped& next)
 {
   if (const auto why = whyUnusable(next.pose)) throw std::runtime_error("the pose " + *why);
-  if (const double back = clock_.stepBack(next.time); back > 0)
+  if (const double back = clock_.lastBefore(next.time) - next.time; back > 0)
     throw std::runtime_error(mrpt::format("the time goes back by %.6f s", back));
-  const auto stray = clock_.advance(next.time, next.record);
-  if (stray) poses_.pop_back();
+  auto strays = clock_.advance(next.time, next.record);
+  while (!poses_.empty() && poses_.back().time > next.time) poses_.pop_back();
   if (!poses_.empty() && next.time == poses_.back().time)
     poses_.back() = next;
   else
     poses_.push_back(next);
-  return stray;
+  return strays;
 }
 
 bool PoseInterpolator::reaches(double time) const { return latest() >= time - kSameTime; }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "odometry/RecordClock.h"
 
@@ -24,14 +25,14 @@ class PoseInterpolator
   };
 
   /** Adds the next pose.
-   *  \return The pose before, if that one was a stray: see RecordClock. It is then forgotten.
+   *  \return The poses before that were strays: see RecordClock. They are then forgotten.
    *  \exception std::runtime_error If the pose cannot be used, or is earlier than the pose before
-   *  although that one is none. */
-  std::optional<StrayRecord> add(const Stamped& pose);
+   *  although that one is no stray. */
+  std::vector<StrayRecord> add(const Stamped& pose);
 
   bool empty() const { return poses_.empty(); }
-  /** Time up to which the trajectory is known [s]; -infinity before. The last pose does not count
-   * as long as it may be a stray. */
+  /** Time up to which the trajectory is known [s]; -infinity before. The last poses do not count
+   * as long as they may be strays. */
   double latest() const { return clock_.latest(); }
   /** Whether the pose at this time [s] is known without any later pose. */
   bool reaches(double time) const;

@@ -1,53 +1,57 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <limits>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace quadmap
 {
-/** A single record whose time is far ahead of the records around it. */
+/** A record whose time is far ahead of that of a later record of its sensor. */
 struct StrayRecord
 {
   std::size_t record = 0;  //!< Index in its file
-  double ahead = 0;        //!< Of the next record of its sensor [s]
+  std::size_t later = 0;   //!< Index of the later record
+  double ahead = 0;        //!< Of the time of that one [s]
 
   std::string text() const;  //!< What is wrong with it
 };
 
-/** Follows the times of the records of one sensor, which must not go back. When they do, one of two
- * records is wrong. If the earlier one had left all before it far behind, that one is a stray, and
- * the time goes on without it. So a record that is far ahead does not count before the next one
- * confirms it. */
+/** Follows the times of the records of one sensor, which must not go back.
+ *
+ * A record that leaves all before it far behind may have a wrong time, or the recording had a pause
+ * or its clock was set. So a jump does not count before it has lasted: for ten records, or for half
+ * the time that it skipped. When the time comes back before that, to where it was or later, all
+ * records since the jump are strays, and the time goes on without them. */
 class RecordClock
 {
  public:
-  /** By how much this time is before that of the last record [s]; 0 when it is not, or when the
-   * last record is a stray. */
-  double stepBack(double time) const;
+  /** The time of the last record that stays when one of this time follows [s]; -infinity when there
+   * is none. It is later than this time when the latter is wrong: time has gone back. */
+  double lastBefore(double time) const;
 
-  /** Goes on to the next record, whose stepBack() is 0.
-   *  \return The record before, if that one was a stray. */
-  std::optional<StrayRecord> advance(double time, std::size_t record);
+  /** Goes on to the next record, whose time is not before lastBefore().
+   *  \return The records since a jump that did not last, in the order of the file. */
+  std::vector<StrayRecord> advance(double time, std::size_t record);
 
   /** The time of the last record that cannot be a stray any more [s]; -infinity when there is none.
    */
   double latest() const { return latest_; }
 
-  /** The time of the last record [s]; -infinity when there is none. */
-  double last() const { return unconfirmed_ ? unconfirmed_->time : latest_; }
-
  private:
-  bool lastIsStray(double next) const;
-
   struct Unconfirmed
   {
     double time;
     std::size_t record;
   };
+
+  std::size_t kept(double time) const;
+  bool firstMayBeStray() const;
+  void confirm();
+
   double latest_ = -std::numeric_limits<double>::infinity();
-  std::optional<Unconfirmed> unconfirmed_;  //!< The last record, when it is far ahead of latest_
+  std::deque<Unconfirmed> unconfirmed_;  // since a jump, in the order of time
 };
 
 }  // namespace quadmap

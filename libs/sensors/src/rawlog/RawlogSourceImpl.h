@@ -50,7 +50,7 @@ struct RawlogSource::Impl
   bool readRecord();
   void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);
   void readObservation(std::size_t record, const mrpt::obs::CObservation::Ptr& observation);
-  std::optional<StrayRecord> addScan(
+  std::vector<StrayRecord> addScan(
       std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
   void dropPending(const StrayRecord& stray, const std::string& sensor);
   bool isReady(const PendingFrame& pending) const;

@@ -101,11 +101,11 @@ void RawlogSource::Impl::readObservation(
   const auto found = std::dynamic_pointer_cast<CObservationObjects>(observation);
   const std::string& label = observation->sensorLabel;
   ++content_[bareClassName(*observation) + (scan ? " \"" + label + "\"" : "")];
-  std::optional<StrayRecord> stray;
+  std::vector<StrayRecord> strays;
   try
   {
     if (scan)
-      stray = addScan(record, scan);
+      strays = addScan(record, scan);
     else if (found && !options.readBoxes)
       return;
     else if (found && !boxes.hasSidecar())
@@ -113,13 +113,13 @@ void RawlogSource::Impl::readObservation(
     else if (found)
       warnOnce(reader.file() + ": boxes in the rawlog itself are ignored, the sidecar has some");
     else
-      stray = odometry.read(record, *observation);
+      strays = odometry.read(record, *observation);
   }
   catch (const std::exception& e)
   {
     return report({reader.file(), record, label, rootMessage(e)});
   }
-  if (stray) report({reader.file(), stray->record, label, stray->text()});
+  for (const auto& stray : strays) report({reader.file(), stray.record, label, stray.text()});
   if (pending_.empty()) odometry.forgetOlderThan(kMaxScanDelay);
   if (!odometry.ignoredKind().empty())
     warnOnce(
@@ -127,24 +127,24 @@ void RawlogSource::Impl::readObservation(
         odometry.ignoredKind());
 }
 
-std::optional<StrayRecord> RawlogSource::Impl::addScan(
+std::vector<StrayRecord> RawlogSource::Impl::addScan(
     std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
 {
-  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return std::nullopt;
+  if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return {};
   if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
   PendingFrame pending{{}, odometry.sumOfActions(), bytesOf(*scan)};
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();
   RecordClock& clock = clocks_[scan->sensorLabel];
-  if (time == clock.last() || time == clock.latest() || clock.stepBack(time) > 0)
+  if (const double last = clock.lastBefore(time); time <= last)
     throw std::runtime_error(
-        mrpt::format("time goes backwards: %.6f s before the scan before", clock.last() - time));
-  const auto stray = clock.advance(time, record);
-  if (stray) dropPending(*stray, scan->sensorLabel);
+        mrpt::format("time goes backwards: %.6f s before the scan before", last - time));
+  auto strays = clock.advance(time, record);
+  for (const auto& stray : strays) dropPending(stray, scan->sensorLabel);
   pendingBytes_ += pending.bytes;
   pending_.push_back(std::move(pending));
-  return stray;
+  return strays;
 }
 
 /** Forgets the scan of a record. */
