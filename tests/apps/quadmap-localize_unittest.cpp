@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "MappedRoom.h"
+#include "OdometryRecords.h"
 #include "quadmap/maps/MapFile.h"
 #include "quadmap/navigation/LocalizationRun.h"
 #include "quadmap/obs/Trajectory.h"
+#include "quadmap/sensors/RawlogNames.h"
 
 using namespace quadmap;
 using nlohmann::json;
@@ -155,6 +157,33 @@ TEST_F(Localize, SaysWhenTheRobotIsNotFound)
   EXPECT_NE(result.err.find("second.rawlog: the robot was not found in"), std::string::npos)
       << result.err;
   EXPECT_FALSE(std::filesystem::exists(path("lost/localization.tum")));
+}
+
+TEST_F(Localize, FewPosesAreNoSilentSuccess)
+{
+  Records records;
+  std::size_t poses = 0;
+  for (const auto& record : readRecords(path("second.rawlog")))
+  {
+    const auto pose = std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(record);
+    if (!pose || pose->sensorLabel != kOdometryLabel || ++poses <= 20) records.push_back(record);
+  }
+  writeObjects(path("few.rawlog"), records);
+  std::filesystem::copy_file(path("second.objects.rawlog"), path("few.objects.rawlog"));
+  const auto run = [&](const std::string& options)
+  {
+    return runProgram(
+        "quadmap-localize",
+        path("few.rawlog") + " --map " + path("first") + " -o " + path("few") + options);
+  };
+  const auto strict = run("");
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_NE(
+      strict.err.find("few.rawlog: 40 of 60 images have no pose; --keep-going leaves them out"),
+      kNotFound)
+      << strict.err;
+  const auto tolerant = run(" --keep-going");
+  EXPECT_EQ(tolerant.err.find("--keep-going"), kNotFound) << tolerant.err;
 }
 
 TEST_F(Localize, RefusesWhatItCannotUse)

@@ -244,16 +244,38 @@ TEST_F(EveryOdometry, BrokenRecordsAreNamedOrLeftOut)
   }
 }
 
-TEST_F(EveryOdometry, MissingPosesLeaveTheirImagesOut)
+/** The recording, whose odometry has a hole between two of its images. */
+Records withoutOdometry(const std::vector<Moment>& moments, std::size_t first, std::size_t end)
 {
   Records records;
-  for (std::size_t k = 0; k < moments_.size(); ++k)
+  for (std::size_t k = 0; k < moments.size(); ++k)
   {
-    if (k < 3 || k > 5) records.push_back(robotPose(moments_[k]));
-    records.insert(records.end(), moments_[k].images.begin(), moments_[k].images.end());
+    if (k < first || k >= end) records.push_back(robotPose(moments[k]));
+    records.insert(records.end(), moments[k].images.begin(), moments[k].images.end());
   }
-  const auto result = run(records);
+  return records;
+}
+
+TEST_F(EveryOdometry, MissingPosesLeaveTheirImagesOut)
+{
+  const auto result = run(withoutOdometry(moments_, 3, 6));
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find(".rawlog: 3 of 8 images have no pose"), kNotFound) << result.err;
   EXPECT_EQ(poses("trajectory.tum").size(), moments_.size() - 3);
+}
+
+TEST_F(EveryOdometry, FewPosesAreNoSilentSuccess)
+{
+  const Records records = withoutOdometry(moments_, 2, 7);
+  const auto strict = run(records);
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_NE(
+      strict.err.find("x.rawlog: 5 of 8 images have no pose; --keep-going leaves them out\n"),
+      kNotFound)
+      << strict.err;
+  const auto tolerant = run(records, "--method odometry --keep-going");
+  EXPECT_EQ(tolerant.status, 0) << tolerant.err;
+  EXPECT_NE(tolerant.err.find("5 of 8 images have no pose"), kNotFound) << tolerant.err;
+  EXPECT_NE(tolerant.out.find("8 frames (5 without a pose), 3 keyframes"), kNotFound)
+      << tolerant.out;
 }

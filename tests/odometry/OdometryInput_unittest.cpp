@@ -102,3 +102,22 @@ TEST(OdometryInput, VisualOdometryFollowsOneCameraAndSaysSo)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("rear"), std::string::npos);
 }
+
+TEST(OdometryInput, CountsTheImagesThatShouldHavePoses)
+{
+  auto frames = homeFrames(6);
+  for (const std::size_t k : {1, 2, 4}) frames[k].T_odom_robot.reset();
+  OdometryInput input(PoseSource::Rawlog, {}, {});
+  EXPECT_EQ(input.missingPoses(), "");
+  for (const auto& frame : frames) input.poseOf(frame);
+  EXPECT_EQ(input.missingPoses(), "3 of 6 images have no pose");
+  EXPECT_FALSE(input.lacksMostPoses());
+  input.poseOf(frames[1]);
+  EXPECT_TRUE(input.lacksMostPoses());
+
+  frames[1].scan->sensorLabel = "rear";
+  OdometryInput visual(PoseSource::Visual, {}, {});
+  for (const std::size_t k : {0, 1, 2, 1, 1, 1}) visual.poseOf(frames[k]);
+  EXPECT_EQ(visual.missingPoses(), "") << "of the one camera that visual odometry uses";
+  EXPECT_FALSE(visual.lacksMostPoses());
+}

@@ -115,6 +115,8 @@ class LocalizationRun
     if (!jumps.empty()) request_.onWarning(request_.rawlog + ": " + jumps);
     result_.odometry = odometryText();
     if (!result_.interrupted) requireContent();
+    const std::string lack = odometry_.missingPoses();
+    if (!lack.empty()) request_.onWarning(request_.rawlog + ": " + lack + " and were left out");
     return std::move(result_);
   }
 
@@ -203,6 +205,8 @@ class LocalizationRun
   {
     if (result_.frames == 0) return "no usable RGB-D images; it has " + source_.contentSummary();
     if (result_.framesWithoutPose == result_.frames) return odometry_.whyNoPoses();
+    if (!request_.keepGoing && odometry_.lacksMostPoses())
+      return odometry_.missingPoses() + "; --keep-going leaves them out";
     if (result_.updates.empty())
       return source_.hasBoxes() ? "none of its boxes can show an object of " + request_.mapFile
                                 : "no object boxes, neither in it nor beside it";

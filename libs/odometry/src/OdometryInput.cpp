@@ -1,5 +1,7 @@
 #include "quadmap/odometry/OdometryInput.h"
 
+#include <mrpt/core/format.h>
+
 #include <utility>
 
 #include "quadmap/geometry/RotationVector.h"
@@ -41,8 +43,12 @@ std::optional<CPose3D> OdometryInput::poseOf(const RgbdFrame& frame)
   sawOdometry_ = sawOdometry_ || frame.T_odom_robot;
   sawGroundTruth_ = sawGroundTruth_ || frame.T_world_robot;
   latest_.reset();
+  const bool isOfOtherCamera =
+      visual_ && !visualSensor_.empty() && frame.scan->sensorLabel != visualSensor_;
+  if (!graph_ && !isOfOtherCamera) ++placeable_;
   const auto pose = visual_ ? visualPoseOf(frame) : givenPoseOf(frame);
   if (!pose) return std::nullopt;
+  ++posed_;
   latest_.emplace(*pose, frame.odometryCovariance.value_or(mrpt::math::CMatrixDouble66()));
   // Visual odometry tells of its own failures.
   if (!visual_) jumps_.add(frame, *pose);
@@ -103,6 +109,12 @@ std::vector<std::string> OdometryInput::takeWarnings()
 void OdometryInput::requireAllUsed() const
 {
   if (graph_) graph_->requireAllUsed();
+}
+
+std::string OdometryInput::missingPoses() const
+{
+  if (posed_ >= placeable_) return {};
+  return mrpt::format("%zu of %zu images have no pose", placeable_ - posed_, placeable_);
 }
 
 std::string OdometryInput::whyNoPoses() const

@@ -153,12 +153,11 @@ void ObjectSlam::settle()
 
 void ObjectSlam::finish(const CQuadricObjectMap* earlier)
 {
-  const std::size_t missing = result_.counts().framesWithoutPose;
-  if (missing > 0 && missing == result_.counts().frames)
+  const SlamCounts counts = result_.counts();
+  if (counts.framesWithoutPose > 0 && counts.framesWithoutPose == counts.frames)
     placeFramesWithoutPose();
-  else if (missing > 0 && odometry_.source() != PoseSource::Graph)  // a graph only has keyframes
-    warnOfInput(mrpt::format(
-        "%zu of %zu images have no pose and were left out", missing, result_.counts().frames));
+  else if (const auto text = odometry_.missingPoses(); !text.empty())
+    warnOfInput(text + " and were left out");
   settle();
   requireInstanceIds();
   warnOfDoubtfulPoses();

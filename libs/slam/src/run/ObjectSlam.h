@@ -76,6 +76,14 @@ class ObjectSlam : public mrpt::system::COutputLogger
    *  \exception std::runtime_error If the images do not fit the given poses. */
   void requireAllPosesUsed() const { odometry_.requireAllUsed(); }
 
+  /** Says so when some images have poses, but most have none; empty otherwise. */
+  std::string lackOfPoses() const
+  {
+    const SlamCounts counts = result_.counts();
+    const bool hasSome = counts.framesWithoutPose < counts.frames;
+    return hasSome && odometry_.lacksMostPoses() ? odometry_.missingPoses() : std::string();
+  }
+
   /** Call it after the last frame. It makes the final estimate.
    *  \param earlier Map of an earlier run that goes on in this one; null: there is none.
    *  \exception As in addFrame().

@@ -183,11 +183,19 @@ class RawlogRun
       throw std::runtime_error(
           file + ": no usable RGB-D images" + sensor + "; it has " + source_->contentSummary());
     }
-    if (!interrupted) slam_.requireAllPosesUsed();
+    if (!interrupted) requirePoses();
     if (hasSourceOfBoxes() || interrupted) return;
     const std::string text = file + whyNoBoxes();
     if (!request_.keepGoing) throw std::runtime_error(text);
     slam_.warn(text);
+  }
+
+  void requirePoses() const
+  {
+    slam_.requireAllPosesUsed();
+    const std::string lack = slam_.lackOfPoses();
+    if (!request_.keepGoing && !lack.empty())
+      throw std::runtime_error(request_.rawlog + ": " + lack + "; --keep-going leaves them out");
   }
 
   /** Whether some keyframe has boxes, be they none, or none is wanted. */

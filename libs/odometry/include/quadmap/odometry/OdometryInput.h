@@ -61,6 +61,15 @@ class OdometryInput
   /** What to tell the user after the last frame when given poses are doubtful; empty otherwise. */
   std::string warningOfJumps() const { return jumps_.warning(); }
 
+  /** How many images have no pose, for messages: "3 of 8 images have no pose"; empty when all have
+   * one. Images that cannot have one do not count: those of further cameras with visual odometry,
+   * and those between the keyframes of a graph. */
+  std::string missingPoses() const;
+
+  /** Most images have no pose, although poses are given: what is made of the others is no result
+   * for the recording. Visual odometry may lose its way, and tells where. */
+  bool lacksMostPoses() const { return !visual_ && 2 * posed_ < placeable_; }
+
   /** What to tell the user when no frame got a pose. */
   std::string whyNoPoses() const;
 
@@ -76,6 +85,7 @@ class OdometryInput
   std::optional<mrpt::poses::CPose3DPDFGaussian> latest_,
       keyframe_;  //!< Poses, as the input gave them
   ImpossibleSteps jumps_;
+  std::size_t placeable_ = 0, posed_ = 0;  // images that should have poses, and that have one
   std::vector<std::string> warnings_;
   bool sawOdometry_ = false, sawGroundTruth_ = false, sawOtherSensor_ = false;
 };
