@@ -53,6 +53,26 @@ TEST(GzipStream, MrptReadsArchives)
   EXPECT_TRUE(archiveBytes(read) == archiveBytes(object));
 }
 
+TEST(GzipStream, PiecesAreOfOneSizeHoweverTheyAreWritten)
+{
+  std::vector<std::uint8_t> bytes(2500);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * i / 77);
+  for (const std::size_t step : {1, 700, 1000, 2500})
+  {
+    std::vector<std::vector<std::uint8_t>> pieces;
+    GzipPieces writer([&](const auto& member) { pieces.push_back(gunzipMember(member)); }, 1, 1000);
+    for (std::size_t i = 0; i < bytes.size(); i += step)
+      writer.Write(bytes.data() + i, std::min(step, bytes.size() - i));
+    writer.flush();
+    ASSERT_EQ(pieces.size(), 3u) << step;
+    EXPECT_EQ(pieces[0].size(), 1000u);
+    EXPECT_EQ(pieces[1].size(), 1000u);
+    std::vector<std::uint8_t> all;
+    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+    EXPECT_EQ(all, bytes);
+  }
+}
+
 TEST(GzipStream, FullDiskKeepsTheOldFile)
 {
   const TemporaryFolder folder;

@@ -5,17 +5,19 @@
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace quadmap
 {
 namespace
 {
 constexpr int kGzipFormat = 16;  //!< Added to zlib's window bits: gzip header and checksum
-constexpr std::size_t kPendingLimit = 1 << 20;  //!< Compressed in pieces of this size [bytes]
+constexpr std::size_t kPieceBytes = 1 << 20;  //!< Of a file's members, before compression
 }  // namespace
 
 std::vector<std::uint8_t> gzipMember(const std::vector<std::uint8_t>& bytes, int compressionLevel)
@@ -61,9 +63,49 @@ std::vector<std::uint8_t> archiveBytes(const mrpt::serialization::CSerializable&
   return {first, first + memory.getTotalBytesCount()};
 }
 
+GzipPieces::GzipPieces(Sink sink, int compressionLevel, std::size_t pieceBytes) :
+    sink_(std::move(sink)), compressionLevel_(compressionLevel), pieceBytes_(pieceBytes)
+{
+}
+
+size_t GzipPieces::Write(const void* buffer, size_t count)
+{
+  const auto* next = static_cast<const std::uint8_t*>(buffer);
+  for (std::size_t left = count; left > 0;)
+  {
+    const std::size_t n = std::min(left, pieceBytes_ - pending_.size());
+    pending_.insert(pending_.end(), next, next + n);
+    next += n;
+    left -= n;
+    if (pending_.size() == pieceBytes_) flush();
+  }
+  return count;
+}
+
+void GzipPieces::flush()
+{
+  if (pending_.empty()) return;
+  sink_(gzipMember(pending_, compressionLevel_));
+  pending_.clear();
+}
+
+size_t GzipPieces::Read(void*, size_t) { throw std::logic_error("GzipPieces: cannot read"); }
+uint64_t GzipPieces::Seek(int64_t, CStream::TSeekOrigin)
+{
+  throw std::logic_error("GzipPieces: cannot seek");
+}
+uint64_t GzipPieces::getTotalBytesCount() const
+{
+  throw std::logic_error("GzipPieces: size unknown");
+}
+uint64_t GzipPieces::getPosition() const { throw std::logic_error("GzipPieces: position unknown"); }
+
 GzipFileWriter::GzipFileWriter(const std::string& path, int compressionLevel) :
+    GzipPieces(
+        [this](const std::vector<std::uint8_t>& member) { writeRaw(member); },
+        compressionLevel,
+        kPieceBytes),
     file_(path),
-    compressionLevel_(compressionLevel),
     out_(std::fopen(file_.temporaryPath().c_str(), "wb"))
 {
   if (!out_)
@@ -75,17 +117,9 @@ GzipFileWriter::~GzipFileWriter()
   if (out_) std::fclose(out_);
 }
 
-size_t GzipFileWriter::Write(const void* buffer, size_t count)
-{
-  const auto* first = static_cast<const std::uint8_t*>(buffer);
-  pending_.insert(pending_.end(), first, first + count);
-  if (pending_.size() >= kPendingLimit) flushPending();
-  return count;
-}
-
 void GzipFileWriter::appendMember(const std::vector<std::uint8_t>& member)
 {
-  flushPending();
+  flush();
   writeRaw(member);
 }
 
@@ -99,7 +133,7 @@ void GzipFileWriter::close()
 {
   if (out_)
   {
-    flushPending();
+    flush();
     if (std::fclose(out_) != 0 && error_ == 0) error_ = errno;
     out_ = nullptr;
   }
@@ -112,34 +146,10 @@ void GzipFileWriter::commit()
   file_.commit();
 }
 
-void GzipFileWriter::flushPending()
-{
-  if (pending_.empty()) return;
-  writeRaw(gzipMember(pending_, compressionLevel_));
-  pending_.clear();
-}
-
 void GzipFileWriter::writeRaw(const std::vector<std::uint8_t>& bytes)
 {
   if (error_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), out_) != bytes.size())
     error_ = errno;
-}
-
-size_t GzipFileWriter::Read(void*, size_t)
-{
-  throw std::logic_error("GzipFileWriter: cannot read");
-}
-uint64_t GzipFileWriter::Seek(int64_t, CStream::TSeekOrigin)
-{
-  throw std::logic_error("GzipFileWriter: cannot seek");
-}
-uint64_t GzipFileWriter::getTotalBytesCount() const
-{
-  throw std::logic_error("GzipFileWriter: size unknown");
-}
-uint64_t GzipFileWriter::getPosition() const
-{
-  throw std::logic_error("GzipFileWriter: position unknown");
 }
 
 void writeArchive(const std::string& path, const mrpt::serialization::CSerializable& object)

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../SampleRawlog.h"
+#include "quadmap/sensors/RgbdScan.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;
@@ -242,4 +243,18 @@ TEST(PixelLabelSource, TinyAndMisshapenLabels)
       file + ": record 0 (a): its 48x48 pixel labels do not fit its 64x48 depth image");
   options.keepGoing = true;
   EXPECT_EQ(readAll(file, options).size(), 1u);
+}
+
+TEST(RgbdScan, TheMemoryOfItsImagesIsKnown)
+{
+  auto scan = sampleScan(kStart);
+  constexpr std::size_t kPixels = std::size_t{kRows} * kColumns;
+  EXPECT_EQ(imageBytesOf(*scan), kPixels * (2 + 3)) << "depth and colour";
+  auto labels = std::make_shared<mrpt::obs::TPixelLabelInfo<8>>();
+  labels->setSize(kRows, kColumns);
+  scan->pixelLabels = labels;
+  scan->rangeImageOtherLayers["second"] = scan->rangeImage;
+  EXPECT_EQ(imageBytesOf(*scan), kPixels * (2 + 3 + 8 + 2));
+  scan->intensityImage.setExternalStorage("x.jpg");
+  EXPECT_EQ(imageBytesOf(*scan), kPixels * (2 + 8 + 2)) << "not in memory";
 }

@@ -142,6 +142,26 @@ TEST_F(SimpleMapWriter, CamerasOfOnePoseShareAFrame)
   EXPECT_EQ(std::get<1>(boxes.get(1))->getObservationByIndex(0)->sensorLabel, "rear");
 }
 
+TEST_F(SimpleMapWriter, AScanOfSeveralMembersComesBack)
+{
+  auto& scan = *scans_[0];
+  scan.rangeImage_setSize(3000, 4000);  // 24 MB
+  scan.cameraParams.nrows = 3000;
+  scan.cameraParams.ncols = 4000;
+  std::uint32_t noise = 1;
+  for (int v = 0; v < scan.rangeImage.rows(); ++v)
+    for (int u = 0; u < scan.rangeImage.cols(); ++u)
+      scan.rangeImage(v, u) = static_cast<std::uint16_t>((noise = noise * 1664525 + 1) >> 16);
+  spool_.append(scan, nullptr);
+  EXPECT_GT(spool_.scanMembers(3).size(), 16u << 20) << "more than the bytes of a member";
+  keyframes_.push_back({3, "camera", kStart + 3, keyframes_[2].T_map_robot + CPose3D(1, 0, 0), {}});
+  const auto map = written(SimpleMapContent::Scans);
+  ASSERT_EQ(map.size(), 4u);
+  const auto read = std::get<1>(map.get(3))->getObservationByClass<CObservation3DRangeScan>();
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->rangeImage == scan.rangeImage);
+}
+
 TEST_F(SimpleMapWriter, EmptyMapIsAMapToo)
 {
   keyframes_.clear();

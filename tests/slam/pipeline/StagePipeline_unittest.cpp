@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -39,7 +41,7 @@ class Recurrence
               { [this](std::size_t i) { third(i); }                              }
   },
           threads,
-          capacity)
+          StagePipeline::Capacity{capacity})
   {
   }
 
@@ -86,7 +88,7 @@ std::string firstError(
           throw std::runtime_error(std::to_string(item) + "/" + std::to_string(s));
     };
   };
-  StagePipeline pipeline({{stage(0)}, {stage(1)}, {stage(2)}}, threads, 4);
+  StagePipeline pipeline({{stage(0)}, {stage(1)}, {stage(2)}}, threads, {4});
   try
   {
     for (std::size_t i = 0; i < 30; ++i) pipeline.add();
@@ -156,7 +158,7 @@ TEST(StagePipelineThreads, OneThreadIsTheCallers)
     EXPECT_EQ(std::this_thread::get_id(), caller);
     ++works;
   };
-  StagePipeline pipeline({{work}, {work}}, 1, 4);
+  StagePipeline pipeline({{work}, {work}}, 1, {4});
   for (std::size_t i = 1; i <= 5; ++i)
   {
     pipeline.add();
@@ -181,7 +183,7 @@ TEST(StagePipelineThreads, StagesWorkAtTheSameTime)
     secondAtWork = true;
     while (!firstAtWork) std::this_thread::yield();
   };
-  StagePipeline pipeline({{first}, {second}}, 2, 4);
+  StagePipeline pipeline({{first}, {second}}, 2, {4});
   pipeline.add();
   pipeline.add();
   pipeline.finish();
@@ -197,7 +199,7 @@ TEST(StagePipelineThreads, NoMoreItemsThanTheCapacityAreUnderWay)
     dawdle(item, 1);
     ++ended;
   };
-  StagePipeline pipeline({{first}, {last}}, 3, 3);
+  StagePipeline pipeline({{first}, {last}}, 3, {3});
   for (std::size_t i = 0; i < 50; ++i)
   {
     pipeline.add();
@@ -205,6 +207,39 @@ TEST(StagePipelineThreads, NoMoreItemsThanTheCapacityAreUnderWay)
   }
   pipeline.finish();
   EXPECT_LE(most, 3u);
+}
+
+TEST(StagePipelineThreads, WhatIsUnderWayIsBoundedByItsBytes)
+{
+  std::mutex mutex;
+  std::size_t held = 0, most = 0, mostItems = 0;
+  std::vector<std::size_t> order;
+  const std::vector<std::size_t> sizes = {30, 30, 30, 30, 500, 10, 60, 60, 500, 500, 20, 20};
+  const auto last = [&](std::size_t item)
+  {
+    dawdle(item, 1);
+    const std::lock_guard<std::mutex> lock(mutex);
+    order.push_back(item);
+    held -= sizes[item];
+  };
+  StagePipeline pipeline({{[](std::size_t) {}}, {last}}, 3, {4, 100});
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      EXPECT_LE(held, 100u) << "when item " << i << " begins";
+      held += sizes[i];
+      most = std::max(most, held);
+    }
+    pipeline.add(sizes[i]);
+    mostItems = std::max(mostItems, i + 1 - pipeline.finished());
+  }
+  pipeline.finish();
+  EXPECT_LE(most, 600u);
+  EXPECT_LE(mostItems, 3u);
+  std::vector<std::size_t> expected(sizes.size());
+  std::iota(expected.begin(), expected.end(), 0);
+  EXPECT_EQ(order, expected);
 }
 
 TEST(StagePipelineThreads, EndInTheMiddleLeavesTheRestUndone)
@@ -216,7 +251,7 @@ TEST(StagePipelineThreads, EndInTheMiddleLeavesTheRestUndone)
     ++done;
   };
   {
-    StagePipeline pipeline({{slow}}, 2, 100);
+    StagePipeline pipeline({{slow}}, 2, {100});
     for (int i = 0; i < 50; ++i) pipeline.add();
   }
   EXPECT_LT(done, 50u);
@@ -231,7 +266,7 @@ TEST(StagePipelineThreads, NoMoreAreBegunThanCanWork)
     const std::lock_guard<std::mutex> lock(mutex);
     workers.insert(std::this_thread::get_id());
   };
-  StagePipeline pipeline({{work}, {work}}, 5000, 4);
+  StagePipeline pipeline({{work}, {work}}, 5000, {4});
   for (int i = 0; i < 2000; ++i) pipeline.add();
   pipeline.finish();
   EXPECT_LE(workers.size(), 3u);
@@ -258,7 +293,7 @@ namespace
   const StagePipeline::Stage idle{[](std::size_t) {}};
   try
   {
-    StagePipeline pipeline(Stages(500, idle), 501, 4);
+    StagePipeline pipeline(Stages(500, idle), 501, {4});
   }
   catch (const std::system_error&)
   {

@@ -19,8 +19,8 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kMaxPending = 32;  // most waiting frames of a sensor, 50 MB
-/** Most bytes of the images of all waiting frames; 32 of 640x480 with colour and 8 sensors. */
-constexpr std::size_t kMaxPendingBytes = 400u << 20;
+/** Most bytes of the images of all waiting frames; 32 of 640x480 with colour and 5 sensors. */
+constexpr std::size_t kMaxPendingBytes = 256u << 20;
 
 std::string sidecarFor(const std::string& file, const RawlogSourceOptions& options)
 {

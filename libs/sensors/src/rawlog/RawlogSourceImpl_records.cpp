@@ -4,11 +4,11 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <stdexcept>
 
 #include "InputError.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/sensors/RgbdScan.h"
 #include "rawlog/RawlogSourceImpl.h"
 
 namespace quadmap
@@ -22,35 +22,6 @@ std::string bareClassName(const mrpt::rtti::CObject& object)
   return colon == std::string::npos ? name : name.substr(colon + 1);
 }
 
-std::size_t bytesOf(const mrpt::img::CImage& image)
-{
-  return image.isExternallyStored() || image.isEmpty() ? 0
-                                                       : image.getHeight() * image.getRowStride();
-}
-
-/** Zero when the labels are of another number of bytes. */
-template <unsigned int Bytes>
-std::size_t bytesOfLabels(const mrpt::obs::TPixelLabelInfoBase& labels)
-{
-  const auto* info = dynamic_cast<const mrpt::obs::TPixelLabelInfo<Bytes>*>(&labels);
-  return info ? static_cast<std::size_t>(info->pixelLabels.size()) *
-                    sizeof(*info->pixelLabels.data())
-              : 0;
-}
-
-/** Bytes of all images that the scan holds in memory. */
-std::size_t bytesOf(const mrpt::obs::CObservation3DRangeScan& scan)
-{
-  const auto bytesOfDepth = [](const mrpt::math::CMatrix_u16& image)
-  { return static_cast<std::size_t>(image.size()) * sizeof(std::uint16_t); };
-  std::size_t bytes = bytesOfDepth(scan.rangeImage);
-  for (const auto& layer : scan.rangeImageOtherLayers) bytes += bytesOfDepth(layer.second);
-  bytes += bytesOf(scan.intensityImage) + bytesOf(scan.confidenceImage);
-  if (const auto* labels = scan.pixelLabels.get())
-    bytes += bytesOfLabels<1>(*labels) + bytesOfLabels<2>(*labels) + bytesOfLabels<3>(*labels) +
-             bytesOfLabels<4>(*labels) + bytesOfLabels<8>(*labels);
-  return bytes;
-}
 }  // namespace
 
 /** Reads one record of the file. \return False at the end of the file, be it clean or not. */
@@ -132,7 +103,7 @@ std::vector<StrayRecord> RawlogSource::Impl::addScan(
 {
   if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return {};
   if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
-  PendingFrame pending{{}, odometry.sumOfActions(), bytesOf(*scan)};
+  PendingFrame pending{{}, odometry.sumOfActions(), imageBytesOf(*scan)};
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();

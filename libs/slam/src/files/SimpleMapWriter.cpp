@@ -91,7 +91,7 @@ class StreamedSimpleMap : public StandIn
     std::vector<KeyframeSpool::Bytes> members;
     for (const std::size_t k : node.keyframes)
       if (content_ == SimpleMapContent::Scans)
-        members.push_back(spool_.scanMember(k));
+        members.push_back(spool_.scanMembers(k));
       else if (auto boxes = spool_.objectsMember(k); boxes)
         members.push_back(std::move(*boxes));
     return members;

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <stdexcept>
 
 #include "quadmap/base/GzipStream.h"
@@ -22,6 +23,8 @@ namespace
 {
 constexpr int kFastCompression = 1;  //!< Compression level; higher ones are slow and gain little
 constexpr int kBestCompression = 9;
+/** A larger scan is compressed in several members, so that its bytes need not be in memory. */
+constexpr std::size_t kPieceBytes = 16u << 20;
 
 /** Stores colour images as JPEG while it lives. MRPT's default, raw pixels, is three times as
  * large.
@@ -94,12 +97,12 @@ void KeyframeSpool::append(const CObservation3DRangeScan& scan, const CObservati
 {
   const JpegSerialization jpeg;
   KeyframeBlocks blocks;
-  blocks.scan = write(gzipMember(archiveBytes(*storedForm(scan)), kFastCompression));
+  blocks.scan = writeInPieces(*storedForm(scan));
   if (objects) blocks.objects = write(gzipMember(archiveBytes(*objects), kBestCompression));
   keyframes_.push_back(blocks);
 }
 
-KeyframeSpool::Bytes KeyframeSpool::scanMember(std::size_t keyframe) const
+KeyframeSpool::Bytes KeyframeSpool::scanMembers(std::size_t keyframe) const
 {
   return read(keyframes_.at(keyframe).scan);
 }
@@ -119,6 +122,29 @@ CObservationObjects::Ptr KeyframeSpool::objects(std::size_t keyframe) const
   mrpt::io::CMemoryStream memory;
   memory.assignMemoryNotOwn(bytes.data(), bytes.size());
   return mrpt::serialization::archiveFrom(memory).ReadObject<CObservationObjects>();
+}
+
+KeyframeSpool::Block KeyframeSpool::writeInPieces(const CObservation3DRangeScan& scan)
+{
+  Block block{end_, 0};
+  std::exception_ptr failure;  // archives would wrap it in a call stack
+  const auto add = [&](const Bytes& member)
+  {
+    try
+    {
+      if (!failure) block.size += write(member).size;
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+    }
+  };
+  GzipPieces pieces(add, kFastCompression, kPieceBytes);
+  auto archive = mrpt::serialization::archiveFrom(pieces);
+  archive << scan;
+  pieces.flush();
+  if (failure) std::rethrow_exception(failure);
+  return block;
 }
 
 KeyframeSpool::Block KeyframeSpool::write(const Bytes& bytes)

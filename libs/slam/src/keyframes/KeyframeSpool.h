@@ -15,7 +15,8 @@ namespace quadmap
 /** The images and boxes of all keyframes, in a temporary file, so that memory does not grow with
  * their number. The file has no name and vanishes when the program ends, however it ends.
  *
- * Each observation is a gzip member of its own, which is copied to a .simplemap file unchanged. */
+ * Each observation is a gzip member of its own, a large one several, which are copied to a
+ * .simplemap file unchanged. */
 class KeyframeSpool
 {
  public:
@@ -36,7 +37,7 @@ class KeyframeSpool
 
   std::size_t size() const { return keyframes_.size(); }
 
-  Bytes scanMember(std::size_t keyframe) const;  //!< gzip of the CObservation3DRangeScan
+  Bytes scanMembers(std::size_t keyframe) const;  //!< gzip of the CObservation3DRangeScan
   /** gzip of the CObservationObjects, or nothing when no detector looked. */
   std::optional<Bytes> objectsMember(std::size_t keyframe) const;
 
@@ -54,6 +55,7 @@ class KeyframeSpool
     std::optional<Block> objects;
   };
   [[noreturn]] void fail(const char* what, int error) const;
+  Block writeInPieces(const mrpt::obs::CObservation3DRangeScan& scan);
   Block write(const Bytes& bytes);
   Bytes read(const Block& block) const;
 

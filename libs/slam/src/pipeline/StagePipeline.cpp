@@ -4,9 +4,11 @@
 
 namespace quadmap
 {
-StagePipeline::StagePipeline(std::vector<Stage> stages, std::size_t threads, std::size_t capacity) :
+StagePipeline::StagePipeline(
+    std::vector<Stage> stages, std::size_t threads, const Capacity& capacity) :
     stages_(std::move(stages)),
-    mostWaiting_(threads > 1 ? capacity - 1 : 0),
+    mostWaiting_(threads > 1 ? capacity.items - 1 : 0),
+    mostBytes_(capacity.bytes),
     done_(stages_.size(), 0),
     busy_(stages_.size(), false)
 {
@@ -40,12 +42,14 @@ void StagePipeline::stopWorkers()
   for (auto& worker : workers_) worker.join();
 }
 
-void StagePipeline::add()
+void StagePipeline::add(std::size_t bytes)
 {
   Lock lock(mutex_);
   ++added_;
+  bytes_.push_back(bytes);
+  heldBytes_ += bytes;
   changed_.notify_all();
-  workUntil(lock, [this] { return failure_ ? isIdle() : added_ - done_.back() <= mostWaiting_; });
+  workUntil(lock, [this] { return failure_ ? isIdle() : hasRoom(); });
   if (failure_) std::rethrow_exception(failure_->second);
 }
 
@@ -56,10 +60,15 @@ void StagePipeline::finish()
   if (failure_) std::rethrow_exception(failure_->second);
 }
 
+bool StagePipeline::hasRoom() const
+{
+  return added_ - done_.back() <= mostWaiting_ && heldBytes_ <= mostBytes_;
+}
+
 bool StagePipeline::isFull() const
 {
   const Lock lock(mutex_);
-  return added_ - done_.back() >= mostWaiting_;
+  return added_ - done_.back() >= mostWaiting_ || heldBytes_ > mostBytes_;
 }
 
 std::size_t StagePipeline::finished() const
@@ -111,10 +120,18 @@ void StagePipeline::run(Lock& lock, const Step& step)
   lock.lock();
   busy_[stage] = false;
   if (!error)
-    ++done_[stage];
+    complete(stage);
   else if (!failure_ || step < failure_->first)
     failure_.emplace(step, error);
   changed_.notify_all();
+}
+
+void StagePipeline::complete(std::size_t stage)
+{
+  ++done_[stage];
+  if (stage + 1 < stages_.size()) return;
+  heldBytes_ -= bytes_.front();
+  bytes_.pop_front();
 }
 
 bool StagePipeline::isIdle() const

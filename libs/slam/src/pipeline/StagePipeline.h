@@ -2,8 +2,10 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -32,19 +34,28 @@ class StagePipeline
     std::optional<Feedback> feedback = std::nullopt;
   };
 
+  /** How much may be under way. */
+  struct Capacity
+  {
+    std::size_t items = 1;  //!< >= 1
+    /** Of all items. A larger one is alone under way when add() begins the next. */
+    std::size_t bytes = std::numeric_limits<std::size_t>::max();
+  };
+
   /** \param threads Number of threads with the caller's, >= 1. At most one more than stages is
-   * used. \param capacity Largest number of items under way, >= 1. \exception std::system_error If
-   * the system has no thread left. */
-  StagePipeline(std::vector<Stage> stages, std::size_t threads, std::size_t capacity);
+   *  used.
+   *  \exception std::system_error If the system has no thread left. */
+  StagePipeline(std::vector<Stage> stages, std::size_t threads, const Capacity& capacity);
   ~StagePipeline();  //!< Leaves undone what has not begun
   StagePipeline(const StagePipeline&) = delete;
   StagePipeline& operator=(const StagePipeline&) = delete;
 
   /** Begins the next item, the first of which is 0. It returns when there is room for one more item
    *  or, with one thread, when the item is done.
+   *  \param bytes Memory that the item holds.
    *  \exception Whatever the work of an item threw, and of several what one thread would have met
    *  first. Nothing later is begun then, and the pipeline cannot go on. */
-  void add();
+  void add(std::size_t bytes = 0);
 
   /** Waits until all items went through all stages. \exception As in add(). */
   void finish();
@@ -63,14 +74,19 @@ class StagePipeline
   void workUntil(Lock& lock, const std::function<bool()>& reached);
   std::optional<Step> nextStep() const;
   void run(Lock& lock, const Step& step);
+  void complete(std::size_t stage);
   bool isReady(const Step& step) const;
+  bool hasRoom() const;
   bool isIdle() const;
 
   const std::vector<Stage> stages_;
   const std::size_t mostWaiting_;  //!< Items that may be under way when add() returns
+  const std::size_t mostBytes_;    //!< Of these
   mutable std::mutex mutex_;       //!< Protects all members below
   std::condition_variable changed_;
   std::size_t added_ = 0;
+  std::deque<std::size_t> bytes_;  //!< Of each item under way
+  std::size_t heldBytes_ = 0;      //!< Of all of them
   std::vector<std::size_t> done_;  //!< Number of items done by each stage
   std::vector<bool> busy_;         //!< Whether each stage works
   std::optional<std::pair<Step, std::exception_ptr>> failure_;  //!< The first by order of steps

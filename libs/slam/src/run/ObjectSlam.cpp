@@ -5,6 +5,7 @@
 
 #include "keyframes/BoxCounts.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/sensors/RgbdScan.h"
 
 namespace quadmap
 {
@@ -12,9 +13,9 @@ using mrpt::poses::CPose3D;
 
 namespace
 {
-/** Largest number of keyframes under way: one in each stage, and some more so that no stage waits
- * for the input. Each has its images in memory, 1.5 MB. */
-constexpr std::size_t kCapacity = 6;
+/** The keyframes under way: one in each stage, and some more so that no stage waits for the input.
+ * Each has its images in memory, usually 1.5 MB. */
+constexpr StagePipeline::Capacity kCapacity{6, 128u << 20};
 
 std::optional<GraphOdometry> graphOf(const SlamOptions& options)
 {
@@ -67,7 +68,7 @@ ObjectSlam::ObjectSlam(
     detection_(configuration.slam),
     perception_(configuration, labels),
     backEnd_(configuration, labels_),
-    tasks_(kCapacity),
+    tasks_(kCapacity.items),
     pipeline_(stages(), configuration.slam.workingThreads(), kCapacity)
 {
   result_.odometry.upOrigin = survey.upOrigin;
@@ -141,7 +142,7 @@ void ObjectSlam::addPosedFrame(const RgbdFrame& frame, const CPose3D& T_odom_rob
     lookThrough(*next.boxes);
   }
   task(added_++) = std::move(next);
-  pipeline_.add();
+  pipeline_.add(imageBytesOf(*frame.scan));
   takeFinished();
 }
 

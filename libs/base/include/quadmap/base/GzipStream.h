@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,10 +24,39 @@ std::vector<std::uint8_t> gunzipMember(const std::vector<std::uint8_t>& member);
 /** One MRPT object as an archive. */
 std::vector<std::uint8_t> archiveBytes(const mrpt::serialization::CSerializable& object);
 
+/** Compresses what is written to it into gzip members, each of so many bytes, and hands them on. A
+ * file of several members is a gzip file: readers (zlib's gzread, and with it MRPT's) see them as
+ * one. It is for writing only. */
+class GzipPieces : public mrpt::io::CStream
+{
+ public:
+  using Sink = std::function<void(const std::vector<std::uint8_t>& member)>;
+
+  /** \param compressionLevel 0 (none) to 9 (smallest).
+   *  \param pieceBytes Bytes of each member before compression, > 0. Memory is bounded by it. */
+  GzipPieces(Sink sink, int compressionLevel, std::size_t pieceBytes);
+
+  /** Hands on what is still in memory. Call it at the end. */
+  void flush();
+
+  size_t Write(const void* buffer, size_t count) override;
+
+  std::string getStreamDescription() const override { return "gzip members"; }
+  size_t Read(void*, size_t) override;
+  uint64_t Seek(int64_t, CStream::TSeekOrigin) override;
+  uint64_t getTotalBytesCount() const override;
+  uint64_t getPosition() const override;
+
+ private:
+  Sink sink_;
+  int compressionLevel_;
+  std::size_t pieceBytes_;
+  std::vector<std::uint8_t> pending_;  //!< Not compressed yet
+};
+
 /** Writes a gzip file that appears complete or not at all, and says when the disk is full, which
- * MRPT's own stream does not. Takes over gzip members made before: a gzip file may have several,
- * and readers (zlib's gzread, and with it MRPT's) see them as one. */
-class GzipFileWriter : public mrpt::io::CStream
+ * MRPT's own stream does not. Takes over gzip members made before. */
+class GzipFileWriter : public GzipPieces
 {
  public:
   /** \param compressionLevel Of the bytes that are not members already: 0 (none) to 9 (smallest).
@@ -46,24 +76,14 @@ class GzipFileWriter : public mrpt::io::CStream
   /** Closes, and gives the file its name. \exception std::runtime_error If a write failed. */
   void commit();
 
-  size_t Write(const void* buffer, size_t count) override;
   std::string getStreamDescription() const override { return file_.finalPath(); }
 
-  // For writing only
-  size_t Read(void*, size_t) override;
-  uint64_t Seek(int64_t, CStream::TSeekOrigin) override;
-  uint64_t getTotalBytesCount() const override;
-  uint64_t getPosition() const override;
-
  private:
-  void flushPending();
   void writeRaw(const std::vector<std::uint8_t>& bytes);
 
   OutputFile file_;
-  int compressionLevel_;
   std::FILE* out_ = nullptr;
-  int error_ = 0;                      //!< errno of the first write that failed
-  std::vector<std::uint8_t> pending_;  //!< Not compressed yet
+  int error_ = 0;  //!< errno of the first write that failed
 };
 
 /** Writes one object as MRPT does (.gz archive). \exception std::runtime_error Names the file. */

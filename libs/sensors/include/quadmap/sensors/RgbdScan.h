@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <cstddef>
 #include <string>
 
 namespace cv
@@ -22,5 +23,8 @@ inline const std::string kCameraLabel = "camera";
  * \param depthUnit Of `depth` [m]. */
 mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdScan(
     double time, const cv::Mat& color, const cv::Mat& depth, double depthUnit);
+
+/** Bytes of all images that the scan holds in memory, with its pixel labels. */
+std::size_t imageBytesOf(const mrpt::obs::CObservation3DRangeScan& scan);
 
 }  // namespace quadmap
