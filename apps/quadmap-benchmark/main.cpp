@@ -231,9 +231,7 @@ void mergeCommand(int argc, char** argv)
     for (const auto& [name, text] : sections) std::cout << "## " << name << "\n\n" << text << "\n";
   else
   {
-    requireModestText(page.getValue());
-    std::ifstream in(page.getValue());
-    if (!in) throw std::runtime_error(page.getValue() + ": cannot be read");
+    const auto in = openModestText(page.getValue());
     std::ostringstream text;
     text << in.rdbuf();
     std::set<std::string> kept;

@@ -16,21 +16,24 @@
 
 using namespace quadmap;
 
-TEST(RequireModestText, NamesFileAndSize)
+TEST(OpenModestText, NamesFileAndSize)
 {
   const TemporaryFolder folder;
   const auto path = folder.write("x.ini", std::string(3u << 20, '#'));
   EXPECT_EQ(
-      errorOf([&] { requireModestText(path); }),
+      errorOf([&] { openModestText(path); }),
       path + ": has 3.0 MB, more than the 1 MB that such a file may have");
-  EXPECT_EQ(errorOf([&] { requireModestText(path, 3u << 20); }), "");
+  EXPECT_EQ(errorOf([&] { EXPECT_EQ(openModestText(path, 3u << 20).peek(), '#'); }), "");
+  EXPECT_EQ(
+      errorOf([] { openModestText("/nowhere/x.ini"); }),
+      "/nowhere/x.ini: cannot be read: No such file or directory");
 }
 
 TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)
 {
   const std::vector<std::function<void(const std::string&)>> readers = {
       [](const std::string& path) { requireNoDevice(path); },
-      [](const std::string& path) { requireModestText(path); },
+      [](const std::string& path) { openModestText(path); },
       [](const std::string& path) { requireReadableIni(path); },
       [](const std::string& path) { readJson(path); },
       [](const std::string& path) { readTumTrajectory(path); },

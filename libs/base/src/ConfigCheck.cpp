@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -134,9 +133,7 @@ void requireReadableIni(const std::string& path)
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw std::runtime_error(path + ": is a directory, expected an INI file");
-  requireModestText(path);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
+  auto file = openModestText(path);
   requirePlainIni(file, path);
 }
 

@@ -2,7 +2,9 @@
 
 #include <mrpt/core/format.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
@@ -15,7 +17,7 @@ void requireNoDevice(const std::string& path)
   if (isDevice(path)) throw std::runtime_error(path + ": is a pipe or a device, no file");
 }
 
-void requireModestText(const std::string& path, std::uintmax_t mostBytes)
+std::ifstream openModestText(const std::string& path, std::uintmax_t mostBytes)
 {
   requireNoDevice(path);
   std::error_code ignored;
@@ -25,6 +27,9 @@ void requireModestText(const std::string& path, std::uintmax_t mostBytes)
         "%s: has %.1f MB, more than the %llu MB that such a file may have", path.c_str(),
         std::ldexp(static_cast<double>(size), -20),
         static_cast<unsigned long long>(mostBytes >> 20)));
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read: " + std::strerror(errno));
+  return file;
 }
 
 }  // namespace quadmap

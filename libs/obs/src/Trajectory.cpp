@@ -7,7 +7,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -71,9 +70,7 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
 Trajectory readTumTrajectory(const std::string& path)
 {
   requireOneRun(path);
-  requireModestText(path, kMostBytes);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot read the trajectory");
+  auto file = openModestText(path, kMostBytes);
 
   Trajectory trajectory;
   std::string line;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <set>
 #include <sstream>
@@ -52,9 +51,7 @@ class GraphFile
   explicit GraphFile(const std::string& path) : path_(path)
   {
     requireOneRun(path);
-    requireModestText(path, kMostBytes);
-    std::ifstream file(path);
-    if (!file) throw std::runtime_error(path + ": cannot be read");
+    const auto file = openModestText(path, kMostBytes);
     std::stringstream text;
     text << file.rdbuf();
     readTimes(text.str());

@@ -160,7 +160,7 @@ TEST_F(ScanNetFolder, RefusesWhatItCannotUse)
     EXPECT_NE(error.find(file + what), std::string::npos) << error;
     files_.write(file, good);
   };
-  expect("intrinsic/intrinsic_color.txt", "", ": cannot open");
+  expect("intrinsic/intrinsic_color.txt", "", ": cannot be read");
   expect(
       "intrinsic/intrinsic_depth.txt", "0 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
       ": the focal length");

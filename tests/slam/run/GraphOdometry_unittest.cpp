@@ -164,7 +164,9 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
   EXPECT_NE(nonsense.find("x.graph:1: '?[2J' is no entry of a pose graph"), std::string::npos)
       << nonsense;
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "MRPT prints nothing itself";
-  EXPECT_EQ(errorOf([] { GraphOdometry("/nowhere/x.graph"); }), "/nowhere/x.graph: cannot be read");
+  EXPECT_EQ(
+      errorOf([] { GraphOdometry("/nowhere/x.graph"); }),
+      "/nowhere/x.graph: cannot be read: No such file or directory");
 }
 
 TEST_F(GraphOdometryFile, TheGraphOfARunIsTheOdometryOfAnother)

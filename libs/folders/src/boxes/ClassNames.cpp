@@ -2,7 +2,6 @@
 
 #include <mrpt/system/string_utils.h>
 
-#include <fstream>
 #include <stdexcept>
 
 #include "quadmap/base/InputFile.h"
@@ -11,9 +10,7 @@ namespace quadmap
 {
 std::vector<std::string> readClassNames(const std::string& path)
 {
-  requireModestText(path);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read");
+  auto file = openModestText(path);
   std::vector<std::string> names;
   for (std::string line; std::getline(file, line);)
     if (std::string name = mrpt::system::trim(line); !name.empty())

@@ -3,7 +3,6 @@
 #include <mrpt/core/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,9 +18,7 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 24;
 
 std::vector<TextLine> readTextLines(const std::string& path)
 {
-  requireModestText(path, kMostBytes);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot open");
+  auto file = openModestText(path, kMostBytes);
   std::vector<TextLine> lines;
   std::size_t number = 0;
   for (std::string text; std::getline(file, text);)

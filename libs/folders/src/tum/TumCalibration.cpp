@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 
@@ -29,8 +28,7 @@ class FlatYaml
  public:
   explicit FlatYaml(const std::string& path) : path_(path)
   {
-    std::ifstream file(path);
-    if (!file) reject("cannot be read");
+    auto file = openModestText(path);
     std::string* value = nullptr;  // value of the last key
     std::size_t number = 0;
     for (std::string line; std::getline(file, line);)
@@ -179,7 +177,6 @@ std::optional<DepthCamera> depthCameraAt(const FlatYaml& file, const mrpt::img::
 FolderCamera readTumCalibration(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
-  requireModestText(path);
   const FlatYaml file(path);
   FolderCamera calibration;
   calibration.origin = std::filesystem::path(path).filename().string();

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <string>
 
-/** What is checked of a file before it is opened. */
+/** How files that somebody else wrote are opened. */
 namespace quadmap
 {
 /** Folders from somebody else may have pipes, at which a reader would wait for ever, and devices
@@ -11,8 +12,11 @@ namespace quadmap
  * \exception std::runtime_error If the file is a pipe, a socket or a device; names it. */
 void requireNoDevice(const std::string& path);
 
-/** Texts that people write are small. Larger ones are read into memory several times over.
- * \exception std::runtime_error If the file has more bytes, or is a pipe or a device; names it. */
-void requireModestText(const std::string& path, std::uintmax_t mostBytes = std::uintmax_t{1} << 20);
+/** Opens a text. Those that people write are small; larger ones would be in memory several times
+ * over.
+ * \exception std::runtime_error If the file has more bytes, is a pipe or a device, or cannot be
+ * opened; names it. */
+std::ifstream openModestText(
+    const std::string& path, std::uintmax_t mostBytes = std::uintmax_t{1} << 20);
 
 }  // namespace quadmap
