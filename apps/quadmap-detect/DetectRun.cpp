@@ -41,12 +41,7 @@ class DetectRun
       output_(request.output, kCompression),
       start_(std::chrono::steady_clock::now())
   {
-    source_.logging_enable_console_output = false;
-    source_.logRegisterCallback(
-        [this](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
-        {
-          if (level == mrpt::system::LVL_WARN) request_.onWarning(std::string(text));
-        });
+    source_.sendWarningsTo(request.onWarning);
     if (!request.pictures.empty()) std::filesystem::create_directories(request.pictures);
   }
 
@@ -138,9 +133,7 @@ class DetectRun
     const std::string sensor =
         request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
     if (summary_.frames == 0)
-      throw std::runtime_error(
-          request_.rawlog + ": no usable RGB-D images" + sensor + "; it has " +
-          source_.contentSummary());
+      throw std::runtime_error(request_.rawlog + ": " + source_.whyNoFrames(request_.sensorLabel));
     if (summary_.framesWithoutColour == summary_.frames)
       throw std::runtime_error(mrpt::format(
           "%s: none of its %zu images%s has colour", request_.rawlog.c_str(), summary_.frames,

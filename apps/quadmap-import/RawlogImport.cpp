@@ -149,17 +149,6 @@ void writeFrame(
   writer.write(*frame.objects);
   report.boxes += frame.objects->objects.size();
 }
-
-/** Puts what the source warns of into a list instead of on the terminal, in MRPT's form. */
-void keepWarnings(RawlogSource& source, std::vector<std::string>& warnings)
-{
-  source.logging_enable_console_output = false;
-  source.logRegisterCallback(
-      [&warnings](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
-      {
-        if (level == mrpt::system::LVL_WARN) warnings.emplace_back(text);
-      });
-}
 }  // namespace
 
 FolderImportReport importRawlog(
@@ -172,7 +161,7 @@ FolderImportReport importRawlog(
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty()) trajectory = readTumTrajectory(options.trajectory);
   FolderImportReport report;
-  keepWarnings(source, report.notes);
+  source.sendWarningsTo([&](const std::string& text) { report.notes.push_back(text); });
   std::map<std::string, std::size_t> seen;  // frames of each sensor
   while (const auto frame = source.next())
   {
@@ -183,9 +172,7 @@ FolderImportReport importRawlog(
   progress(1.0);
   report.hasOdometry = !source.odometryKind().empty();
   for (const auto& problem : source.problems()) report.dropped.push_back(problem.text());
-  if (report.frames == 0)
-    throw std::runtime_error(
-        rawlog + ": has no RGB-D frame (CObservation3DRangeScan), but " + source.contentSummary());
+  if (report.frames == 0) throw std::runtime_error(rawlog + ": " + source.whyNoFrames());
   return report;
 }
 
@@ -197,7 +184,7 @@ bool checkRawlog(
 {
   RawlogSource source(rawlog, readingOptions(rawlog, true, imagesAnywhere));
   std::vector<std::string> warnings;
-  keepWarnings(source, warnings);
+  source.sendWarningsTo([&](const std::string& text) { warnings.push_back(text); });
   RawlogContent content;
   while (const auto frame = source.next())
   {
@@ -209,7 +196,7 @@ bool checkRawlog(
   FolderProblems problems;
   for (const auto& problem : source.problems()) problems["record"].push_back(problem.text());
   if (content.frames == 0)
-    problems["no frame"].push_back("no CObservation3DRangeScan, but " + source.contentSummary());
+    problems["no frame"].push_back("no usable RGB-D images (CObservation3DRangeScan)");
   addProblems(content, problems);
 
   out << oneLine(rawlog) << " (rawlog)\n"

@@ -88,12 +88,7 @@ class LocalizationRun
       selector_(byMotion(options_)),
       level_(options_.floorShare)
   {
-    source_.logging_enable_console_output = false;
-    source_.logRegisterCallback(
-        [this](std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
-        {
-          if (level == mrpt::system::LVL_WARN) request_.onWarning(std::string(text));
-        });
+    source_.sendWarningsTo(request.onWarning);
     const std::string warning = survey_.warning(request.rawlog);
     if (!warning.empty()) request_.onWarning(warning);
   }
@@ -203,7 +198,7 @@ class LocalizationRun
   /** Why there is no result; empty when there is one. */
   std::string failure() const
   {
-    if (result_.frames == 0) return "no usable RGB-D images; it has " + source_.contentSummary();
+    if (result_.frames == 0) return source_.whyNoFrames();
     if (result_.framesWithoutPose == result_.frames) return odometry_.whyNoPoses();
     if (!request_.keepGoing && odometry_.lacksMostPoses())
       return odometry_.missingPoses() + "; --keep-going leaves them out";

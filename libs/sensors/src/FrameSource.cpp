@@ -1,5 +1,8 @@
 #include "quadmap/sensors/FrameSource.h"
 
+#include <string_view>
+#include <utility>
+
 #include "quadmap/base/ErrorText.h"
 
 namespace quadmap
@@ -17,6 +20,29 @@ std::optional<RgbdFrame> FrameSource::next()
   RgbdFrame frame = std::move(givenBack_.front());
   givenBack_.pop_front();
   return frame;
+}
+
+void FrameSource::sendWarningsTo(std::function<void(const std::string&)> receiver)
+{
+  logging_enable_console_output = false;
+  logRegisterCallback(
+      [receiver = std::move(receiver)](
+          std::string_view text, mrpt::system::VerbosityLevel level, std::string_view, auto)
+      {
+        if (level == mrpt::system::LVL_WARN) receiver(std::string(text));
+      });
+}
+
+std::string FrameSource::whyNoFrames(const std::string& sensorLabel) const
+{
+  std::string text = "no usable RGB-D images";
+  if (!sensorLabel.empty()) text += " of a sensor \"" + sensorLabel + "\"";
+  text += "; it has " + contentSummary();
+  const auto& leftOut = problems();
+  if (!leftOut.empty())
+    text += "; left out: " + std::to_string(leftOut.size()) + ", the first being " +
+            leftOut.front().text();
+  return text;
 }
 
 void FrameSource::giveBack(const std::vector<RgbdFrame>& frames)

@@ -138,11 +138,7 @@ std::string RawlogSource::Impl::summary() const
   std::string text;
   for (const auto& [count, name] : sorted)
     text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-  if (text.empty()) text = "nothing";
-  if (!problems.empty())
-    text += "; left out: " + std::to_string(problems.size()) + ", the first being " +
-            problems.front().text();
-  return text;
+  return text.empty() ? "nothing" : text;
 }
 
 }  // namespace quadmap

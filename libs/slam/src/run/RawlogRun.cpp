@@ -1,6 +1,5 @@
 #include "quadmap/slam/RawlogRun.h"
 
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -35,20 +34,12 @@ class RawlogRun
           request.keepGoing)
   {
     using mrpt::system::VerbosityLevel;
-    for (mrpt::system::COutputLogger* logger :
-         std::initializer_list<mrpt::system::COutputLogger*>{&slam_, source_.get()})
-    {
-      logger->logging_enable_console_output = false;
-      logger->setMinLoggingLevel(mrpt::system::LVL_DEBUG);
-    }
+    slam_.logging_enable_console_output = false;
+    slam_.setMinLoggingLevel(mrpt::system::LVL_DEBUG);
     slam_.logRegisterCallback(
         [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
         { request_.onMessage(level, std::string(text)); });
-    source_->logRegisterCallback(
-        [this](std::string_view text, VerbosityLevel level, std::string_view, auto)
-        {
-          if (level == mrpt::system::LVL_WARN) slam_.warn(std::string(text));
-        });
+    source_->sendWarningsTo([this](const std::string& text) { slam_.warn(text); });
     slam_.setInputName(request.rawlog);
     const std::string warning = survey_.warning(request.rawlog);
     if (!warning.empty()) slam_.warn(warning);
@@ -178,10 +169,7 @@ class RawlogRun
       if (interrupted)
         throw std::runtime_error(
             source_->failure().value_or(file + ": interrupted before the first image"));
-      const std::string sensor =
-          request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
-      throw std::runtime_error(
-          file + ": no usable RGB-D images" + sensor + "; it has " + source_->contentSummary());
+      throw std::runtime_error(file + ": " + source_->whyNoFrames(request_.sensorLabel));
     }
     if (!interrupted) requirePoses();
     if (hasSourceOfBoxes() || interrupted) return;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ class FrameSource : public mrpt::system::COutputLogger
    *  \exception std::runtime_error For a frame that cannot be used. */
   std::optional<RgbdFrame> next();
 
+  /** Hands warnings on, one line each, instead of writing them to the terminal in MRPT's form. */
+  void sendWarningsTo(std::function<void(const std::string&)> receiver);
+
   /** Puts frames back, whose first is what next() gives next. */
   void giveBack(const std::vector<RgbdFrame>& frames);
 
@@ -45,6 +49,10 @@ class FrameSource : public mrpt::system::COutputLogger
   /** What was read so far, for messages: "812 CObservation2DRangeScan, 406 CObservationOdometry".
    */
   virtual std::string contentSummary() const = 0;
+
+  /** What to tell the user when no frame came.
+   *  \param sensorLabel Of the only sensor that was wanted; may be empty. */
+  std::string whyNoFrames(const std::string& sensorLabel = {}) const;
 
   /** Why the source ended before its time, such as a camera that was unplugged; nothing when it
    * did not. The frames before are good. */
