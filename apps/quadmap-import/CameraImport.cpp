@@ -70,7 +70,7 @@ int importCamera(const CameraImportRequest& request)
   const std::size_t written = writeFrames(*camera, request, writer);
   const auto failure = camera->failure();
   if (written == 0) throw std::runtime_error(failure.value_or(request.source + ": no frame came"));
-  if (isLive) cli::onStop = cli::OnStop::Defer;  // so short that nothing need be lost
+  if (isLive) cli::onStop = cli::OnStop::Defer;  // closing the file is short
   writer.finish();
   std::cout << request.output << ": " << written << " frames written (" << stateOf(*camera)
             << ")\n";

@@ -110,8 +110,7 @@ int run(SlamCli& cli)
                 << oneLine(text) << "\n";
   };
   request.shouldStop = [] { return cli::stopSignal != 0; };
-  request.onClosing = []
-  { cli::onStop = cli::OnStop::Defer; };  // so short that nothing need be lost
+  request.onClosing = [] { cli::onStop = cli::OnStop::Defer; };  // writing is short
   request.addFiles = [](const SlamResult& result, OutputSet& files)
   {
     writeSceneOf(result, files.written("map.simplemap"), files.add("scene.3Dscene"));

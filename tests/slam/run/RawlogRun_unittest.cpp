@@ -369,6 +369,24 @@ TEST_F(RawlogRun, WhateverAFrameThrowsItIsNamed)
   }
 }
 
+TEST_F(RawlogRun, ItIsClosingOnceTheResultIsComputed)
+{
+  int closing = 0;
+  auto request = requestFor(recording());
+  request.onClosing = [&] { ++closing; };
+  runOnRawlog(request);
+  EXPECT_EQ(closing, 1);
+  auto records = recordsOf({}, {});
+  const auto isPose = [](const auto& record)
+  { return std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(record) != nullptr; };
+  records.erase(std::remove_if(records.begin(), records.end(), isPose), records.end());
+  request.rawlog = writeObjects(folder_.path("y.rawlog"), records);
+  request.outputDirectory = folder_.path("y");
+  request.configuration.slam.odometry = PoseSource::Rawlog;
+  expectFailure(request, "no odometry for any image");
+  EXPECT_EQ(closing, 1) << "the final estimate can be interrupted";
+}
+
 TEST_F(RawlogRun, FramesWithoutDepthAreCounted)
 {
   auto records = recordsOf({}, {});

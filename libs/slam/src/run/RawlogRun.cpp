@@ -56,8 +56,8 @@ class RawlogRun
         survey_.warningOfLateOdometry(request_.rawlog, source_->odometryKind());
     if (!late.empty()) slam_.warn(late);
     requireContent(interrupted);
-    request_.onClosing();
     finish();
+    request_.onClosing();
     return write(interrupted);
   }
   catch (const BadFrame& e)

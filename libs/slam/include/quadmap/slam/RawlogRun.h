@@ -47,7 +47,7 @@ struct RawlogRunRequest
       [](mrpt::system::VerbosityLevel, const std::string&) {};
   std::function<void(const RunProgress&)> onProgress = [](const RunProgress&) {};
   std::function<bool()> shouldStop = [] { return false; };  //!< Asked before every frame
-  std::function<void()> onClosing = [] {};  //!< No more frames: the result is computed and written
+  std::function<void()> onClosing = [] {};  //!< The result is computed, and is written next
 
   /** Writes more files of the same result. They appear together with the others. */
   std::function<void(const SlamResult&, OutputSet&)> addFiles = [](const SlamResult&, OutputSet&) {
