@@ -109,6 +109,12 @@ Cases compressed(Cases cases)
   return cases;
 }
 
+Cases at(const std::string& place, Cases cases)
+{
+  for (auto& c : cases) c.place = place;
+  return cases;
+}
+
 Cases operator+(Cases a, const Cases& b)
 {
   a.insert(a.end(), b.begin(), b.end());

@@ -27,6 +27,9 @@ Cases wrongWords(const std::string& whole, int count);
 /** The cases, each compressed after the damage. */
 Cases compressed(Cases cases);
 
+/** The cases, whose messages have to name this place. */
+Cases at(const std::string& place, Cases cases);
+
 Cases operator+(Cases a, const Cases& b);
 
 }  // namespace quadmap::torture

@@ -141,6 +141,8 @@ void expectGoodEnding(const Ending& ending, const Reader& reader, const Case& c)
   EXPECT_EQ(ending.err.rfind(program + ": ", 0), 0u) << ending.err.substr(0, 2000);
   const std::string name = reader.mention.empty() ? reader.file : reader.mention;
   EXPECT_NE(ending.err.find(name), std::string::npos) << ending.err.substr(0, 2000);
+  EXPECT_NE(ending.err.find(c.place), std::string::npos)
+      << c.place << " is not in: " << ending.err.substr(0, 2000);
 }
 
 }  // namespace

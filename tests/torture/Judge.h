@@ -14,6 +14,8 @@ struct Case
   std::string bytes;  //!< The whole file
   /** Nothing useful can come of it. Else the damage may be one that nobody can see. */
   bool mustFail = false;
+  /** A part of the message, beside the file's name: where the damage is. */
+  std::string place = {};
 };
 
 /** How one kind of file is read. */

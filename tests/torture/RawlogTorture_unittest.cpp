@@ -82,15 +82,15 @@ TEST_F(RawlogTorture, CutsAndFlippedBits)
 
 TEST_F(RawlogTorture, HugeNumbersInEveryPart)
 {
-  const auto whole = bytesOf({poses_[0], scans_[0]});
+  const auto whole = bytesOf({poses_[0], scans_[0]}), boxes = bytesOf({boxes_[0]});
   const auto head = whole.find("CObservation3DRangeScan");
   const auto tail = whole.size() - 900;  // calibration, labels and what follows the images
   Cases cases;
   for (const auto& c : hugeNumbers(whole.substr(head, 400), 15))
-    cases.push_back({c.name, whole.substr(0, head) + c.bytes + whole.substr(head + 400)});
+    cases.push_back({c.name, whole.substr(0, head) + c.bytes + whole.substr(head + 400) + boxes});
   for (const auto& c : hugeNumbers(whole.substr(tail), 30))
-    cases.push_back({c.name, whole.substr(0, tail) + c.bytes});
-  judgeRawlogs(cases);
+    cases.push_back({c.name, whole.substr(0, tail) + c.bytes + boxes});
+  judgeRawlogs(at("x.rawlog: record 1", cases));
 }
 
 TEST_F(RawlogTorture, SizesOfARangeScan)
@@ -129,7 +129,7 @@ TEST_F(RawlogTorture, SizesOfARangeScan)
     cases.push_back(
         {"version " + std::to_string(v),
          with(whole, version, version.substr(0, version.size() - 1) + v), v < 8});
-  judgeRawlogs(cases + compressed({cases[2], cases[3], cases[5]}));
+  judgeRawlogs(at("x.rawlog: record 1", cases + compressed({cases[2], cases[3], cases[5]})));
 }
 
 TEST_F(RawlogTorture, EmbeddedJpeg)
@@ -161,7 +161,7 @@ TEST_F(RawlogTorture, EmbeddedJpeg)
              whole, littleEndian(static_cast<std::uint32_t>(jpeg.size())) + jpeg,
              littleEndian(bytes) + jpeg),
          true});
-  judgeRawlogs(cases);
+  judgeRawlogs(at("x.rawlog: record 1", cases));
 }
 
 TEST_F(RawlogTorture, FramesAndActions)
@@ -222,7 +222,7 @@ TEST_F(RawlogTorture, PixelLabels)
   const auto names = whole.substr(whole.size() - 60);
   for (const auto& c : hugeNumbers(names, 12))
     cases.push_back({c.name, whole.substr(0, whole.size() - 60) + c.bytes});
-  judgeRawlogs(cases);
+  judgeRawlogs(at("x.rawlog: record 1", cases));
 }
 
 TEST_F(RawlogTorture, ExternalImages)
@@ -242,7 +242,7 @@ TEST_F(RawlogTorture, ExternalImages)
     scan->intensityImage.setExternalStorage(name);
     cases.push_back({"colour named " + name, bytesOf({poses_[0], scan}), true});
   }
-  judgeRawlogs(cases);
+  judgeRawlogs(at("x.rawlog: record 1 (camera): ", cases));
 }
 
 TEST_F(RawlogTorture, WrongClocks)
@@ -256,6 +256,17 @@ TEST_F(RawlogTorture, WrongClocks)
         {"a pose at " + std::to_string(time),
          bytesOf({poses_[0], scans_[0], samplePose(time, {}), scans_[1], poses_[2]})});
   }
+  for (const int burst : {1, 2, 5})
+    for (const double ahead : {-3600, 3600})
+    {
+      Records records{poses_[0], scans_[0]};
+      for (int i = 1; i < 12; ++i)
+        records.push_back(
+            samplePose(kStart + 0.1 * i + (i >= 3 && i < 3 + burst ? ahead : 0.0), {}));
+      cases.push_back(
+          {mrpt::format("%d poses %g s ahead", burst, ahead), bytesOf(records), true,
+           "x.rawlog: record 4 (odometry): the time "});
+    }
   judgeRawlogs(cases);
 }
 
