@@ -26,7 +26,6 @@ std::string presetOf(TCLAP::Arg& arg)
   };
   if (auto* value = dynamic_cast<TCLAP::ValueArg<double>*>(&arg)) number(value->getValue());
   if (auto* value = dynamic_cast<TCLAP::ValueArg<int>*>(&arg)) number(value->getValue());
-  if (auto* value = dynamic_cast<TCLAP::ValueArg<unsigned>*>(&arg)) number(value->getValue());
   return text.str();
 }
 

@@ -79,15 +79,15 @@ void relabelCommand(int argc, char** argv)
   cli.line.addExample(
       "quadmap-map relabel home/objects.quadmap --id 7 --label armchair -o corrected.quadmap",
       "Calls object 7 an armchair.");
-  Id id("", "id", "The object.", true, 0, "N", cli.line.args());
+  Id id("", "id", "The object.", true, {}, "N", cli.line.args());
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
   TCLAP::SwitchArg anyLabel("", "any-label", kAnyLabelHelp, cli.line.args());
   if (!cli.parse(argc, argv)) return;
   if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
   CQuadricObjectMap map = readMap(cli.file.getValue());
-  requireObject(map, id.getValue(), cli.file.getValue());
+  requireObject(map, id.getValue().value, cli.file.getValue());
   if (!anyLabel.getValue()) requireLabel(inventoryOf(map), label.getValue(), cli.file.getValue());
-  map.relabel(id.getValue(), label.getValue());
+  map.relabel(id.getValue().value, label.getValue());
   cli.write(map);
 }
 
@@ -97,11 +97,11 @@ void removeCommand(int argc, char** argv)
   cli.line.addExample(
       "quadmap-map remove home/objects.quadmap --id 3 --id 5 -o corrected.quadmap",
       "Leaves out two objects.");
-  TCLAP::MultiArg<unsigned> ids(
+  TCLAP::MultiArg<IdNumber> ids(
       "", "id", "An object; may be given several times.", true, "N", cli.line.args());
   if (!cli.parse(argc, argv)) return;
   CQuadricObjectMap map = readMap(cli.file.getValue());
-  for (const unsigned id : ids.getValue())
+  for (const auto& [id] : ids.getValue())
   {
     requireObject(map, id, cli.file.getValue());
     map.remove(id);

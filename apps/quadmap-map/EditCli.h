@@ -12,7 +12,20 @@
 namespace quadmap
 {
 using Text = TCLAP::ValueArg<std::string>;
-using Id = TCLAP::ValueArg<unsigned>;
+
+/** The id of an object as an argument. An unsigned number would be read from "-1" as well. */
+struct IdNumber
+{
+  ObjectId value = 0;
+};
+
+inline std::istream& operator>>(std::istream& in, IdNumber& id)
+{
+  if (in.peek() == '-') in.setstate(std::ios::failbit);
+  return in >> id.value;
+}
+
+using Id = TCLAP::ValueArg<IdNumber>;
 
 /** What the sub-commands that change a map have in common. */
 struct EditCli

@@ -49,7 +49,7 @@ struct MergeCli : EditCli
       throw cli::UsageError("merge: give a second map, or --keep and --absorb");
     if (!other.isSet() && config.isSet()) throw cli::UsageError("--config: belongs to two maps");
     if (other.getValue().size() > 1) throw cli::UsageError("merge: two maps at a time");
-    if (ofObjects && kept.getValue() == absorbed.getValue())
+    if (ofObjects && kept.getValue().value == absorbed.getValue().value)
       throw cli::UsageError("--keep and --absorb: must be two objects");
     return other.isSet();
   }
@@ -60,16 +60,16 @@ struct MergeCli : EditCli
       "OTHER", "A second map of the same place.", false, "OTHER", line.args()};
   Text config{"c",        "config",   "Section [merging]: how two maps become one.", false, "",
               "FILE.ini", line.args()};
-  Id kept{"", "keep", "The object that stays.", false, 0, "N", line.args()};
-  Id absorbed{"", "absorb", "The object that goes into it.", false, 0, "N", line.args()};
+  Id kept{"", "keep", "The object that stays.", false, {}, "N", line.args()};
+  Id absorbed{"", "absorb", "The object that goes into it.", false, {}, "N", line.args()};
 };
 
 void mergeObjects(MergeCli& cli)
 {
   CQuadricObjectMap map = readMap(cli.file.getValue());
-  requireObject(map, cli.kept.getValue(), cli.file.getValue());
-  requireObject(map, cli.absorbed.getValue(), cli.file.getValue());
-  map.merge(cli.kept.getValue(), cli.absorbed.getValue());
+  requireObject(map, cli.kept.getValue().value, cli.file.getValue());
+  requireObject(map, cli.absorbed.getValue().value, cli.file.getValue());
+  map.merge(cli.kept.getValue().value, cli.absorbed.getValue().value);
   cli.write(map);
 }
 

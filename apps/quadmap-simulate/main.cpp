@@ -211,6 +211,20 @@ simulator::Scene sceneOf(Cli& cli, std::uint64_t seed)
   return room;
 }
 
+/** \exception std::runtime_error If no camera can go the scene's way; names its file. */
+simulator::Simulator simulatorOf(
+    simulator::Scene scene, const std::string& nameOrPath, std::uint64_t seed)
+try
+{
+  return simulator::Simulator(std::move(scene), LabelTable::installed(), seed);
+}
+catch (const std::runtime_error& e)
+{
+  const bool isRandom = nameOrPath == simulator::kRandomRoom;
+  throw std::runtime_error(
+      (isRandom ? nameOrPath : simulator::findScene(nameOrPath)) + ": " + e.what());
+}
+
 void run(Cli& cli)
 {
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
@@ -223,7 +237,7 @@ void run(Cli& cli)
   if (cli.instanceIds.isSet()) scene.options.detector.instanceIds = true;
   scene.options.scaleNoise(noise);
 
-  const simulator::Simulator simulator(std::move(scene), LabelTable::installed(), seed);
+  const auto simulator = simulatorOf(std::move(scene), cli.scene.getValue(), seed);
   const std::string& output = cli.output.getValue();
   report(output, simulator::simulateToFiles(simulator, output, cli::ProgressBar()));
 }

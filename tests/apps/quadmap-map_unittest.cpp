@@ -342,6 +342,18 @@ TEST_F(QuadmapMap, NamesTheObjectThatIsNotThere)
   EXPECT_EQ(folder_.fileCount(), 1u) << "nothing was written";
 }
 
+TEST_F(QuadmapMap, AnIdIsNoNegativeNumber)
+{
+  for (const char* arguments :
+       {"query MAP --id -1", "relabel MAP --id -1 --label cup -o DIR/x",
+        "remove MAP --id -1 -o DIR/x", "merge MAP --keep -1 --absorb 1 -o DIR/x"})
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_NE(result.err.find(": expected a number, got '-1'"), kNotFound) << result.err;
+  }
+}
+
 TEST_F(QuadmapMap, NamesTheFileItCannotWrite)
 {
   const auto result =

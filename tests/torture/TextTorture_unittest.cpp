@@ -52,6 +52,9 @@ TEST(TextTorture, Scene)
 {
   const TemporaryFolder folder;
   auto cases = damagesOf(share("scenes/corridor.ini"));
+  cases.push_back(
+      {"a way out of the room", with(share("scenes/approach.ini"), "-2.1 0.4 1.5", "-9.1 0.4 1.5"),
+       true, "x.ini: [trajectory] frame 0 is outside the room"});
   judge(folder, {"quadmap-simulate IN -o OUT --frames 2 --resolution 64x64", "x.ini", ""}, cases);
 }
 

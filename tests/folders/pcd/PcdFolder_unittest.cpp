@@ -245,6 +245,15 @@ TEST_F(PcdFolder, RefusesLaterCloudsOfAnotherCamera)
       << error;
 }
 
+TEST_F(PcdFolder, AnAbsurdPoseIsNamedByItsPath)
+{
+  write("a.pcd", "binary", "1e30 0 0 1 0 0 0");
+  write("b.pcd", "binary", "1 0 0 1 0 0 0");
+  const FrameFolder clouds = openFrameFolder("pcd", folder());
+  const std::string& problem = clouds.frames()[0].poseProblem;
+  EXPECT_EQ(problem.find(files_.path("a.pcd") + ": its pose "), 0u) << problem;
+}
+
 TEST_F(PcdFolder, ADamagedCloudOrPoseSpoilsItsFrameAlone)
 {
   write("a.pcd", "binary");

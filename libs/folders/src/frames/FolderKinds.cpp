@@ -85,7 +85,8 @@ void removeImplausiblePoses(FolderContent& content)
     if (!frame.T_world_optical) continue;
     const auto why = whyNoPose(*frame.T_world_optical);
     if (!why) continue;
-    frame.poseProblem = frame.listed + ": its pose " + *why;
+    frame.poseProblem =
+        (std::filesystem::path(content.folder) / frame.listed).string() + ": its pose " + *why;
     frame.T_world_optical.reset();
   }
 }
