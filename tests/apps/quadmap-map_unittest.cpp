@@ -246,6 +246,9 @@ TEST_F(QuadmapMap, AppliesAnEditList)
     EXPECT_NE(result.err.find("wrong.json: " + expected), kNotFound) << result.err;
   };
   for (const auto& [text, expected] : wrong) refuses(text, expected);
+  for (const std::string number : {"1e300", "1.5", "true", "18446744073709551615"})
+    refuses(
+        start + R"({"op": "remove", "id": )" + number + "}]}", "edit 1: \"id\" is no id of a map");
   const std::string place = start + R"({"op": "place", "id": )" + chair + ", ";
   refuses(
       place + R"("center": [1e300, 2, 3], "size": [1, 1, 1], "yaw": 0}]})",

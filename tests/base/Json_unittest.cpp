@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "../obs/TemporaryFolder.h"
@@ -34,6 +35,20 @@ TEST(ReadJson, RefusesTreesThatTakeMoreMemoryThanTheirText)
   for (int i = 0; i < 8'000'000; ++i) zeros += ",0";
   const auto many = folder.write("x.json", zeros + "]");
   EXPECT_NE(errorOf([&] { readJson(many); }).find("too many values"), std::string::npos);
+}
+
+TEST(WholeNumber, IsWhatTheFileSaysOrNothing)
+{
+  const auto number = [](const char* text) { return wholeNumber(Json::parse(text)); };
+  EXPECT_EQ(number("-7"), -7);
+  EXPECT_EQ(number("3.0"), 3) << "some programs write all numbers so";
+  EXPECT_EQ(number("3e2"), 300);
+  EXPECT_EQ(number("9223372036854775807"), std::numeric_limits<std::int64_t>::max());
+  EXPECT_EQ(number("-9223372036854775808.0"), std::numeric_limits<std::int64_t>::min());
+  for (const char* none :
+       {"1.5", "1e300", "-1e300", "9223372036854775808", "9223372036854775808.0", "true", "null",
+        "\"3\"", "[3]"})
+    EXPECT_FALSE(number(none)) << none;
 }
 
 TEST(JsonText, ReplacesWhatIsNotUtf8)

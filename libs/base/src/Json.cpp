@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -53,6 +54,20 @@ Json readJson(const std::string& path)
   {
     throw std::runtime_error(path + ": " + e.what());
   }
+}
+
+std::optional<std::int64_t> wholeNumber(const Json& value)
+{
+  if (value.is_number_unsigned() &&
+      value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()})
+    return std::nullopt;
+  if (value.is_number_integer()) return value.get<std::int64_t>();
+  if (!value.is_number_float()) return std::nullopt;
+  const double number = value.get<double>();
+  // -2^63 has a double, 2^63 - 1 has none: it would be rounded to 2^63.
+  const bool isHeld = number >= -0x1p63 && number < 0x1p63;
+  if (!isHeld || number != std::floor(number)) return std::nullopt;
+  return static_cast<std::int64_t>(number);
 }
 
 std::string jsonText(const Json& json, int indent)

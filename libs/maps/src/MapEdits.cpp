@@ -17,10 +17,10 @@ namespace
 {
 ObjectId idFrom(const Json& edit, const char* key)
 {
-  const auto id = edit.at(key).get<std::int64_t>();
-  if (id < 0 || id > std::numeric_limits<ObjectId>::max())
+  const auto id = wholeNumber(edit.at(key));
+  if (!id || *id < 0 || *id > std::numeric_limits<ObjectId>::max())
     throw std::runtime_error(mrpt::format("\"%s\" is no id of a map", key));
-  return static_cast<ObjectId>(id);
+  return static_cast<ObjectId>(*id);
 }
 
 Eigen::Vector3d vectorFrom(const Json& edit, const char* key)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -17,7 +18,10 @@ std::optional<unsigned> idIn(const Json& box)
 {
   const Json& object = box.at("object");
   if (object.is_null()) return std::nullopt;
-  return object.get<unsigned>();
+  const auto id = wholeNumber(object);
+  if (!id || *id < 0 || *id > std::numeric_limits<unsigned>::max())
+    throw std::out_of_range("no id of an object");
+  return static_cast<unsigned>(*id);
 }
 
 }  // namespace
@@ -36,7 +40,7 @@ BoxObjects::BoxObjects(const std::string& report)
       byKeyframe_[{keyframe.at("sensor").get<std::string>(), time}] = std::move(ids);
     }
   }
-  catch (const Json::exception&)  // its text is about the inside of the library
+  catch (const std::exception&)  // its text is about the inside of the library
   {
     throw std::runtime_error(report + ": its \"associations\" are not those of quadmap-slam");
   }

@@ -318,4 +318,14 @@ TEST_F(BoxFiles, TellsWhatIsWrongInCocoFiles)
       R"({"images": [], "categories": [], "annotations": [{"image_id": 1, "category_id": 1, "bbox": []}]})",
       "annotation 0: is of an image or a category that is not there");
   expectIn(errorOfReading("a.png", "no"), "no: no such folder (of detections)");
+  for (const std::string number : {"1e300", "1.5", "-9223372036854775808", "18446744073709551615"})
+  {
+    expect(
+        R"([{"image_id": 1, "category_id": )" + number + R"(, "bbox": [1, 2, 3, 4]}])", "result 0");
+    expect(
+        R"({"images": [{"id": 1, "file_name": "a.png"}], "categories": [], "annotations":
+            [{"image_id": 1, "category_id": )" +
+            number + R"(, "bbox": [1, 2, 3, 4]}]})",
+        "annotation 0");
+  }
 }

@@ -31,11 +31,19 @@ T valueOf(const Json& object, const char* key, const std::string& place)
   }
 }
 
+/** \exception std::runtime_error If the key is missing, or has no whole number. */
+long long wholeNumberOf(const Json& object, const char* key, const std::string& place)
+{
+  const auto number = wholeNumber(valueOf<Json>(object, key, place));
+  if (!number) throw std::runtime_error(place + ": '" + key + "' must be a whole number");
+  return *number;
+}
+
 /** The name of an image; of a number, its digits. */
 std::string nameOf(const Json& imageId, const std::string& place)
 {
   if (imageId.is_string()) return imageId.get<std::string>();
-  if (imageId.is_number_integer()) return std::to_string(imageId.get<long long>());
+  if (const auto number = wholeNumber(imageId)) return std::to_string(*number);
   throw std::runtime_error(place + ": 'image_id' must be a name or a whole number");
 }
 
@@ -76,7 +84,8 @@ class ResultNames
   static long long indexOfCoco(long long id)
   {
     constexpr int kLeftOut[] = {12, 26, 29, 30, 45, 66, 68, 69, 71, 83};
-    if (std::find(std::begin(kLeftOut), std::end(kLeftOut), id) != std::end(kLeftOut)) return -1;
+    if (id < 1 || std::find(std::begin(kLeftOut), std::end(kLeftOut), id) != std::end(kLeftOut))
+      return -1;
     return id - 1 -
            std::count_if(std::begin(kLeftOut), std::end(kLeftOut), [id](int k) { return k < id; });
   }
@@ -143,7 +152,7 @@ class CocoBoxes : public BoxReader
     for (std::size_t i = 0; i < results.size(); ++i)
     {
       const std::string place = mrpt::format("%s: result %zu", file_.c_str(), i);
-      const auto& label = names.of(valueOf<long long>(results[i], "category_id", place), place);
+      const auto& label = names.of(wholeNumberOf(results[i], "category_id", place), place);
       add(nameOf(valueOf<Json>(results[i], "image_id", place), place), results[i], label, place);
     }
   }
@@ -155,18 +164,18 @@ class CocoBoxes : public BoxReader
     {
       const std::string place = file_ + ": an image";
       const auto name = valueOf<std::string>(image, "file_name", place);
-      images[valueOf<long long>(image, "id", place)] = name;
+      images[wholeNumberOf(image, "id", place)] = name;
       images_.of(name);
     }
     for (const auto& category : valueOf<Json>(json, "categories", file_))
-      names[valueOf<long long>(category, "id", file_ + ": a category")] =
+      names[wholeNumberOf(category, "id", file_ + ": a category")] =
           valueOf<std::string>(category, "name", file_ + ": a category");
     std::size_t number = 0;
     for (const auto& annotation : valueOf<Json>(json, "annotations", file_))
     {
       const std::string place = mrpt::format("%s: annotation %zu", file_.c_str(), number++);
-      const auto image = images.find(valueOf<long long>(annotation, "image_id", place));
-      const auto label = names.find(valueOf<long long>(annotation, "category_id", place));
+      const auto image = images.find(wholeNumberOf(annotation, "image_id", place));
+      const auto label = names.find(wholeNumberOf(annotation, "category_id", place));
       if (image == images.end() || label == names.end())
         throw std::runtime_error(place + ": is of an image or a category that is not there");
       add(image->second, annotation, label->second, place);
