@@ -37,6 +37,24 @@ TEST(ReadJson, RefusesTreesThatTakeMoreMemoryThanTheirText)
   EXPECT_NE(errorOf([&] { readJson(many); }).find("too many values"), std::string::npos);
 }
 
+TEST(ReadJson, RefusesObjectsWhoseKeysTakeMinutes)
+{
+  const TemporaryFolder folder;
+  const auto objectOf = [](int keys)
+  {
+    std::string text = "{\"k\":[1,{}]";
+    for (int i = 1; i < keys; ++i) text += ",\"" + std::to_string(i) + "\":0";
+    return text + "}";
+  };
+  EXPECT_EQ(readJson(folder.write("x.json", objectOf(10'000))).size(), 10'000u);
+  std::string list = "[" + objectOf(50);
+  for (int i = 0; i < 10'000; ++i) list += "," + objectOf(50);
+  EXPECT_EQ(errorOf([&] { readJson(folder.write("x.json", list + "]")); }), "")
+      << "keys of other objects do not count";
+  const auto many = folder.write("x.json", "{\"a\":" + objectOf(200'000) + "}");
+  EXPECT_NE(errorOf([&] { readJson(many); }).find("too many keys"), std::string::npos);
+}
+
 TEST(WholeNumber, IsWhatTheFileSaysOrNothing)
 {
   const auto number = [](const char* text) { return wholeNumber(Json::parse(text)); };

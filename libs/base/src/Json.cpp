@@ -1,5 +1,6 @@
 #include "quadmap/base/Json.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -14,15 +15,20 @@ namespace quadmap
 namespace
 {
 /** Counts what a file holds while it is read. Each value takes more memory than its text: 100 MB of
- * brackets would take 10 GB. */
+ * brackets would take 10 GB. Each key of an object is compared with all before it, as these keep
+ * their order: 200,000 keys would take minutes. */
 class TreeLimit
 {
  public:
   void count(int depth, Json::parse_event_t event)
   {
-    constexpr int kDeepest = 64;
-    constexpr std::size_t kMostValues = 8'000'000;  // 20,000 keyframes with 40 boxes each
+    constexpr std::size_t kMostValues = 8'000'000;         // 20,000 keyframes with 40 boxes each
+    constexpr std::size_t kMostComparisons = 200'000'000;  // 20,000 keys of one object
     if (depth > kDeepest) throw std::runtime_error("is nested too deeply");
+    auto& keys = keys_[static_cast<std::size_t>(depth)];
+    if (event == Json::parse_event_t::object_end) keys_[static_cast<std::size_t>(depth) + 1] = 0;
+    if (event == Json::parse_event_t::key && (comparisons_ += keys++) > kMostComparisons)
+      throw std::runtime_error("has too many keys in one object");
     const bool isBegin = event == Json::parse_event_t::value ||
                          event == Json::parse_event_t::object_start ||
                          event == Json::parse_event_t::array_start;
@@ -30,7 +36,9 @@ class TreeLimit
   }
 
  private:
-  std::size_t values_ = 0;
+  static constexpr int kDeepest = 64;
+  std::size_t values_ = 0, comparisons_ = 0;
+  std::array<std::size_t, kDeepest + 2> keys_{};  // of the open object at each depth, so far
 };
 }  // namespace
 
