@@ -135,6 +135,7 @@ TEST(Lzf, CopiesWhatWasUnpackedBefore)
   for (std::size_t size = 0; size < sizeof bytes; ++size)
     EXPECT_FALSE(unpackedLzf(bytes, size, 21)) << "cut off after " << size;
   EXPECT_FALSE(unpackedLzf(bytes, sizeof bytes, 20));
+  EXPECT_FALSE(unpackedLzf(bytes, sizeof bytes, std::size_t{1} << 40)) << "takes no memory for it";
   const std::uint8_t before[] = {0, 'a', (1 << 5), 1};
   EXPECT_FALSE(unpackedLzf(before, sizeof before, 4)) << "copies what is before the beginning";
 }
@@ -224,6 +225,11 @@ TEST_F(PcdFolder, RefusesWhatItCannotUse)
   expect("COUNT 1 1 1 1", "COUNT 1 1 1 4000", "ends before its last point");
   expect("VIEWPOINT 0 0 0 1", "VIEWPOINT 0 0 0 0", "VIEWPOINT is no pose");
   expect("HEIGHT 24", "HEIGHT 25", "ends before its last point");
+  expect("HEIGHT 24", "HEIGHT 24000\nCOUNT 1 1 1 4000 1", "has points of more than 256 MB");
+  std::string names;
+  for (int i = 0; i < 5000; ++i) names += " n";
+  expect("FIELDS x", "FIELDS" + names + " x", "has too many fields");
+  expect("VERSION 0.7", "VERSION " + std::string(2'000'000, '7'), "has a line of more than 1 MB");
   expect("WIDTH 32", "WIDTH 99999999999", "has too many points");
   expect("nan nan nan 76", "nan nan x 76", "point 0: 'x' is not a number");
   // x forward, y left, z up, as in the frame of a robot.

@@ -7,6 +7,8 @@ std::optional<std::vector<std::uint8_t>> unpackedLzf(
 {
   constexpr unsigned kLiterals = 32;   // smaller controls are numbers of literal bytes, less one
   constexpr unsigned kLongLength = 7;  // with this length another byte of it follows
+  constexpr std::size_t kMostPerByte = 88;  // 264 bytes from the 3 of a longest copy
+  if (size / kMostPerByte > packedSize) return std::nullopt;
   std::vector<std::uint8_t> out;
   out.reserve(size);
   for (std::size_t at = 0; at < packedSize;)

@@ -19,7 +19,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::size_t kMostBytesOfPoint = 4096;
+constexpr std::size_t kMostBytesOfPoint = 4096, kMostBytesOfLine = std::size_t{1} << 20;
 
 /** One field of a point, whose size is that of all its numbers. */
 struct Field
@@ -73,6 +73,8 @@ class PcdReader
     const auto from = file_.begin() + static_cast<std::ptrdiff_t>(at_);
     const auto end = std::find(from, file_.end(), std::uint8_t{'\n'});
     at_ = std::min(static_cast<std::size_t>(end - file_.begin()) + 1, file_.size());
+    if (end - from > static_cast<std::ptrdiff_t>(kMostBytesOfLine))
+      reject("has a line of more than 1 MB");
     std::string line(from, end);
     if (!line.empty() && line.back() == '\r') line.pop_back();
     return line;
@@ -97,12 +99,14 @@ class PcdReader
     if (cloud_.height < 2 || cloud_.width < 2)
       reject("is not organised: it has the height of a list of points, not of an image");
     if (cloud_.width > RecordLimits().imagePixels / cloud_.height) reject("has too many points");
+    if (pointBytes_ > RecordLimits().recordBytes / (cloud_.width * cloud_.height))
+      reject("has points of more than 256 MB");
   }
 
   void readHeaderLine(const std::string& key, std::istringstream& words)
   {
     if (key == "FIELDS")
-      for (std::string name; words >> name;) fields_.push_back({name});
+      addFields(words);
     else if (key == "SIZE")
       for (auto& field : fields_) field.bytes = sizeIn(words);
     else if (key == "TYPE")
@@ -117,6 +121,15 @@ class PcdReader
       readViewpoint(words);
     else if (key == "DATA")
       words >> data_;
+  }
+
+  void addFields(std::istringstream& words)
+  {
+    for (std::string name; words >> name;)
+    {
+      if (fields_.size() == kMostBytesOfPoint) reject("has too many fields");
+      fields_.push_back({name});
+    }
   }
 
   std::size_t sizeIn(std::istringstream& words) const
@@ -173,15 +186,18 @@ class PcdReader
     return rgba ? *rgba : offsetOf("rgb");
   }
 
-  /** Takes points from memory, one whole after the other. */
-  void readPoints(const std::uint8_t* bytes, std::size_t size, std::size_t points)
+  /** Takes points from memory, where they stand one after the other, or field by field. */
+  void readPoints(
+      const std::uint8_t* bytes, std::size_t size, std::size_t points, bool byField = false)
   {
     if (size < points * pointBytes_) reject("ends before its last point");
     const auto take = [&](auto& values, std::size_t offset)
     {
+      const std::uint8_t* const first = bytes + (byField ? points : 1) * offset;
+      const std::size_t step = byField ? sizeof values[0] : pointBytes_;
       values.resize(points);
       for (std::size_t i = 0; i < points; ++i)
-        std::memcpy(&values[i], bytes + i * pointBytes_ + offset, sizeof values[i]);
+        std::memcpy(&values[i], first + i * step, sizeof values[i]);
     };
     take(cloud_.x, offsetOf("x"));
     take(cloud_.y, offsetOf("y"));
@@ -200,16 +216,7 @@ class PcdReader
       reject("ends before its last point");
     const auto plain = unpackedLzf(file_.data() + at_, sizes[0], sizes[1]);
     if (!plain) reject("its compressed points are damaged");
-    std::vector<std::uint8_t> whole(plain->size());
-    std::size_t offset = 0;
-    const std::uint8_t* from = plain->data();
-    for (const auto& field : fields_)
-    {
-      for (std::size_t i = 0; i < points; ++i, from += field.size())
-        std::memcpy(whole.data() + i * pointBytes_ + offset, from, field.size());
-      offset += field.size();
-    }
-    readPoints(whole.data(), whole.size(), points);
+    readPoints(plain->data(), plain->size(), points, true);
   }
 
   /** Turns a text with numbers into the bytes of a binary file. */
