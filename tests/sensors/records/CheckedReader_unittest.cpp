@@ -228,6 +228,8 @@ TEST(CheckedReader, RefusesSizesThatCannotBe)
   const auto size = number(kRows) + number(kColumns);
   for (const std::uint32_t n : {0u, 65536u, 0x7fffffffu, 0xffffffffu})
     EXPECT_NE(errorOf([&] { read(with(scan, size, number(n) + number(kColumns))); }), "") << n;
+  const auto oneRow = with(scan, size, number(1) + number(40000));
+  EXPECT_NE(errorOf([&] { read(oneRow); }).find("40000x1 pixels"), std::string::npos);
   const auto label = number(6) + "camera";
   EXPECT_NE(
       errorOf([&] { read(with(scan, label, number(70000) + "camera")); }).find("70000 characters"),

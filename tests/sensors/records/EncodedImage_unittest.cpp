@@ -41,6 +41,23 @@ TEST(EncodedImage, NoFormatEscapesTheLimitOfPixels)
     EXPECT_FALSE(isRead(encoded(format), kEnough - 1)) << format;
 }
 
+TEST(EncodedImage, IsNoLongerThanWhatOpenCVCanRectify)
+{
+  for (const char* format : {".jpg", ".png"})
+    for (const int length : {32766, 32767})
+      for (const cv::Size size : {cv::Size(length, 1), cv::Size(1, length)})
+      {
+        std::vector<std::uint8_t> bytes;
+        cv::imencode(format, cv::Mat(size, CV_8UC3, cv::Scalar(10, 200, 30)), bytes);
+        const auto read = [&]
+        { decodeImage(bytes.data(), bytes.size(), cv::IMREAD_COLOR, 1 << 20); };
+        if (length == 32766)
+          EXPECT_NO_THROW(read()) << format << size;
+        else
+          EXPECT_THROW(read(), std::runtime_error) << format << size;
+      }
+}
+
 TEST(EncodedImage, JpegHasThePixelsThatOpenCVGives)
 {
   cv::Mat noise(kHeight, kWidth, CV_8UC3);

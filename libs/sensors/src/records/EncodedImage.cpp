@@ -12,6 +12,7 @@
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/StderrCapture.h"
+#include "quadmap/sensors/CheckedReader.h"
 #include "records/JpegDecoder.h"
 
 namespace quadmap
@@ -128,6 +129,12 @@ void requireModest(const StatedSize& stated, std::uint64_t mostPixels)
         static_cast<unsigned long long>(stated.width),
         static_cast<unsigned long long>(stated.height),
         static_cast<unsigned long long>(mostPixels >> 20)));
+  if (std::max<std::uint64_t>(stated.width, stated.height) > kLongestImageSide)
+    throw std::runtime_error(mrpt::format(
+        "has %llux%llu pixels, more than %llu in a row or a column",
+        static_cast<unsigned long long>(stated.width),
+        static_cast<unsigned long long>(stated.height),
+        static_cast<unsigned long long>(kLongestImageSide)));
 }
 
 void requireDecoded(const cv::Mat& image, const std::string& reason)

@@ -4,6 +4,7 @@
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -180,6 +181,12 @@ std::uint64_t RecordCheck::pixels(std::uint64_t rows, std::uint64_t columns) con
           "states an image of %llux%llu pixels, more than %llu million",
           static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),
           static_cast<unsigned long long>(limits.imagePixels >> 20)));
+  require(
+      std::max(rows, columns) <= kLongestImageSide,
+      mrpt::format(
+          "states an image of %llux%llu pixels, more than %llu in a row or a column",
+          static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),
+          static_cast<unsigned long long>(kLongestImageSide)));
   return rows * columns;
 }
 

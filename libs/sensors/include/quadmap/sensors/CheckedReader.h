@@ -11,6 +11,11 @@
 
 namespace quadmap
 {
+/** Longest side of an image [px]: OpenCV, which rectifies images, counts columns and rows in 16
+ * bits.
+ */
+inline constexpr std::uint64_t kLongestImageSide = 32766;
+
 /** What a stored object may ask for. Files are made by strangers, and the readers of MRPT allocate
  * whatever a file states: one edited count takes gigabytes. */
 struct RecordLimits
