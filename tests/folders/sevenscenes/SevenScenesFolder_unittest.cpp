@@ -99,9 +99,10 @@ TEST_F(SevenScenes, RefusesCamerasOfWhichOneIsLeftHanded)
     return errorOf([&] { openFrameFolder("7scenes", folder(), options); });
   };
   for (const char* signs : {"fy = 525\ndepthFy = -580\n", "fy = -525\ndepthFy = 580\n"})
-    EXPECT_NE(
-        errorWith(signs).find("my.ini: fy of colour and of depth must have the same sign"),
-        std::string::npos)
+    EXPECT_EQ(
+        errorWith(signs).find(
+            folder() + ": my.ini: fy of colour and of depth must have the same sign"),
+        0u)
         << errorWith(signs);
   EXPECT_EQ(errorWith("fy = -525\ndepthFy = -580\n"), "");
 }

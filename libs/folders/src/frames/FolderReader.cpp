@@ -80,14 +80,15 @@ FolderCamera cameraOfFolder(
   return camera;
 }
 
-void takeDepthAsRegistered(FolderCamera& camera)
+void takeDepthAsRegistered(FolderContent& content)
 {
+  FolderCamera& camera = content.camera;
   if (!camera.depth) return;
   const unsigned columns = camera.depth->camera.ncols, rows = camera.depth->camera.nrows;
   if (columns == camera.color.ncols && rows == camera.color.nrows) return camera.depth.reset();
   if (camera.isDistorted())
     throw std::runtime_error(
-        camera.origin +
+        content.folder + ": " + camera.origin +
         ": its lens distorts, and registered depth images of another size cannot be rectified");
   camera.depth = DepthCamera{resized(camera.color, columns, rows), {}};
 }

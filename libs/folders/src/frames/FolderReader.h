@@ -29,8 +29,8 @@ FolderCamera cameraOfFolder(
 
 /** Of recordings whose depth images are registered: their size is all that stays of the depth
  * camera. \exception std::runtime_error If the lens distorts and the size is another than that of
- * colour. */
-void takeDepthAsRegistered(FolderCamera& camera);
+ * colour; names the folder. */
+void takeDepthAsRegistered(FolderContent& content);
 
 /** Sets the poses of the frames to those of a trajectory, interpolated at their times. A file that
  * cannot be read, or whose times go back, becomes the content's posesProblem, as a check shall tell

@@ -31,8 +31,9 @@ FolderContent rightHanded(FolderContent content)
   const bool isLeftHanded = camera.color.fy() < 0;
   if (camera.depth && (camera.depth->camera.fy() < 0) != isLeftHanded)
     throw std::runtime_error(
-        camera.origin + ": fy of colour and of depth must have the same sign, as a world is " +
-        "left-handed for both or for neither");
+        content.folder + ": " + camera.origin +
+        ": fy of colour and of depth must have the same sign, as a world is left-handed "
+        "for both or for neither");
   if (!isLeftHanded) return content;
   makeRightHanded(camera.color);
   if (camera.depth)

@@ -55,7 +55,7 @@ FolderContent readIclFolder(const std::string& folder, const FrameFolderOptions&
   FolderContent content;
   content.folder = folder;
   content.camera = cameraOfFolder(folder, options, "icl", kIclDepthFactor);
-  takeDepthAsRegistered(content.camera);  // rendered by one camera
+  takeDepthAsRegistered(content);  // rendered by one camera
   if (fs::exists(fs::path(folder) / "associations.txt"))
     readTumFrames(content, options.maxPairDelay);
   else

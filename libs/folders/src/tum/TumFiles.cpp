@@ -147,7 +147,7 @@ FolderContent readTumFolder(const std::string& folder, const FrameFolderOptions&
   FolderContent content;
   content.folder = folder;
   content.camera = cameraOfFolder(folder, options, "", kTumDepthFactor);
-  takeDepthAsRegistered(content.camera);
+  takeDepthAsRegistered(content);
   readTumFrames(content, options.maxPairDelay);
   const std::string poses = (fs::path(folder) / "groundtruth.txt").string();
   if (fs::exists(poses))
