@@ -8,6 +8,7 @@
 
 #include "AllocationWatch.h"
 #include "Coverage.h"
+#include "quadmap/base/ErrorText.h"
 
 namespace quadmap
 {
@@ -61,6 +62,8 @@ void fuzz(
     {
       ++refused;
       EXPECT_STRNE(e.what(), "") << "an error without words, input " << readable(input);
+      ASSERT_PRED_FORMAT2(::testing::IsSubstring, run.place, rootMessage(e))
+          << "mutation " << i << ": the error does not name the place, input " << readable(input);
     }
     catch (...)
     {

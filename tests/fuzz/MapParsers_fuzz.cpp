@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/format.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -14,9 +14,12 @@
 #include "Fuzz.h"
 #include "quadmap/benchmark/BenchmarkResults.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/maps/MapEdits.h"
+#include "quadmap/maps/MapFile.h"
+#include "quadmap/obs/BoxObjects.h"
 #include "quadmap/odometry/GraphOdometry.h"
 #include "quadmap/review/KeyframeContent.h"
-#include "quadmap/slam/SlamConfiguration.h"
+#include "quadmap/review/ReportPage.h"
 
 using namespace quadmap;
 
@@ -101,24 +104,62 @@ TEST(Fuzz, CompressedMap)
       });
 }
 
-TEST(Fuzz, SimpleMap)
+namespace
 {
-  mrpt::maps::CSimpleMap map;
-  auto frame = mrpt::obs::CSensoryFrame::Create();
-  frame->insert(samplePose(1000, {}));
-  frame->insert(sampleScan(1000));
-  map.insert(std::make_shared<mrpt::poses::CPose3DPDFGaussian>(), frame);
+/** Damages the keyframes of a simple map, but not its head: MRPT reads the head of a second simple
+ * map, copied into the first one, within limits of memory which sanitizers do not survive. */
+void fuzzKeyframes(
+    const mrpt::maps::CSimpleMap& map,
+    FuzzRun run,
+    const std::function<void(const std::string& path)>& read)
+{
   const TemporaryFolder folder;
   const auto path = writeObjects(
       folder.path("x.simplemap"), {std::make_shared<mrpt::maps::CSimpleMap>(map)}, false);
+  const std::string valid = readFile(path);
+  const std::size_t keyframes = valid.find("mrpt::poses::CPose3DPDFGaussian");
+  ASSERT_NE(keyframes, std::string::npos);
+  run.place = path;
+  fuzz(
+      valid.substr(keyframes), run,
+      [&](const std::string& bytes)
+      { read(folder.write("x.simplemap", valid.substr(0, keyframes) + bytes)); });
+}
+
+void addKeyframe(
+    mrpt::maps::CSimpleMap& map, const std::vector<mrpt::obs::CObservation::Ptr>& observations)
+{
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  for (const auto& observation : observations) frame->insert(observation);
+  map.insert(std::make_shared<mrpt::poses::CPose3DPDFGaussian>(), frame);
+}
+}  // namespace
+
+TEST(Fuzz, SimpleMap)
+{
+  mrpt::maps::CSimpleMap map;
+  addKeyframe(map, {samplePose(1000, {}), sampleScan(1000)});
   FuzzRun run;
   run.mostlyHarmless = true;  // most bytes are pixels
-  fuzz(
-      readFile(path), run,
-      [&](const std::string& bytes)
+  fuzzKeyframes(
+      map, run,
+      [](const std::string& path)
       {
         SceneContent content;
-        addKeyframes(folder.write("x.simplemap", bytes), {}, content);
+        addKeyframes(path, {}, content);
+      });
+}
+
+TEST(Fuzz, MapOfBoxes)
+{
+  mrpt::maps::CSimpleMap map;
+  for (const double time : {1000.0, 1001.0}) addKeyframe(map, {sampleBoxes(time)});
+  fuzzKeyframes(
+      map, FuzzRun(),
+      [](const std::string& path)
+      {
+        auto made = readMap(path);
+        use(made);
       });
 }
 
@@ -159,13 +200,72 @@ TEST(Fuzz, BenchmarkResults)
       });
 }
 
-TEST(Fuzz, SlamConfiguration)
+TEST(Fuzz, EditList)
 {
+  const CQuadricObjectMap map = filledMap();
+  ASSERT_GE(map.objects().size(), 2u);
+  const auto first = map.objects().begin()->first, last = map.objects().rbegin()->first;
   const TemporaryFolder folder;
   FuzzRun run;
-  run.words = {"[slam]", "[input]", "[]", "= yes", "${", "@define"};
+  run.place = "edits.json";
+  run.words = {
+      "\"op\": \"remove\"",
+      ", \"id\": 1e300",
+      ", \"keep\": 1.5",
+      "null",
+      "true",
+      "1e300",
+      "-1.5",
+      ",",
+      "[0,0,0]"};
   fuzz(
-      SlamConfiguration().toConfig().getContent(), run,
+      mrpt::format(
+          R"({"format": "quadmap-edits", "version": 1, "map_sha256": "", "edits": [
+ {"op": "place", "id": %u, "center": [1, 2, 0.5], "size": [0.5, 0.6, 1], "yaw": 0.3},
+ {"op": "relabel", "id": %u, "label": "cup"},
+ {"op": "merge", "keep": %u, "absorb": %u}, {"op": "remove", "id": %u}]})",
+          first, first, first, last, first),
+      run,
       [&](const std::string& text)
-      { SlamConfiguration::fromFile(folder.write("quadmap.ini", text)).toConfig(); });
+      {
+        const auto path = folder.write("edits.json", text);
+        const auto list = readMapEdits(path);
+        CQuadricObjectMap edited = map;
+        try
+        {
+          applyEdits(list.edits, edited);
+        }
+        catch (const std::exception& e)  // as quadmap-map says it
+        {
+          throw std::runtime_error(path + ": " + e.what());
+        }
+        edited.saveToFile(folder.path("edited.quadmap"));
+        EXPECT_NO_THROW(edited.loadFromFile(folder.path("edited.quadmap"))) << text;
+      });
+}
+
+TEST(Fuzz, RunReport)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"trajectory.tum", "trajectory_odometry.tum"})
+    folder.write(name, "1000.25 0 0 0 0 0 0 1\n1001.25 1 0 0 0 0 0 1\n");
+  writeObjectsJson(folder.path("objects.json"), {});
+  FuzzRun run;
+  run.place = folder.folder().string();
+  run.words = {"null", "[]", "{}", ", \"object\": 1e300", "1e300", "-1.5", "true", ","};
+  fuzz(
+      R"({"program": "quadmap-slam", "program_version": "1", "input": {"file": "a.rawlog"},
+ "warnings": ["a warning"], "map_changes": {"new": 1}, "objects": 1,
+ "dropped": [{"file": "a/b.rawlog", "record": 7, "sensor": "camera", "what": "is damaged"}],
+ "boxes": {"total": 2, "by_label": {"chair": {"complete": 1, "reasons": {"too far": 2}}}},
+ "timing": {"modules": {"perception": {"calls": 2, "cpu_total_s": 1.5}}, "threads": 2},
+ "associations": [{"time": 1000.25, "sensor": "camera", "keyframe": 0, "boxes": [
+  {"label": "chair", "box": [1, 2, 30, 40], "score": 0.9, "object": 1, "measurement": "complete"},
+  {"label": "cup", "object": null, "reason": "too small"}]}]})",
+      run,
+      [&](const std::string& text)
+      {
+        BoxObjects(folder.write("report.json", text)).of("camera", 1000.25);
+        reportPage(folder.folder().string());
+      });
 }

@@ -5,14 +5,11 @@
 #include <mrpt/obs/TPixelLabelInfo.h>
 
 #include <filesystem>
-#include <map>
 
 #include "../obs/TemporaryFolder.h"
 #include "../sensors/SampleRawlog.h"
 #include "Fuzz.h"
 #include "quadmap/base/ShareFiles.h"
-#include "quadmap/folders/FolderKinds.h"
-#include "quadmap/obs/LabelTable.h"
 #include "quadmap/sensors/RawlogSource.h"
 #include "quadmap/simulator/Scene.h"
 
@@ -20,56 +17,6 @@ using namespace quadmap;
 
 namespace
 {
-/** The text files of a recording of three frames, without the images. */
-class SmallRecording
-{
- public:
-  SmallRecording()
-  {
-    std::filesystem::create_directory(folder_.path("detections"));
-    for (const auto& [name, text] : texts_) folder_.write(name, text);
-  }
-
-  const std::string& text(const std::string& name) const { return texts_.at(name); }
-
-  /** Reads the whole recording with one of its files replaced. */
-  void readWith(const std::string& name, const std::string& text) const
-  {
-    folder_.write(name, text);
-    const FrameFolder dataset = openFrameFolder("tum", folder_.folder().string());
-    if (!dataset.posesProblem().empty()) throw std::runtime_error(dataset.posesProblem());
-    for (std::size_t i = 0; i < dataset.frames().size(); ++i)
-    {
-      dataset.boxes(i);
-      dataset.T_world_robot(i);
-    }
-  }
-  void withoutAssociations() const { std::filesystem::remove(folder_.path("associations.txt")); }
-
- private:
-  TemporaryFolder folder_;
-  const std::map<std::string, std::string> texts_ = {
-      {         "rgb.txt","# time file\n1.00 rgb/1.jpg\n1.50 rgb/2.jpg\n2.00 rgb/3.jpg\n"                          },
-      {       "depth.txt",             "1.01 depth/1.png\n1.51 depth/2.png\n2.01 depth/3.png\n"},
-      {"associations.txt", "1.00 rgb/1.jpg 1.01 depth/1.png\n1.50 rgb/2.jpg 1.51 depth/2.png\n"},
-      { "groundtruth.txt",    "0.99 0 0 0 0 0 0 1\n1.03 1 0 0 0 0 0 1\n1.5 2 0 0 0 0.6 0 0.8\n"},
-      {"calibration.yaml",
-       "%YAML:1.0\n---\nfx: 535.4\nfy: -539.2\ncx: 320.1\ncy: 247.6\nwidth: 640\nheight: 480\n"
-       "depth_factor: 5000\nk1: 0.01\nworld_up: !!opencv-matrix\n   rows: 3\n   cols: 1\n"
-       "   dt: d\n   data: [ 0.1, -0.9, 0.2 ]\n"                                               },
-      {"detections/1.txt",        "56 chair 0.91 10 20 200 300\n41 cup 0.5 300.5 200 330 240\n"},
-  };
-};
-
-void fuzzRecording(const std::string& name, bool withAssociations = true)
-{
-  const SmallRecording recording;
-  if (!withAssociations) recording.withoutAssociations();
-  FuzzRun run;
-  run.words = {"rows: 999999999", "- ", "!!", "data: [", "&a", "*a", " ", "1e9", "? ", "%YAML"};
-  fuzz(recording.text(name), run, [&](const std::string& text) { recording.readWith(name, text); });
-}
-
 /** Reads a rawlog to its end. */
 void readToEnd(const std::string& rawlog, bool keepGoing)
 {
@@ -82,16 +29,6 @@ void readToEnd(const std::string& rawlog, bool keepGoing)
   }
 }
 }  // namespace
-
-TEST(Fuzz, TumCalibration) { fuzzRecording("calibration.yaml"); }
-TEST(Fuzz, TumDetections) { fuzzRecording("detections/1.txt"); }
-TEST(Fuzz, TumAssociations) { fuzzRecording("associations.txt"); }
-TEST(Fuzz, TumGroundTruth) { fuzzRecording("groundtruth.txt"); }
-TEST(Fuzz, TumImageLists)
-{
-  fuzzRecording("rgb.txt", false);
-  fuzzRecording("depth.txt", false);
-}
 
 TEST(Fuzz, SceneFile)
 {
