@@ -21,7 +21,7 @@ struct IdNumber
 
 inline std::istream& operator>>(std::istream& in, IdNumber& id)
 {
-  if (in.peek() == '-') in.setstate(std::ios::failbit);
+  if ((in >> std::ws).peek() == '-') in.setstate(std::ios::failbit);
   return in >> id.value;
 }
 

@@ -71,10 +71,8 @@ void printSummary(const RawlogRunSummary& summary)
       std::printf(
           "%s: %zu frames, %zu keyframes, %zu boxes\n", sensor.c_str(), c.frames, c.keyframes,
           c.boxes);
-  const std::size_t lost = counts.framesWithoutPose;
   std::printf(
-      "%zu frames%s, %zu keyframes, %zu boxes, %zu objects\n", counts.frames,
-      lost > 0 ? mrpt::format(" (%zu without a pose)", lost).c_str() : "", counts.keyframes,
+      "%zu frames, %zu keyframes, %zu boxes, %zu objects\n", counts.frames, counts.keyframes,
       counts.boxes, summary.result.map.confirmedObjects().size());
   for (const auto& name : summary.files)
     std::printf("wrote %s/%s\n", summary.directory.c_str(), name.c_str());

@@ -276,6 +276,5 @@ TEST_F(EveryOdometry, FewPosesAreNoSilentSuccess)
   const auto tolerant = run(records, "--method odometry --keep-going");
   EXPECT_EQ(tolerant.status, 0) << tolerant.err;
   EXPECT_NE(tolerant.err.find("5 of 8 images have no pose"), kNotFound) << tolerant.err;
-  EXPECT_NE(tolerant.out.find("8 frames (5 without a pose), 3 keyframes"), kNotFound)
-      << tolerant.out;
+  EXPECT_NE(tolerant.out.find("8 frames, 3 keyframes"), kNotFound) << tolerant.out;
 }

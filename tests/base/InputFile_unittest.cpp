@@ -27,6 +27,9 @@ TEST(OpenModestText, NamesFileAndSize)
   EXPECT_EQ(
       errorOf([] { openModestText("/nowhere/x.ini"); }),
       "/nowhere/x.ini: cannot be read: No such file or directory");
+  EXPECT_EQ(
+      errorOf([&] { openModestText(folder.path("")); }),
+      folder.path("") + ": is a directory, no file");
 }
 
 TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)

@@ -53,6 +53,12 @@ TEST(ReadJson, RefusesObjectsWhoseKeysTakeMinutes)
       << "keys of other objects do not count";
   const auto many = folder.write("x.json", "{\"a\":" + objectOf(200'000) + "}");
   EXPECT_NE(errorOf([&] { readJson(many); }).find("too many keys"), std::string::npos);
+  std::string longKeys = "{\"k\":0";
+  for (int i = 0; i < 5'000; ++i)
+    longKeys += ",\"" + std::string(2'000, 'k') + std::to_string(i) + "\":0";
+  const auto slow = folder.write("x.json", longKeys + "}");
+  EXPECT_NE(errorOf([&] { readJson(slow); }).find("too many keys"), std::string::npos)
+      << "long keys take longer to compare";
 }
 
 TEST(WholeNumber, IsWhatTheFileSaysOrNothing)

@@ -6,7 +6,6 @@
 #include "AllocationWatch.h"
 #include "Fuzz.h"
 #include "SmallRecording.h"
-#include "quadmap/base/ShareFiles.h"
 
 using namespace quadmap;
 

@@ -14,7 +14,7 @@ struct Case
   std::string bytes;  //!< The whole file
   /** Nothing useful can come of it. Else the damage may be one that nobody can see. */
   bool mustFail = false;
-  /** A part of the message, beside the file's name: where the damage is. */
+  /** A part that the message must have: it says where the damage is. */
   std::string place = {};
 };
 

@@ -21,6 +21,8 @@ std::ifstream openModestText(const std::string& path, std::uintmax_t mostBytes)
 {
   requireNoDevice(path);
   std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw std::runtime_error(path + ": is a directory, no file");
   const auto size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > mostBytes)
     throw std::runtime_error(mrpt::format(

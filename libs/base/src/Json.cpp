@@ -20,15 +20,17 @@ namespace
 class TreeLimit
 {
  public:
-  void count(int depth, Json::parse_event_t event)
+  /** \param keyBytes Of the key, when one was read. */
+  void count(int depth, Json::parse_event_t event, std::size_t keyBytes)
   {
     constexpr std::size_t kMostValues = 8'000'000;         // 20,000 keyframes with 40 boxes each
-    constexpr std::size_t kMostComparisons = 200'000'000;  // 20,000 keys of one object
+    constexpr std::size_t kMostComparisons = 200'000'000;  // 20,000 short keys of one object
     if (depth > kDeepest) throw std::runtime_error("is nested too deeply");
     auto& keys = keys_[static_cast<std::size_t>(depth)];
     if (event == Json::parse_event_t::object_end) keys_[static_cast<std::size_t>(depth) + 1] = 0;
-    if (event == Json::parse_event_t::key && (comparisons_ += keys++) > kMostComparisons)
-      throw std::runtime_error("has too many keys in one object");
+    if (event == Json::parse_event_t::key &&
+        (comparisons_ += keys++ * (1 + keyBytes / 64)) > kMostComparisons)
+      throw std::runtime_error("has too many keys in its objects");
     const bool isBegin = event == Json::parse_event_t::value ||
                          event == Json::parse_event_t::object_start ||
                          event == Json::parse_event_t::array_start;
@@ -49,9 +51,10 @@ Json readJson(const std::string& path)
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
   TreeLimit limit;
-  const auto count = [&limit](int depth, Json::parse_event_t event, const Json&)
+  const auto count = [&limit](int depth, Json::parse_event_t event, const Json& parsed)
   {
-    limit.count(depth, event);
+    const std::string* key = parsed.get_ptr<const std::string*>();
+    limit.count(depth, event, key ? key->size() : 0);
     return true;
   };
   try

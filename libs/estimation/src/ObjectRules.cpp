@@ -195,6 +195,7 @@ double positionLogLikelihood(
   if (!view.complete)
   {
     const auto [own, other] = depthHypotheses(view, object, options);
+    // (12.11)
     return std::max(own, other) + std::log1p(std::exp(-std::abs(own - other)));
   }
   const Eigen::Vector3d off = view.center - object.object.center();

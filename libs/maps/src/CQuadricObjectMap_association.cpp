@@ -4,7 +4,7 @@
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/obs/FrameAgreement.h"
 
-// Which object a box shows: section 12 of doc/mathematics.md. The terms (12.3) to (12.10) and the
+// Which object a box shows: section 12 of doc/mathematics.md. The terms (12.3) to (12.11) and the
 // decision are in quadmap/estimation/Association.h.
 namespace quadmap
 {
@@ -73,8 +73,8 @@ CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
   return frame;
 }
 
-/** The last terms of (12.1): ln p(z | object), (12.3) to (12.6), and the agreement, (12.7) to
- * (12.9).
+/** The last terms of (12.1): ln p(z | object), (12.3) to (12.6) and (12.11), and the agreement,
+ * (12.7) to (12.9).
  */
 double CQuadricObjectMap::associationLikelihood(
     const Frame& frame, std::size_t k, const MapObject& object) const

@@ -65,7 +65,8 @@ std::array<Side, kFaces> collectSides(
   return sides;
 }
 
-/** Of the views whose depth is the object's, or of all when there is none. */
+/** Median of the centres of the views whose depth is the object's; of all views when there is none.
+ */
 Eigen::Vector3d medianOfCenters(const std::deque<ObjectView>& views)
 {
   const bool anyOwn =

@@ -109,9 +109,9 @@ class LocalizationRun
     const std::string jumps = odometry_.warningOfJumps();
     if (!jumps.empty()) request_.onWarning(request_.rawlog + ": " + jumps);
     result_.odometry = odometryText();
-    if (!result_.interrupted) requireContent();
     const std::string lack = odometry_.missingPoses();
     if (!lack.empty()) request_.onWarning(request_.rawlog + ": " + lack + " and were left out");
+    if (!result_.interrupted) requireContent();
     return std::move(result_);
   }
 

@@ -98,9 +98,9 @@ class PcdReader
       reject("has no fields, or too large ones");
     if (cloud_.height < 2 || cloud_.width < 2)
       reject("is not organised: it has the height of a list of points, not of an image");
-    if (cloud_.width > RecordLimits().imagePixels / cloud_.height ||
-        std::max(cloud_.width, cloud_.height) > kLongestImageSide)
-      reject("has too many points");
+    if (cloud_.width > RecordLimits().imagePixels / cloud_.height) reject("has too many points");
+    if (std::max(cloud_.width, cloud_.height) > kLongestImageSide)
+      reject("has more than " + std::to_string(kLongestImageSide) + " points in a row or a column");
     if (pointBytes_ > RecordLimits().recordBytes / (cloud_.width * cloud_.height))
       reject("has points of more than 256 MB");
   }

@@ -18,10 +18,7 @@ namespace
  * measurements beyond it are wrong by more than four sigmas, and below it one of ten. */
 constexpr double kMaxLeak = 0.2;
 
-}  // namespace
-
-namespace
-{
+/** As judgeCuboid(), of the cuboid alone and in the optical frame. */
 CuboidVerdict judgeOwnCuboid(
     const DepthCloud& cloud,
     const ObjectTask& task,
@@ -51,8 +48,6 @@ CuboidVerdict judgeOwnCuboid(
   {
     out.complete = screenInBox(cloud.camera(), box, task.label, *cuboid);
     out.reason = out.complete ? "screen on its front" : "no front of a screen in the box";
-    if (out.complete)
-      out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
   }
   else if (!fits)
     out.reason = mrpt::format("cuboid fits the box only by %.2f", fit.iou);
@@ -62,7 +57,6 @@ CuboidVerdict judgeOwnCuboid(
   {
     out.reason = "cuboid fits the box";
     out.complete = weakenFacesInsideBox(cloud.camera(), box, tolerance, *cuboid);
-    out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
   }
   return out;
 }
@@ -77,13 +71,13 @@ CuboidVerdict judgeCuboid(
     const PerceptionOptions& options)
 {
   CuboidVerdict out = judgeOwnCuboid(cloud, task, object, cuboid, options);
-  if (out.complete || !object.onWall || options.models == ObservationModels::Partial) return out;
-  out.complete = plateInBox(cloud.camera(), task.detection->box, *object.onWall, up, options);
-  if (out.complete)
+  if (!out.complete && object.onWall && options.models != ObservationModels::Partial)
   {
-    out.reason = "flat on its wall";
-    out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
+    out.complete = plateInBox(cloud.camera(), task.detection->box, *object.onWall, up, options);
+    if (out.complete) out.reason = "flat on its wall";
   }
+  if (out.complete)
+    out.complete->object_sensor = out.complete->object_sensor.transformed(T_sensor_optical());
   return out;
 }
 

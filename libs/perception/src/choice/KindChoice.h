@@ -19,8 +19,9 @@ struct CuboidVerdict
   std::string reason;
 };
 
-/** Compares the cuboid with its box (doc/mathematics.md, 10, "Fit"). \param cuboid Optical frame;
- * nothing when the box has no cloud. */
+/** Compares the cuboid with its box (doc/mathematics.md, 10, "Fit"). Where it does not count, what
+ * hangs on a wall may be a flat thing there ("Flat on a wall"). \param cuboid Optical frame;
+ * nothing when the box has no cloud. \param up Unit vector, optical frame. */
 CuboidVerdict judgeCuboid(
     const DepthCloud& cloud,
     const ObjectTask& task,

@@ -108,9 +108,11 @@ std::optional<CompleteMeasurement> plateInBox(
   out.yawDefined = true;
   out.yawSigma = kWallHeading;
   const double sigma = surfaceSigma(onFront.z(), options);
-  for (std::size_t f = 0; f < 2; ++f) out.faces[f] = {FaceKind::Measured, sigma};
   const Eigen::Vector3d semiAxes(
       std::max(kMinHalfSize, 0.5 * onWall.distance), rectangle->halfWidth, rectangle->halfHeight);
+  out.faces[0] = {FaceKind::Measured, sigma};
+  // What is thinner than what can be measured would end in the wall.
+  out.faces[1] = {FaceKind::Measured, std::hypot(sigma, 2 * semiAxes.x() - onWall.distance)};
   const Eigen::Vector3d center = rectangle->middle - semiAxes.x() * R.col(0);
   out.object_sensor = Ellipsoid(
       mrpt::poses::CPose3D::FromRotationAndTranslation(

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "cloud/WallDistance.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectMeasurement.h"
+#include "quadmap/surfaces/WallDistance.h"
 
 namespace quadmap
 {

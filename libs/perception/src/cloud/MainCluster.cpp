@@ -6,9 +6,9 @@
 
 #include "cloud/Cluster.h"
 #include "cloud/HorizontalTop.h"
-#include "cloud/PointClusters.h"
 #include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/PointClusters.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportRing.h"
 

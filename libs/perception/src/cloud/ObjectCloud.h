@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "cloud/WallDistance.h"
 #include "quadmap/obs/DetectedObject.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/perception/PerceptionOptions.h"
 #include "quadmap/surfaces/DepthCloud.h"
 #include "quadmap/surfaces/ScenePlanes.h"
+#include "quadmap/surfaces/WallDistance.h"
 
 namespace quadmap
 {

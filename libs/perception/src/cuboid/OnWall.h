@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cloud/WallDistance.h"
 #include "cuboid/FaceEstimator.h"
+#include "quadmap/surfaces/WallDistance.h"
 
 namespace quadmap
 {

@@ -8,6 +8,7 @@
 #include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
+#include "quadmap/surfaces/WallDistance.h"
 #include "support/SupportEvidence.h"
 #include "support/SupportRing.h"
 
@@ -162,7 +163,6 @@ class SupportJudge
   /** The log-odds that the object hangs on a wall, equation (6.3). */
   double hangingScore(int i) const
   {
-    constexpr double kThickest = 0.30;  // of things on walls [m]
     if (label_.support == UsualSupport::Floor) return 0;
     const Plane& wall = planes_.plane(i).plane;
     double near = kNearWall;
@@ -171,7 +171,7 @@ class SupportJudge
       std::vector<double> distances;
       for (const auto& p : object_.points) distances.push_back(wall.signedDistance(p));
       const double distance = median(std::move(distances));
-      if (distance > kThickest || distance < -kEndSlack) return 0;
+      if (distance > kThickestOnWall || distance < -kEndSlack) return 0;
     }
     const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
     return kOnWall * ringOn(ring_, wall, Ring::All).share + near + usualWall;

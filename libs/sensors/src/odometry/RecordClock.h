@@ -21,9 +21,9 @@ struct StrayRecord
 /** Follows the times of the records of one sensor, which must not go back.
  *
  * A record that leaves all before it far behind may have a wrong time, or the recording had a pause
- * or its clock was set. So a jump does not count before it has lasted: for ten records, or for half
- * the time that it skipped. When the time comes back before that, to where it was or later, all
- * records since the jump are strays, and the time goes on without them. */
+ * or its clock was set. So a jump does not count before it has lasted: until ten more records have
+ * followed, or for half the time that it skipped. When the time comes back before that, to where it
+ * was or later, all records since the jump are strays, and the time goes on without them. */
 class RecordClock
 {
  public:

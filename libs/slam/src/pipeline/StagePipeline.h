@@ -38,7 +38,8 @@ class StagePipeline
   struct Capacity
   {
     std::size_t items = 1;  //!< >= 1
-    /** Of all items. A larger one is alone under way when add() begins the next. */
+    /** Of all items. One is added first and then waited for, so at most one goes beyond this; the
+     * next begins when there is room again. */
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
   };
 
@@ -81,7 +82,7 @@ class StagePipeline
 
   const std::vector<Stage> stages_;
   const std::size_t mostWaiting_;  //!< Items that may be under way when add() returns
-  const std::size_t mostBytes_;    //!< Of these
+  const std::size_t mostBytes_;    //!< Of all items that may be under way when add() returns
   mutable std::mutex mutex_;       //!< Protects all members below
   std::condition_variable changed_;
   std::size_t added_ = 0;

@@ -1,4 +1,4 @@
-#include "cloud/PointClusters.h"
+#include "quadmap/surfaces/PointClusters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace
 class DepthScale
 {
  public:
-  DepthScale(double gap, const PerceptionOptions& options) : gap_(gap)
+  DepthScale(double gap, const SurfaceOptions& options) : gap_(gap)
   {
     constexpr double kSigmas = 2.0;
     const double floor = kSigmas * options.depthSigmaFloor;
@@ -33,7 +33,7 @@ class DepthScale
   }
 
  private:
-  static constexpr double kNearest = PerceptionOptions::kDepthSigmaGrowsFrom;
+  static constexpr double kNearest = SurfaceOptions::kDepthSigmaGrowsFrom;
   double gap_;
   double from_ = 1e9;  // depth from which the noise decides [m]
   double width_ = 0, slope_ = 0, offset_ = 0;
@@ -116,7 +116,7 @@ class Grid
 }  // namespace
 
 PointClusters::PointClusters(
-    const std::vector<Eigen::Vector3d>& points, double gap, const PerceptionOptions& options)
+    const std::vector<Eigen::Vector3d>& points, double gap, const SurfaceOptions& options)
 {
   const DepthScale depthScale(gap, options);
   Grid grid;

@@ -1,7 +1,7 @@
-#include "cloud/WallDistance.h"
+#include "quadmap/surfaces/WallDistance.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "quadmap/geometry/RobustStatistics.h"
@@ -23,8 +23,8 @@ DepthCloud::CellRange middleOf(DepthCloud::CellRange range, double share)
 std::optional<WallDistance> distanceFromWall(
     const DepthCloud& cloud, const DepthCloud::CellRange& box, const Plane& wall)
 {
-  constexpr double kRim = 0.15;      // of the box
-  constexpr double kThickest = 0.3;  // of things on walls [m]
+  constexpr double kRim = 0.15;     // of the box
+  constexpr double kBehind = 0.05;  // what noise may put behind the wall [m]
   constexpr std::size_t kFewest = 30;
   const auto middle = middleOf(box, kRim);
   std::vector<double> near;
@@ -34,13 +34,13 @@ std::optional<WallDistance> distanceFromWall(
     {
       if (!cloud.valid(c, r)) continue;
       const double distance = wall.signedDistance(cloud.point(c, r).cast<double>());
-      if (std::abs(distance) < kThickest)
+      if (distance > -kBehind && distance < kThickestOnWall)
         near.push_back(distance);
       else
         ++others;
     }
   if (near.size() < std::max(kFewest, others)) return {};
-  return WallDistance{wall, median(std::move(near))};
+  return WallDistance{wall, std::max(0.0, median(std::move(near)))};
 }
 
 }  // namespace quadmap

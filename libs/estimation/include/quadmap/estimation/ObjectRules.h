@@ -19,9 +19,8 @@ struct AgreementOptions
   double imageWeight = 1.5;   //!< Times ln(IoU / 0.5) of the boxes in the image [-], >= 0
   double minImageIoU = 0.05;  //!< Bound of that term, (0, 1)
   double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
-  double wrongDepthShare =
-      0.05;                   //!< Of partial measurements whose depth is of another thing, [0, 1)
-  double duplicateIoU = 0.8;  //!< Two boxes of one frame this alike show the same thing, (0, 1]
+  double wrongDepthShare = 0.05;  //!< Of partial measurements whose depth is another thing's [-]
+  double duplicateIoU = 0.8;      //!< Two boxes of one frame this alike show the same thing, (0, 1]
 };
 
 struct MergeOptions
@@ -67,7 +66,8 @@ double agreementLogLikelihood(
 /** log N of where the measurement is, given the object (doc/mathematics.md: h(x, l_i), S_ik). Along
  * an axis of a cuboid with both ends measured its centre is compared, with one end measured that
  * end, and with none only what sticks out of the object counts. S is the measurement's, the
- * object's and a share of its extent. */
+ * object's and a share of its extent. Of a partial measurement it is the mixture (12.11), as its
+ * depth may be another thing's. */
 double positionLogLikelihood(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options);
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "quadmap/perception/PerceptionOptions.h"
+#include "quadmap/surfaces/SurfaceOptions.h"
 
 namespace quadmap
 {
@@ -16,7 +16,7 @@ class PointClusters
  public:
   /** \param gap Points nearer to each other than this are always together [m], > 0. */
   PointClusters(
-      const std::vector<Eigen::Vector3d>& points, double gap, const PerceptionOptions& options);
+      const std::vector<Eigen::Vector3d>& points, double gap, const SurfaceOptions& options);
 
   /** Makes one cluster of those that a pair of points (their indices) belongs to. */
   void join(const std::vector<std::pair<int, int>>& pairs);

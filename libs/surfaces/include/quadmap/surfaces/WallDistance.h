@@ -7,6 +7,9 @@
 
 namespace quadmap
 {
+/** The middle of what hangs on a wall is no farther from it than this [m]. */
+inline constexpr double kThickestOnWall = 0.3;
+
 /** The wall behind a box and how far before it what the box shows is. */
 struct WallDistance
 {
@@ -15,7 +18,8 @@ struct WallDistance
       0;  //!< Median of the depths in the middle of the box, from it to the camera [m]
 };
 
-/** \return Nothing when few depths in the middle of the box are near the wall, or most are not. */
+/** \return Nothing when few depths in the middle of the box are on the wall or before it, no
+ * farther than what hangs there, or most are not. */
 std::optional<WallDistance> distanceFromWall(
     const DepthCloud& cloud, const DepthCloud::CellRange& box, const Plane& wall);
 
