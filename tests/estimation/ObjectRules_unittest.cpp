@@ -16,7 +16,7 @@ ObjectView partialView()
   view.label = "potted plant";
   view.center = {4, 0, 0};
   view.centerCovariance = Eigen::Vector3d(0.25, 0.1, 0.1).array().square().matrix().asDiagonal();
-  view.blindSigma = 1.5;
+  view.wrongDepthSigma = 1.5;
   return view;
 }
 
@@ -79,7 +79,7 @@ TEST(MeasurementOf, TellsLittleWithTheDepthOfAnother)
   ASSERT_TRUE(hidden);
   EXPECT_FALSE(hidden->hasOwnDepth);
   Eigen::Matrix3d expected = view.centerCovariance;
-  expected(0, 0) += view.blindSigma * view.blindSigma;  // the ray is the x axis
+  expected(0, 0) += view.wrongDepthSigma * view.wrongDepthSigma;  // the ray is the x axis
   EXPECT_TRUE(hidden->centerCovariance.isApprox(expected, 1e-12));
 }
 

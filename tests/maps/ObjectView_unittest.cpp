@@ -67,3 +67,22 @@ TEST(ObjectView, WithoutDepthAThingIsOnTheRayOfItsBoxAsFarAsItsSizeSays)
     label.known = true;
   }
 }
+
+TEST(ObjectView, KnowsHowFarAThingMayBeWhoseDepthIsAnotherThings)
+{
+  DetectedObject d;
+  d.measurement.kind = MeasurementKind::Partial;
+  d.measurement.seed_sensor = Eigen::Vector3d(3, 0, 0);
+  const mrpt::poses::CPose3D origin;
+  LabelProperties plant = boxy("plant");  // its size is known but for a factor of e^0.6
+  const auto view = viewOf(d, origin, plant, kNoise);
+  ASSERT_TRUE(view);
+  EXPECT_NEAR(view->wrongDepthSigma, view->center.x() * std::hypot(0.6, 0.2), 1e-9);
+  plant.known = false;
+  EXPECT_NEAR(viewOf(d, origin, plant, kNoise)->wrongDepthSigma, 0.48 * view->center.x(), 1e-9);
+
+  d.measurement.kind = MeasurementKind::Complete;
+  d.measurement.complete = CompleteMeasurement();
+  d.measurement.complete->object_sensor = Ellipsoid(origin, {0.3, 0.3, 0.3});
+  EXPECT_EQ(viewOf(d, origin, plant, kNoise)->wrongDepthSigma, 0);
+}

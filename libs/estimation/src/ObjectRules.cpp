@@ -167,7 +167,7 @@ Eigen::Matrix3d positionCovariance(const MapObject& object, const AgreementOptio
 /** Covariance of the place of a partial measurement whose depth is that of another thing. */
 Eigen::Matrix3d blindCovariance(const ObjectView& view)
 {
-  const Eigen::Vector3d alongRay = view.blindSigma * (view.center - view.camera).normalized();
+  const Eigen::Vector3d alongRay = view.wrongDepthSigma * (view.center - view.camera).normalized();
   return view.centerCovariance + alongRay * alongRay.transpose();
 }
 

@@ -194,6 +194,7 @@ void setPartialPosition(
     direction = (onSurface - view.camera).normalized();
     view.center = onSurface + 0.5 * std::min(size.x(), size.y()) * direction;
     alongRay = sigmaAlongRay(0.5 * (size.x() + size.y()));
+    view.wrongDepthSigma = sigmaBySize((view.center - view.camera).norm(), properties);
   }
   else
   {
@@ -202,7 +203,6 @@ void setPartialPosition(
     view.center = view.camera + blind.range * direction;
     alongRay = blind.sigma;
   }
-  view.blindSigma = sigmaBySize((view.center - view.camera).norm(), properties);
   const double acrossRay = sigmaAcrossRay(size.mean());
   view.centerCovariance =
       acrossRay * acrossRay * Eigen::Matrix3d::Identity() +

@@ -35,7 +35,7 @@ struct ObjectView : MeasuredGeometry
   std::string label;     //!< Canonical
   PoseNoise pose{0, 0};  //!< Of the pose it was taken from; the sigmas include it
   Eigen::Matrix3d centerCovariance = Eigen::Matrix3d::Identity();  //!< Of `center` [m^2]
-  double blindSigma = 0;    //!< Sigma of a partial view's range by the size of its box alone [m]
+  double wrongDepthSigma = 0;  //!< Of a partial view's range when its depth is another thing's [m]
   bool hasOwnDepth = true;  //!< False: the depth is more likely another thing's (see measurementOf)
   double yaw = 0;           //!< Of the cuboid's x axis [rad]; the cuboid is turned upright
   std::vector<Edge> edges;  //!< The usable box edges

@@ -13,9 +13,8 @@ inline constexpr double kThickestOnWall = 0.3;
 /** The wall behind a box and how far before it what the box shows is. */
 struct WallDistance
 {
-  Plane wall;  //!< Optical frame, normal towards the camera
-  double distance =
-      0;  //!< Median of the depths in the middle of the box, from it to the camera [m]
+  Plane wall;           //!< Optical frame, normal towards the camera
+  double distance = 0;  //!< Median of the middle of the box, from the wall, at least 0 [m]
 };
 
 /** \return Nothing when few depths in the middle of the box are on the wall or before it, no
