@@ -81,6 +81,38 @@ double halfWidthAlong(const Ellipsoid& object, const Eigen::Vector3d& n)
   return supportFunction<double>(object.rotation().transpose() * n, object.semiAxes(), 2.0);
 }
 
+/** Covariance of a measured centre minus the object's, of which the last term is a share of its
+ * size: S_ik - S_k of doc/mathematics.md, (12.3). */
+Eigen::Matrix3d positionCovariance(const MapObject& object, const AgreementOptions& options)
+{
+  return object.covariance.topLeftCorner<3, 3>() +
+         options.extentShare * options.extentShare * object.object.shapeMatrix();
+}
+
+/** Covariance of the place of a partial measurement whose depth is that of another thing. */
+Eigen::Matrix3d wrongDepthCovariance(const ObjectView& view)
+{
+  const Eigen::Vector3d alongRay = view.wrongDepthSigma * (view.center - view.camera).normalized();
+  return view.centerCovariance + alongRay * alongRay.transpose();
+}
+
+/** Log-likelihoods of a partial measurement's place, doc/mathematics.md, (12.11). */
+struct DepthHypotheses
+{
+  double own;    //!< The depth is the object's
+  double other;  //!< It is of what hides the object or stands behind it
+};
+
+DepthHypotheses depthHypotheses(
+    const ObjectView& view, const MapObject& object, const AgreementOptions& options)
+{
+  const Eigen::Vector3d off = view.center - object.object.center();
+  const Eigen::Matrix3d S_object = positionCovariance(object, options);
+  return {
+      std::log(1 - options.wrongDepthShare) + logGaussian(off, S_object + view.centerCovariance),
+      std::log(options.wrongDepthShare) + logGaussian(off, S_object + wrongDepthCovariance(view))};
+}
+
 }  // namespace
 
 bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU)
@@ -154,41 +186,6 @@ double agreementLogLikelihood(
          labelLogLikelihood(labelAgreement(object, view.label, labels), options);
 }
 
-namespace
-{
-/** Covariance of a measured centre minus the object's, of which the last term is a share of its
- * size: S_ik - S_k of doc/mathematics.md, (12.3). */
-Eigen::Matrix3d positionCovariance(const MapObject& object, const AgreementOptions& options)
-{
-  return object.covariance.topLeftCorner<3, 3>() +
-         options.extentShare * options.extentShare * object.object.shapeMatrix();
-}
-
-/** Covariance of the place of a partial measurement whose depth is that of another thing. */
-Eigen::Matrix3d blindCovariance(const ObjectView& view)
-{
-  const Eigen::Vector3d alongRay = view.wrongDepthSigma * (view.center - view.camera).normalized();
-  return view.centerCovariance + alongRay * alongRay.transpose();
-}
-
-/** Log-likelihoods of a partial measurement's place, doc/mathematics.md, (12.11). */
-struct DepthHypotheses
-{
-  double own;    //!< The depth is the object's
-  double other;  //!< It is of what hides the object or stands behind it
-};
-
-DepthHypotheses depthHypotheses(
-    const ObjectView& view, const MapObject& object, const AgreementOptions& options)
-{
-  const Eigen::Vector3d off = view.center - object.object.center();
-  const Eigen::Matrix3d S_object = positionCovariance(object, options);
-  return {
-      std::log(1 - options.wrongDepthShare) + logGaussian(off, S_object + view.centerCovariance),
-      std::log(options.wrongDepthShare) + logGaussian(off, S_object + blindCovariance(view))};
-}
-}  // namespace
-
 double positionLogLikelihood(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options)
 {
@@ -220,7 +217,7 @@ std::optional<ObjectView> measurementOf(
   if (view.complete) return view;
   const auto [own, other] = depthHypotheses(view, object, options);
   view.hasOwnDepth = own >= other;
-  if (!view.hasOwnDepth) view.centerCovariance = blindCovariance(view);
+  if (!view.hasOwnDepth) view.centerCovariance = wrongDepthCovariance(view);
   return view;
 }
 

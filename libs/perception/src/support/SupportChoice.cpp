@@ -171,7 +171,7 @@ class SupportJudge
       std::vector<double> distances;
       for (const auto& p : object_.points) distances.push_back(wall.signedDistance(p));
       const double distance = median(std::move(distances));
-      if (distance > kThickestOnWall || distance < -kEndSlack) return 0;
+      if (!mayHangOnWall(distance)) return 0;
     }
     const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
     return kOnWall * ringOn(ring_, wall, Ring::All).share + near + usualWall;

@@ -23,8 +23,7 @@ DepthCloud::CellRange middleOf(DepthCloud::CellRange range, double share)
 std::optional<WallDistance> distanceFromWall(
     const DepthCloud& cloud, const DepthCloud::CellRange& box, const Plane& wall)
 {
-  constexpr double kRim = 0.15;     // of the box
-  constexpr double kBehind = 0.05;  // what noise may put behind the wall [m]
+  constexpr double kRim = 0.15;  // of the box
   constexpr std::size_t kFewest = 30;
   const auto middle = middleOf(box, kRim);
   std::vector<double> near;
@@ -34,7 +33,7 @@ std::optional<WallDistance> distanceFromWall(
     {
       if (!cloud.valid(c, r)) continue;
       const double distance = wall.signedDistance(cloud.point(c, r).cast<double>());
-      if (distance > -kBehind && distance < kThickestOnWall)
+      if (mayHangOnWall(distance))
         near.push_back(distance);
       else
         ++others;

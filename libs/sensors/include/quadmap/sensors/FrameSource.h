@@ -34,7 +34,8 @@ class FrameSource : public mrpt::system::COutputLogger
    *  \exception std::runtime_error For a frame that cannot be used. */
   std::optional<RgbdFrame> next();
 
-  /** Hands warnings on, one line each, instead of writing them to the terminal in MRPT's form. */
+  /** Hands warnings on, one line each, instead of writing them to the terminal in MRPT's form. Call
+   * it once; the receiver is used as long as the source is. */
   void sendWarningsTo(std::function<void(const std::string&)> receiver);
 
   /** Puts frames back, whose first is what next() gives next. */

@@ -7,8 +7,8 @@
 
 namespace quadmap
 {
-/** The middle of what hangs on a wall is no farther from it than this [m]. */
-inline constexpr double kThickestOnWall = 0.3;
+/** May a thing hang on a wall whose middle is this far before it [m]? Noise may put it behind. */
+inline bool mayHangOnWall(double distance) { return distance > -0.05 && distance < 0.3; }
 
 /** The wall behind a box and how far before it what the box shows is. */
 struct WallDistance
