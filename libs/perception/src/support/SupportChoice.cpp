@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "quadmap/surfaces/WallDistance.h"
