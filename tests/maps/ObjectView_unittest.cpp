@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "EstimatorFixture.h"
 #include "quadmap/geometry/Projection.h"
 
@@ -85,4 +87,29 @@ TEST(ObjectView, KnowsHowFarAThingMayBeWhoseDepthIsAnotherThings)
   d.measurement.complete = CompleteMeasurement();
   d.measurement.complete->object_sensor = Ellipsoid(origin, {0.3, 0.3, 0.3});
   EXPECT_EQ(viewOf(d, origin, plant, kNoise)->wrongDepthSigma, 0);
+}
+
+TEST(ObjectView, ASeedErrsByThePoseAsWell)
+{
+  DetectedObject d;
+  d.measurement.kind = MeasurementKind::Partial;
+  d.measurement.seed_sensor = Eigen::Vector3d(3, 0, 0);
+  const LabelProperties plant = boxy("plant");
+  const PoseNoise drift{0.3, 0.1};
+
+  std::mt19937 random(5);
+  std::normal_distribution<double> moved(0, drift.position), turned(0, drift.angle);
+  const Eigen::Vector3d center = viewOf(d, {}, plant, {0, 0})->center;
+  Eigen::Matrix3d sampled = Eigen::Matrix3d::Zero();
+  constexpr int kSamples = 20000;
+  for (int i = 0; i < kSamples; ++i)
+  {
+    const Eigen::Vector3d axis(turned(random), turned(random), turned(random));
+    const Eigen::Vector3d shift(moved(random), moved(random), moved(random));
+    const Eigen::Vector3d error = shift + axis.cross(center);
+    sampled += error * error.transpose() / kSamples;
+  }
+  const Eigen::Matrix3d claimed = viewOf(d, {}, plant, drift)->centerCovariance -
+                                  viewOf(d, {}, plant, {0, 0})->centerCovariance;
+  EXPECT_LT((claimed - sampled).norm(), 0.03 * sampled.norm()) << claimed << "\n\n" << sampled;
 }

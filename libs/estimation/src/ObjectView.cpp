@@ -203,10 +203,11 @@ void setPartialPosition(
     view.center = view.camera + blind.range * direction;
     alongRay = blind.sigma;
   }
-  const double acrossRay = sigmaAcrossRay(size.mean());
-  view.centerCovariance =
-      acrossRay * acrossRay * Eigen::Matrix3d::Identity() +
-      (alongRay * alongRay - acrossRay * acrossRay) * direction * direction.transpose();
+  const double turn = (view.center - view.camera).norm() * view.pose.angle;
+  const double across = std::hypot(sigmaAcrossRay(size.mean()), view.pose.position, turn);
+  const double along = std::hypot(alongRay, view.pose.position);
+  view.centerCovariance = across * across * Eigen::Matrix3d::Identity() +
+                          (along * along - across * across) * direction * direction.transpose();
   if (!isLowerEndSeen) view.centerCovariance(2, 2) += 0.25 * size.z() * size.z();
 }
 
