@@ -130,14 +130,12 @@ class DetectRun
 
   void requireFrames() const
   {
-    const std::string sensor =
-        request_.sensorLabel.empty() ? "" : " of a sensor \"" + request_.sensorLabel + "\"";
     if (summary_.frames == 0)
       throw std::runtime_error(request_.rawlog + ": " + source_.whyNoFrames(request_.sensorLabel));
     if (summary_.framesWithoutColour == summary_.frames)
       throw std::runtime_error(mrpt::format(
           "%s: none of its %zu images%s has colour", request_.rawlog.c_str(), summary_.frames,
-          sensor.c_str()));
+          ofSensor(request_.sensorLabel).c_str()));
   }
 
   const DetectRequest& request_;

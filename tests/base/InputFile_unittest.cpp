@@ -29,7 +29,7 @@ TEST(OpenModestText, NamesFileAndSize)
       "/nowhere/x.ini: cannot be read: No such file or directory");
   EXPECT_EQ(
       errorOf([&] { openModestText(folder.path("")); }),
-      folder.path("") + ": is a directory, no file");
+      folder.path("") + ": is a directory, not a file");
 }
 
 TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)
@@ -47,5 +47,5 @@ TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)
   ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
   for (std::size_t i = 0; i < readers.size(); ++i)
     for (const std::string& path : {pipe, std::string("/dev/zero")})
-      EXPECT_EQ(errorOf([&] { readers[i](path); }), path + ": is a pipe or a device, no file") << i;
+      EXPECT_EQ(errorOf([&] { readers[i](path); }), path + ": is a pipe or a device, not a file") << i;
 }

@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
@@ -130,9 +129,6 @@ void requirePlainIni(std::istream& text, const std::string& name)
 
 void requireReadableIni(const std::string& path)
 {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw std::runtime_error(path + ": is a directory, expected an INI file");
   auto file = openModestText(path);
   requirePlainIni(file, path);
 }

@@ -14,7 +14,7 @@ namespace quadmap
 {
 void requireNoDevice(const std::string& path)
 {
-  if (isDevice(path)) throw std::runtime_error(path + ": is a pipe or a device, no file");
+  if (isDevice(path)) throw std::runtime_error(path + ": is a pipe or a device, not a file");
 }
 
 std::ifstream openModestText(const std::string& path, std::uintmax_t mostBytes)
@@ -22,7 +22,7 @@ std::ifstream openModestText(const std::string& path, std::uintmax_t mostBytes)
   requireNoDevice(path);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw std::runtime_error(path + ": is a directory, no file");
+    throw std::runtime_error(path + ": is a directory, not a file");
   const auto size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > mostBytes)
     throw std::runtime_error(mrpt::format(

@@ -33,11 +33,15 @@ void FrameSource::sendWarningsTo(std::function<void(const std::string&)> receive
       });
 }
 
+std::string ofSensor(const std::string& sensorLabel)
+{
+  return sensorLabel.empty() ? "" : " of a sensor \"" + sensorLabel + "\"";
+}
+
 std::string FrameSource::whyNoFrames(const std::string& sensorLabel) const
 {
-  std::string text = "no usable RGB-D images";
-  if (!sensorLabel.empty()) text += " of a sensor \"" + sensorLabel + "\"";
-  text += "; it has " + contentSummary();
+  std::string text =
+      "no usable RGB-D images" + ofSensor(sensorLabel) + "; it has " + contentSummary();
   const auto& leftOut = problems();
   if (!leftOut.empty())
     text += "; left out: " + std::to_string(leftOut.size()) + ", the first being " +

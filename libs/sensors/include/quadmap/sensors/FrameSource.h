@@ -24,6 +24,9 @@ struct InputProblem
   std::string text() const;  //!< "file: record 12 (camera): what"
 };
 
+/** For messages about the images of one sensor: " of a sensor \"front\"", or "" for any. */
+std::string ofSensor(const std::string& sensorLabel);
+
 /** What gives the RGB-D frames of a run one by one: a recording, or a camera. */
 class FrameSource : public mrpt::system::COutputLogger
 {
