@@ -145,6 +145,9 @@ TEST_F(ResultTorture, TrueObjects)
   std::string zeros = "[0";
   while (zeros.size() < (40u << 20)) zeros += ",0";
   cases.push_back({"20 million numbers", zeros + "]", true});
+  std::string things = "{\"format\":\"quadmap-objects\",\"version\":1,\"objects\":[{}";
+  for (int i = 0; i < 500000; ++i) things += ",{}";
+  cases.push_back({"half a million empty objects", things + "]}", true});
   std::vector<ObjectRecord> many(20000);
   for (std::size_t i = 0; i < many.size(); ++i)
   {

@@ -1,11 +1,11 @@
 #include "quadmap/base/Json.h"
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputSet.h"
@@ -14,33 +14,64 @@ namespace quadmap
 {
 namespace
 {
-/** Counts what a file holds while it is read. Each value takes more memory than its text: 100 MB of
- * brackets would take 10 GB. Each key of an object is compared with all before it, as these keep
- * their order: 200,000 keys would take minutes. */
-class TreeLimit
+/** Counts what a file holds, before a tree is made of it. Each value takes more memory than its
+ * text: 100 MB of brackets would take 10 GB. Each key of an object is compared with all before it,
+ * as these keep their order: 200,000 keys would take minutes. */
+class TreeLimit : public nlohmann::json_sax<Json>
 {
  public:
-  /** \param keyBytes Of the key, when one was read. */
-  void count(int depth, Json::parse_event_t event, std::size_t keyBytes)
+  bool null() override { return countValue(); }
+  bool boolean(bool) override { return countValue(); }
+  bool number_integer(number_integer_t) override { return countValue(); }
+  bool number_unsigned(number_unsigned_t) override { return countValue(); }
+  bool number_float(number_float_t, const string_t&) override { return countValue(); }
+  bool string(string_t&) override { return countValue(); }
+  bool binary(binary_t&) override { return countValue(); }
+
+  bool start_object(std::size_t) override { return begin(); }
+  bool start_array(std::size_t) override { return begin(); }
+  bool end_object() override { return end(); }
+  bool end_array() override { return end(); }
+
+  bool key(string_t& text) override
   {
-    constexpr std::size_t kMostValues = 8'000'000;         // 20,000 keyframes with 40 boxes each
     constexpr std::size_t kMostComparisons = 200'000'000;  // 20,000 short keys of one object
-    if (depth > kDeepest) throw std::runtime_error("is nested too deeply");
-    auto& keys = keys_[static_cast<std::size_t>(depth)];
-    if (event == Json::parse_event_t::object_end) keys_[static_cast<std::size_t>(depth) + 1] = 0;
-    if (event == Json::parse_event_t::key &&
-        (comparisons_ += keys++ * (1 + keyBytes / 64)) > kMostComparisons)
+    comparisons_ += keys_.back()++ * (1 + text.size() / 64);
+    if (comparisons_ > kMostComparisons)
       throw std::runtime_error("has too many keys in its objects");
-    const bool isBegin = event == Json::parse_event_t::value ||
-                         event == Json::parse_event_t::object_start ||
-                         event == Json::parse_event_t::array_start;
-    if (isBegin && ++values_ > kMostValues) throw std::runtime_error("holds too many values");
+    return true;
+  }
+
+  /** Ends the counting. The parser finds the same error, and says where it is. */
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override
+  {
+    return false;
   }
 
  private:
-  static constexpr int kDeepest = 64;
+  bool countValue()
+  {
+    constexpr std::size_t kMostValues = 8'000'000;  // 20,000 keyframes with 40 boxes each
+    if (++values_ > kMostValues) throw std::runtime_error("holds too many values");
+    return true;
+  }
+
+  bool begin()
+  {
+    constexpr std::size_t kDeepest = 64;
+    if (keys_.size() >= kDeepest) throw std::runtime_error("is nested too deeply");
+    keys_.push_back(0);
+    return countValue();
+  }
+
+  bool end()
+  {
+    keys_.pop_back();
+    return true;
+  }
+
   std::size_t values_ = 0, comparisons_ = 0;
-  std::array<std::size_t, kDeepest + 2> keys_{};  // of the open object at each depth, so far
+  std::vector<std::size_t> keys_;  // of each open object or array, so far
 };
 }  // namespace
 
@@ -50,16 +81,14 @@ Json readJson(const std::string& path)
   requireNoDevice(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
-  TreeLimit limit;
-  const auto count = [&limit](int depth, Json::parse_event_t event, const Json& parsed)
-  {
-    const std::string* key = parsed.get_ptr<const std::string*>();
-    limit.count(depth, event, key ? key->size() : 0);
-    return true;
-  };
   try
   {
-    return Json::parse(file, count);
+    // A parser that counts as it builds walks through the whole list after each of its objects.
+    TreeLimit limit;
+    Json::sax_parse(file, &limit);
+    file.clear();
+    file.seekg(0);
+    return Json::parse(file);
   }
   catch (const std::exception& e)
   {
