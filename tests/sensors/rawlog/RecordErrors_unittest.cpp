@@ -105,7 +105,11 @@ TEST(RawlogErrors, ScansNobodyCanUse)
   expect("has no time stamp", [](Scan& s) { s.timestamp = INVALID_TIMESTAMP; });
   const std::string back = "time goes backwards: ";
   expect(back + "0.500000 s", [](Scan& s) { s.timestamp = stamp(kStart - 0.5); });
-  expect(back + "0.000000 s", [](Scan& s) { s.timestamp = stamp(kStart); });
+  expect("has the time of the scan before", [](Scan& s) { s.timestamp = stamp(kStart); });
+  for (const auto ticks : {mrpt::Clock::rep{1} << 62, std::numeric_limits<mrpt::Clock::rep>::max()})
+    expect(
+        "its time stamp is absurd",
+        [&](Scan& s) { s.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(ticks)); });
 }
 
 TEST(RawlogErrors, PosesNobodyCanUse)

@@ -4,10 +4,12 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "InputError.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/RgbdScan.h"
 #include "rawlog/RawlogSourceImpl.h"
 
@@ -107,8 +109,11 @@ std::vector<StrayRecord> RawlogSource::Impl::addScan(
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();
+  if (!(std::abs(time) <= kLatestTime)) throw std::runtime_error("its time stamp is absurd");
   RecordClock& clock = clocks_[scan->sensorLabel];
-  if (const double last = clock.lastBefore(time); time <= last)
+  const double last = clock.lastBefore(time);
+  if (time == last) throw std::runtime_error("has the time of the scan before");
+  if (time < last)
     throw std::runtime_error(
         mrpt::format("time goes backwards: %.6f s before the scan before", last - time));
   auto strays = clock.advance(time, record);
