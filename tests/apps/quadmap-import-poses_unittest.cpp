@@ -80,6 +80,15 @@ TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
   EXPECT_NE(result.err.find("start.tum"), kNotFound) << result.err;
 }
 
+TEST_F(QuadmapImport, RefusesATrajectoryOfAnotherTime)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  recording_.files.write("other.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  const std::string command = "rawlog OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/other.tum";
+  expectImportFailure(run(command), "other.tum: has no pose at the time of any frame of ");
+  EXPECT_EQ(run(command + " --keep-going").status, 0);
+}
+
 TEST_F(QuadmapImport, TakesTheOdometryThatCoversTheFramesOfARawlog)
 {
   std::vector<mrpt::serialization::CSerializable::Ptr> records;
