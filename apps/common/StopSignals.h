@@ -49,7 +49,8 @@ inline void receiveStopSignals(sigset_t signals)
   }
 }
 
-/** To be called before any other thread starts: they inherit which signals they do not receive. */
+/** To be called before any other thread starts: they inherit which signals they do not receive. A
+ * limit on the size of files makes their writing fail, as a full disk does. */
 inline void watchStopSignals()
 {
   sigset_t signals;
@@ -60,6 +61,7 @@ inline void watchStopSignals()
   ::sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);  // ignored under nohup
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);
   std::thread(receiveStopSignals, signals).detach();
 }
 

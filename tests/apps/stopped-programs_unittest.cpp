@@ -10,6 +10,7 @@
 
 #include "../detection/TinyDetector.h"
 #include "../folders/SampleRecording.h"
+#include "../obs/FileSizeLimit.h"
 #include "RunProgram.h"
 
 extern char** environ;
@@ -152,6 +153,17 @@ TEST_F(StoppedPrograms, ASimulationThatASignalEndsChangesNothing)
     EXPECT_EQ(program.wait(), 128 + signal);
     EXPECT_EQ(folder_.fileCount(), 0u) << signal;
   }
+}
+
+TEST_F(StoppedPrograms, AFileThatMayNotGrowIsLikeAFullDisk)
+{
+  const FileSizeLimit limit(20000);
+  std::signal(SIGXFSZ, SIG_DFL);  // as programs find it, which ends them
+  const auto program =
+      start("quadmap-simulate", {"home", "--frames", "5", "-o", folder_.path("x.rawlog")});
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_NE(log().find(folder_.path("x.rawlog")), std::string::npos) << log();
+  EXPECT_EQ(folder_.fileCount(), 0u);
 }
 
 TEST_F(StoppedPrograms, AnImportThatASignalEndsChangesNothing)
