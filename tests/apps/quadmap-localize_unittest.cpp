@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "../sensors/StopAfter.h"
 #include "MappedRoom.h"
 #include "OdometryRecords.h"
 #include "quadmap/maps/MapFile.h"
@@ -109,8 +110,7 @@ TEST_F(Localize, StopsWhenAskedToAndKeepsWhatWasDone)
   request.rawlog = path("second.rawlog");
   request.mapFile = path("first");
   request.map = std::make_shared<CQuadricObjectMap>(readMap(request.mapFile));
-  int asked = 0;
-  request.shouldStop = [&] { return ++asked > 20; };
+  stopAfter(request, 20);
   const LocalizationResult result = localiseInMap(request);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.frames, 20u);
@@ -127,8 +127,7 @@ TEST_F(Localize, AnInterruptedRunNeedNotHaveFoundTheRobot)
     request.rawlog = path("second.rawlog");
     request.mapFile = path("first");
     request.map = std::make_shared<CQuadricObjectMap>(readMap(request.mapFile));
-    int asked = 0;
-    request.shouldStop = [&] { return ++asked > frames; };
+    stopAfter(request, frames);
     LocalizationResult result;
     request.configuration.localization.localisedSigma = 1e-5;
     ASSERT_NO_THROW(result = localiseInMap(request)) << frames;

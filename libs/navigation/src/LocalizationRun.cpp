@@ -28,6 +28,7 @@ RawlogSourceOptions sourceOptions(const LocalizationRequest& request)
   options.keepGoing = request.keepGoing;
   options.pixelLabelClasses = request.map->labels();
   options.minLabelPixels = request.configuration.perception.minLabelPixels;
+  options.shouldStop = request.shouldStop;
   return options;
 }
 
@@ -100,7 +101,11 @@ class LocalizationRun
       const auto frame = source_.next();
       request_.onProgress(
           source_.progress(), filter_ ? filter_->estimate() : LocalizationEstimate());
-      if (!frame) break;
+      if (!frame)
+      {
+        result_.interrupted = request_.shouldStop();
+        break;
+      }
       add(*frame);
     }
     for (const auto& problem : source_.problems()) result_.dropped.push_back(problem.text());

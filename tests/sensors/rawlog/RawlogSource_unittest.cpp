@@ -456,3 +456,17 @@ TEST(RawlogSource, ReadsTheRawlogsOfMrpt)
   expectNoRgbd(
       "kf-slam_6D_demo.rawlog", "600 CActionCollection, 600 CObservationBearingRange", "3D");
 }
+
+TEST(RawlogSource, CanBeStoppedWhereNoImagesAre)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 100; ++i) records.push_back(samplePose(kStart + 0.1 * i, {}));
+  records.push_back(sampleScan(kStart + 5));
+  int asked = 0;
+  RawlogSourceOptions options;
+  options.shouldStop = [&] { return ++asked > 10; };
+  RawlogSource source(writeObjects(folder.path("x.rawlog"), records), options);
+  EXPECT_FALSE(source.next());
+  EXPECT_EQ(source.recordsRead(), 10u);
+}

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "../../sensors/SampleRawlog.h"
+#include "../../sensors/StopAfter.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/slam/RawlogRun.h"
 
@@ -25,7 +26,7 @@ class PoseGraphOptimised : public ::testing::TestWithParam<PoseSource>
     request.rawlog = QUADMAP_SOURCE_DIR "/rawlogs/home.rawlog";
     request.outputDirectory = folder_.path("out");
     request.configuration.slam.odometry = GetParam();
-    request.shouldStop = [asked = 0]() mutable { return ++asked > kFrames; };
+    stopAfter(request, kFrames);
     runOnRawlog(request);
     trajectory_ = readTumTrajectory(folder_.path("out/trajectory.tum"));
     odometry_ = readTumTrajectory(folder_.path("out/trajectory_odometry.tum"));

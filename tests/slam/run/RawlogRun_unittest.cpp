@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "../../sensors/StopAfter.h"
 #include "../SyntheticRoom.h"
 #include "quadmap/geometry/Overlap.h"
 #include "quadmap/obs/Trajectory.h"
@@ -201,8 +202,7 @@ TEST_F(RawlogRun, SameInputGivesTheSameBytes)
 TEST_F(RawlogRun, InterruptedRunLeavesValidFilesOfWhatWasDone)
 {
   auto request = requestFor(recording());
-  int asked = 0;
-  request.shouldStop = [&] { return ++asked > 4; };
+  stopAfter(request, 4);
   const auto summary = runOnRawlog(request);
   EXPECT_TRUE(summary.interrupted);
   EXPECT_EQ(report()["input"]["interrupted"], true);

@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "../../sensors/StopAfter.h"
 #include "../SeveralCameras.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/slam/RawlogRun.h"
@@ -63,7 +64,7 @@ class SlamThreads : public ::testing::Test
   RawlogRunRequest bundled(int threads, int frames) const
   {
     auto request = requestFor(QUADMAP_SOURCE_DIR "/rawlogs/home.rawlog", threads);
-    request.shouldStop = [asked = 0, frames]() mutable { return ++asked > frames; };
+    stopAfter(request, frames);
     return request;
   }
 

@@ -81,7 +81,7 @@ void RawlogSource::Impl::warnOnce(const std::string& text)
 
 std::optional<RgbdFrame> RawlogSource::Impl::next()
 {
-  while (true)
+  while (!options.shouldStop())
   {
     if (!pending_.empty() && (ended_ || isReady(pending_.front())))
     {
@@ -98,6 +98,7 @@ std::optional<RgbdFrame> RawlogSource::Impl::next()
     else
       ended_ = !readRecord();
   }
+  return std::nullopt;
 }
 
 /** Whether everything that can belong to the frame was read. The odometry in use and the sensor's

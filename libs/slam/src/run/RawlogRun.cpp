@@ -98,6 +98,7 @@ class RawlogRun
     options.maxBoxDelay = request.configuration.input.maxBoxDelay;
     options.maxOdometryGap = request.configuration.input.maxOdometryGap;
     options.imagesAnywhere = request.configuration.input.imagesAnywhere;
+    options.shouldStop = request.shouldStop;
     options.imagesHint = "imagesAnywhere = true in section [input]";
     options.limits.imagePixels =
         static_cast<std::uint64_t>(request.configuration.input.maxImageMegapixels) << 20;
@@ -144,7 +145,7 @@ class RawlogRun
       const auto frame = nextFrame();
       request_.onProgress(
           {source_->progress(), slam_.result().counts().keyframes, slam_.objectsByLabel()});
-      if (!frame) return false;
+      if (!frame) return request_.shouldStop();
       slam_.addFrame(*frame);
     }
     return true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ struct RawlogSourceOptions
   RecordLimits limits;          //!< What a record may ask for
   bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
   std::string imagesHint;       //!< How a user sets imagesAnywhere, for messages; empty: not at all
+  /** Asked before every record, as a file may have no image for long. Then no frame comes. */
+  std::function<bool()> shouldStop = [] { return false; };
 };
 
 /** Reads the RGB-D frames of a rawlog one by one, and pairs them with boxes and poses. It reads
