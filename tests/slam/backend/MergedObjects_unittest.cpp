@@ -36,3 +36,19 @@ TEST(MergedObjects, ViewsAndPlacesGoToTheHeir)
     EXPECT_EQ(cameras.at(kept).size(), 3u);
   }
 }
+
+TEST(MergedObjects, BoxesOfEarlierKeyframesGoToTheHeir)
+{
+  CQuadricObjectMap map = smallMap();
+  const ObjectId kept = map.objects().begin()->first, absorbed = map.objects().rbegin()->first;
+  std::vector<BoxDecision> decisions(4);
+  decisions[0].decision.object = kept;
+  decisions[1].decision.object = absorbed;
+  decisions[3].decision.object = absorbed + 1;
+  map.merge(kept, absorbed);
+  followMerged(map, decisions);
+  EXPECT_EQ(decisions[0].decision.object, kept);
+  EXPECT_EQ(decisions[1].decision.object, kept);
+  EXPECT_FALSE(decisions[2].decision.object);
+  EXPECT_EQ(decisions[3].decision.object, absorbed + 1);
+}

@@ -2,6 +2,7 @@
 
 #include "GivenPoses.h"
 #include "JointBackEnd.h"
+#include "MergedObjects.h"
 #include "PointBackEnd.h"
 #include "QuadricBackEnd.h"
 
@@ -17,6 +18,13 @@ void BackEnd::insertIntoMap(
   result.map.insertObservation(boxes, UncertainPose(T_map_robot, poseError));
   for (const auto& decision : result.map.lastDecisions())
     result.decisions.push_back({static_cast<std::uint32_t>(keyframe), decision});
+  followMerged(result.map, result.decisions);
+}
+
+void BackEnd::consolidateMap(SlamResult& result)
+{
+  result.map.consolidate();
+  followMerged(result.map, result.decisions);
 }
 
 void BackEnd::rebuildMap(const BoxesOf& boxesOf, SlamResult& result)
@@ -26,7 +34,7 @@ void BackEnd::rebuildMap(const BoxesOf& boxesOf, SlamResult& result)
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
     if (const auto boxes = boxesOf(k))
       insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
-  result.map.consolidate();
+  consolidateMap(result);
 }
 
 void BackEnd::correctWith(const KnownObjects&, const BoxesOf& boxesOf, SlamResult& result)

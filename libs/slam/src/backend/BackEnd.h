@@ -59,6 +59,9 @@ class BackEnd
       SlamResult& result,
       const PoseNoise& poseError = {0, 0});
 
+  /** Consolidates the map of `result`, which may merge objects: the decisions follow. */
+  static void consolidateMap(SlamResult& result);
+
  protected:
   /** Makes map and decisions anew, at the poses of the keyframes. */
   static void rebuildMap(const BoxesOf& boxesOf, SlamResult& result);

@@ -14,6 +14,6 @@ CPose3D GivenPoses::addKeyframe(
   return T_odom_robot;
 }
 
-void GivenPoses::finish(const BoxesOf&, SlamResult& result) { result.map.consolidate(); }
+void GivenPoses::finish(const BoxesOf&, SlamResult& result) { consolidateMap(result); }
 
 }  // namespace quadmap

@@ -237,7 +237,7 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
 {
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
     result.keyframes[k].T_map_robot = graph_.pose(k);
-  result.map.consolidate();
+  consolidateMap(result);
   estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, result);
 }
 

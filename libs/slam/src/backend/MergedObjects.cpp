@@ -21,4 +21,13 @@ void followMerged(const CQuadricObjectMap& map, FactorGraph& graph, CamerasOf& c
   }
 }
 
+void followMerged(const CQuadricObjectMap& map, std::vector<BoxDecision>& decisions)
+{
+  const auto& heirs = map.heirs();
+  if (heirs.empty()) return;
+  for (BoxDecision& box : decisions)
+    if (auto& object = box.decision.object; object)
+      if (const auto heir = heirs.find(*object); heir != heirs.end()) object = heir->second;
+}
+
 }  // namespace quadmap

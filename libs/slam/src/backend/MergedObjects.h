@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <deque>
 #include <map>
+#include <vector>
 
 #include "quadmap/graph/FactorGraph.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
+#include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
 {
@@ -15,5 +17,8 @@ using CamerasOf = std::map<ObjectId, std::deque<Eigen::Vector3d>>;
 /** Gives the views of the objects that the map merged with its last observation to the objects that
  * have their measurements now. */
 void followMerged(const CQuadricObjectMap& map, FactorGraph& graph, CamerasOf& cameras);
+
+/** Gives them the boxes that were decided for the merged ones as well. */
+void followMerged(const CQuadricObjectMap& map, std::vector<BoxDecision>& decisions);
 
 }  // namespace quadmap

@@ -225,7 +225,7 @@ void continueMap(
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
     if (const auto boxes = boxesOf(k))
       BackEnd::insertIntoMap(*boxes, k, result.keyframes[k].T_map_robot, result);
-  result.map.consolidate();
+  BackEnd::consolidateMap(result);
   const auto heirs = heirsOf(before, result.decisions);
   result.edges = renamed(result.edges, heirs);
   claimTogether(given, own, heirs, result.map);
