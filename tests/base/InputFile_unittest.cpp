@@ -47,5 +47,6 @@ TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)
   ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
   for (std::size_t i = 0; i < readers.size(); ++i)
     for (const std::string& path : {pipe, std::string("/dev/zero")})
-      EXPECT_EQ(errorOf([&] { readers[i](path); }), path + ": is a pipe or a device, not a file") << i;
+      EXPECT_EQ(errorOf([&] { readers[i](path); }), path + ": is a pipe or a device, not a file")
+          << i;
 }

@@ -111,5 +111,6 @@ TEST(ObjectView, ASeedErrsByThePoseAsWell)
   }
   const Eigen::Matrix3d claimed = viewOf(d, {}, plant, drift)->centerCovariance -
                                   viewOf(d, {}, plant, {0, 0})->centerCovariance;
+  // The samples scatter by about 1 %.
   EXPECT_LT((claimed - sampled).norm(), 0.03 * sampled.norm()) << claimed << "\n\n" << sampled;
 }

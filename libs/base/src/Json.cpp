@@ -43,7 +43,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
   }
 
   /** Ends the counting. The parser finds the same error, and says where it is. */
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override
   {
     return false;
   }
@@ -83,7 +83,8 @@ Json readJson(const std::string& path)
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
   try
   {
-    // A parser that counts as it builds walks through the whole list after each of its objects.
+    // Counted apart: with a callback, the parser walks through the whole enclosing list each time
+    // an object in it ends.
     TreeLimit limit;
     Json::sax_parse(file, &limit);
     file.clear();
