@@ -167,7 +167,9 @@ FolderImportReport importRawlog(
   {
     progress(source.progress());
     if (seen[frame->scan->sensorLabel]++ % options.every != 0) continue;
-    writeFrame(*frame, odometryOf(*frame, trajectory), options, writer, report);
+    const auto odometry = odometryOf(*frame, trajectory);
+    if (trajectory && odometry) ++report.posesOfTrajectory;
+    writeFrame(*frame, odometry, options, writer, report);
   }
   progress(1.0);
   report.hasOdometry = !source.odometryKind().empty();
