@@ -119,6 +119,19 @@ TEST_F(Localize, StopsWhenAskedToAndKeepsWhatWasDone)
   EXPECT_EQ(report["updates"].size(), result.updates.size());
 }
 
+TEST_F(Localize, StopsBetweenImagesAsWell)
+{
+  for (int record = 1; record <= 6; ++record)
+  {
+    LocalizationRequest request;
+    request.rawlog = path("second.rawlog");
+    request.mapFile = path("first");
+    request.map = std::make_shared<CQuadricObjectMap>(readMap(request.mapFile));
+    stopOnceAfter(request, 5, record);
+    EXPECT_TRUE(localiseInMap(request).interrupted) << record;
+  }
+}
+
 TEST_F(Localize, AnInterruptedRunNeedNotHaveFoundTheRobot)
 {
   for (const int frames : {0, 1})

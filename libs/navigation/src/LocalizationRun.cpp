@@ -103,7 +103,7 @@ class LocalizationRun
           source_.progress(), filter_ ? filter_->estimate() : LocalizationEstimate());
       if (!frame)
       {
-        result_.interrupted = request_.shouldStop();
+        result_.interrupted = source_.wasStopped();
         break;
       }
       add(*frame);

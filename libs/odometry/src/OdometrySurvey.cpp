@@ -143,6 +143,7 @@ OdometrySurvey surveyOdometry(
     // The run meets the same error and reports it; what else there is does not matter then.
     if (endsAtProblems && !source.problems().empty()) return survey;
     if (usesOdometry) survey.odometryKind = bestKind(source.odometryKinds(), rawlog, options);
+    if (options.shouldStop()) return survey;  // it may know a part only; the run ends at once
     hasOdometry = hasOdometry || !survey.odometryKind.empty();
     if (wanted == PoseSource::Rawlog || hasOdometry) return survey;
     if (wanted == PoseSource::Auto && moment.isPossible()) return survey;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "../../sensors/SampleRawlog.h"
 #include "../../sensors/StopAfter.h"
 #include "../SyntheticRoom.h"
 #include "quadmap/geometry/Overlap.h"
@@ -210,6 +211,29 @@ TEST_F(RawlogRun, InterruptedRunLeavesValidFilesOfWhatWasDone)
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile(output("map.simplemap")));
   EXPECT_EQ(map.size(), 4u);
+}
+
+TEST_F(RawlogRun, IsInterruptedBetweenImagesAsWell)
+{
+  for (int record = 1; record <= 6; ++record)
+  {
+    auto request = requestFor(recording());
+    stopOnceAfter(request, 4, record);
+    EXPECT_TRUE(runOnRawlog(request).interrupted) << record;
+    std::filesystem::remove_all(request.outputDirectory);
+  }
+}
+
+TEST_F(RawlogRun, IsInterruptedWhereNoImagesAre)
+{
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 100; ++i) records.push_back(samplePose(kStart + 0.1 * i, {}));
+  records.push_back(sampleScan(kStart + 5));
+  auto request = requestFor(writeObjects(folder_.path("x.rawlog"), records));
+  int asked = 0;
+  request.shouldStop = [&] { return ++asked > 10; };
+  expectFailure(request, "interrupted before the first image");
+  EXPECT_LT(asked, 20);
 }
 
 TEST_F(RawlogRun, ProgressGrowsToOne)

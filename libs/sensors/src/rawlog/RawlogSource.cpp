@@ -81,7 +81,7 @@ void RawlogSource::Impl::warnOnce(const std::string& text)
 
 std::optional<RgbdFrame> RawlogSource::Impl::next()
 {
-  while (!options.shouldStop())
+  while (!stopped && !(stopped = options.shouldStop()))
   {
     if (!pending_.empty() && (ended_ || isReady(pending_.front())))
     {
@@ -251,6 +251,8 @@ RawlogSource::RawlogSource(std::string file, RawlogSourceOptions options) :
 }
 
 RawlogSource::~RawlogSource() = default;
+
+bool RawlogSource::wasStopped() const { return impl_->stopped; }
 
 std::optional<RgbdFrame> RawlogSource::read() { return impl_->next(); }
 

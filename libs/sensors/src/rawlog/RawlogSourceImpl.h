@@ -40,6 +40,7 @@ struct RawlogSource::Impl
   RawlogSourceOptions options;
   ImageRules imageRules;
   std::vector<InputProblem> problems;
+  bool stopped = false;  // by options.shouldStop()
   std::size_t framesRead = 0;
   bool sawPixelLabels = false;
   BoxBuffer boxes;

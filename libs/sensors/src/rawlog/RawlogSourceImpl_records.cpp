@@ -109,7 +109,8 @@ std::vector<StrayRecord> RawlogSource::Impl::addScan(
   pending.frame.record = record;
   pending.frame.scan = scan;
   const double time = pending.frame.time();
-  if (!(std::abs(time) <= kLatestTime)) throw std::runtime_error("its time stamp is absurd");
+  if (!(std::abs(time) <= kLatestTime))
+    throw std::runtime_error(mrpt::format("has the time %g s, which is absurd", time));
   RecordClock& clock = clocks_[scan->sensorLabel];
   const double last = clock.lastBefore(time);
   if (time == last) throw std::runtime_error("has the time of the scan before");

@@ -145,7 +145,7 @@ class RawlogRun
       const auto frame = nextFrame();
       request_.onProgress(
           {source_->progress(), slam_.result().counts().keyframes, slam_.objectsByLabel()});
-      if (!frame) return request_.shouldStop();
+      if (!frame) return source_->wasStopped();
       slam_.addFrame(*frame);
     }
     return true;

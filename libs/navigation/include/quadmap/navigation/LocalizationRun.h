@@ -31,7 +31,7 @@ struct LocalizationRequest
   /** Receives the share of the input that was read, in [0, 1], and the latest estimate. */
   std::function<void(double, const LocalizationEstimate&)> onProgress =
       [](double, const LocalizationEstimate&) {};
-  std::function<bool()> shouldStop = [] { return false; };  //!< Asked before every record
+  std::function<bool()> shouldStop = [] { return false; };  //!< Asked often, by copies
 };
 
 /** The filter after one frame. */

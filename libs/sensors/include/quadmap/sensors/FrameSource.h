@@ -33,7 +33,7 @@ class FrameSource : public mrpt::system::COutputLogger
  public:
   using COutputLogger::COutputLogger;
 
-  /** The next frame in the order of the source, or nothing at its end.
+  /** The next frame in the order of the source, or nothing at its end, or when it was stopped.
    *  \exception std::runtime_error For a frame that cannot be used. */
   std::optional<RgbdFrame> next();
 
@@ -57,6 +57,9 @@ class FrameSource : public mrpt::system::COutputLogger
   /** What to tell the user when no frame came.
    *  \param sensorLabel Of the only sensor that was wanted; may be empty. */
   std::string whyNoFrames(const std::string& sensorLabel = {}) const;
+
+  /** Somebody stopped it, so that no frame comes although there may be more. */
+  virtual bool wasStopped() const { return false; }
 
   /** Why the source ended before its time, such as a camera that was unplugged; nothing when it
    * did not. The frames before are good. */

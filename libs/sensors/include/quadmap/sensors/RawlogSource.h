@@ -33,7 +33,8 @@ struct RawlogSourceOptions
   RecordLimits limits;          //!< What a record may ask for
   bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
   std::string imagesHint;       //!< How a user sets imagesAnywhere, for messages; empty: not at all
-  /** Asked before every record, as a file may have no image for long. Then no frame comes. */
+  /** Asked before every record, as a file may have no images for long. When it returns true, the
+   *  source is stopped: next() gives no frame from then on. */
   std::function<bool()> shouldStop = [] { return false; };
 };
 
@@ -67,6 +68,7 @@ class RawlogSource : public FrameSource
   std::string odometryKind() const override;       //!< "CObservationOdometry wheels"; at first ""
   std::vector<std::string> odometryKinds() const;  //!< All kinds so far, used or not
   std::string contentSummary() const override;
+  bool wasStopped() const override;
 
  private:
   std::optional<RgbdFrame> read() override;

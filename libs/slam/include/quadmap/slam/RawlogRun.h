@@ -46,7 +46,7 @@ struct RawlogRunRequest
   std::function<void(mrpt::system::VerbosityLevel, const std::string&)> onMessage =
       [](mrpt::system::VerbosityLevel, const std::string&) {};
   std::function<void(const RunProgress&)> onProgress = [](const RunProgress&) {};
-  std::function<bool()> shouldStop = [] { return false; };  //!< Asked before every record
+  std::function<bool()> shouldStop = [] { return false; };  //!< Asked often, by copies
   std::function<void()> onClosing = [] {};  //!< The result is computed, and is written next
 
   /** Writes more files of the same result. They appear together with the others. */
