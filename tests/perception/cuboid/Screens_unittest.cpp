@@ -131,6 +131,36 @@ TEST(Screens, EndWhereTheBoxDoesWhenDepthShowsAPartOfTheFrontOnly)
   EXPECT_EQ(measured, 1) << "the front; its sides are told by the edges of the box";
 }
 
+TEST(Screens, AreBroadInFrontAlsoWhenTheirSideIsTurnedToTheCamera)
+{
+  constexpr double kTurn = 62 * M_PI / 180, kShown = 0.25, kDark = 0.55;  // [rad], widths [m]
+  const Eigen::Vector2d out(std::cos(kTurn), std::sin(kTurn)), along(-out.y(), out.x());
+  for (const double thick : {0.04, 0.08})
+  {
+    SyntheticFrame frame(1.3, 0.0);
+    frame.noise = 0.0012;
+    const auto add = [&](double middle, double width)
+    {
+      const Eigen::Vector2d at = Eigen::Vector2d(1.8, 0.0) + middle * along;
+      frame.add(at.x(), at.y(), 1.1, kTurn, {thick, width, 0.48});
+    };
+    frame.add(5.0, 0.0, 0.0, 0.0, {0.1, 8.0, 2.6});
+    add(-0.5 * kDark, kShown);
+    add(0.5 * kShown, kDark);
+    frame.boxes.back().hasDepth = false;
+    const Seen seen = look(frame, frame.scan(), boxOf(frame, 0));
+    EXPECT_EQ(seen.measurement.reason, "screen on its front");
+    ASSERT_TRUE(seen.measurement.complete);
+    const auto& cuboid = *seen.measurement.complete;
+    const Eigen::Matrix3d R = cuboid.object_sensor.transformed(frame.T_world_sensor).rotation();
+    for (std::size_t f = 0; f < 4; ++f)
+    {
+      if (cuboid.faces[f].kind != FaceKind::Measured) continue;
+      EXPECT_GT(std::abs(R.col(static_cast<Eigen::Index>(f / 2)).head<2>().dot(out)), 0.97) << f;
+    }
+  }
+}
+
 TEST(Screens, WhatErrsMostIsNotWhereTheFrontIs)
 {
   // A front is where most of its points are, also when they scatter twice as much as expected.

@@ -10,16 +10,15 @@ namespace quadmap
 {
 namespace
 {
-/** The side of a cuboid that faces the camera most, when it was seen; sides are +x, -x, +y, -y. */
+/** The side of a cuboid that covers most of the image, when it was seen; sides are +x, -x, +y, -y.
+ * Of a screen it is the front, also when the thin side is turned towards the camera more. */
 std::optional<std::size_t> seenFront(const CompleteMeasurement& cuboid)
 {
-  const Eigen::Matrix3d R = cuboid.object_sensor.rotation();
   const Eigen::Vector3d ray = cuboid.object_sensor.center().normalized();
-  const auto towards = [&](std::size_t side)
-  { return (side % 2 == 0 ? -1.0 : 1.0) * ray.dot(R.col(static_cast<Eigen::Index>(side / 2))); };
-  std::size_t front = 0;
-  for (std::size_t side = 1; side < 4; ++side)
-    if (towards(side) > towards(front)) front = side;
+  const Eigen::Vector3d away = cuboid.object_sensor.rotation().transpose() * ray;
+  const Eigen::Vector3d size = cuboid.object_sensor.semiAxes();
+  const bool isY = std::abs(away.y()) * size.x() > std::abs(away.x()) * size.y();
+  const std::size_t front = isY ? (away.y() < 0 ? 2 : 3) : (away.x() < 0 ? 0 : 1);
   if (!cuboid.yawDefined || cuboid.faces[front].kind != FaceKind::Measured) return {};
   return front;
 }
