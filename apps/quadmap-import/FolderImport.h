@@ -30,7 +30,6 @@ struct FolderImportReport
   std::size_t frames = 0, poses = 0, boxes = 0;  //!< Numbers of what was written
   std::size_t withoutDetections = 0;             //!< Number of frames that the files of boxes lack
   std::string firstWithoutDetections;            //!< Where the boxes of the first of them should be
-  std::size_t posesOfTrajectory = 0;  //!< Frames at whose time a given trajectory has a pose
   bool hasOdometry = false;          //!< A rawlog has some, be it at the times of its images or not
   std::size_t copiedImages = 0;      //!< Number of colour images that were not encoded anew
   std::vector<std::string> dropped;  //!< One text for each that keepGoing left out

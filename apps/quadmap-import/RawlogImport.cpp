@@ -163,18 +163,22 @@ FolderImportReport importRawlog(
   FolderImportReport report;
   source.sendWarningsTo([&](const std::string& text) { report.notes.push_back(text); });
   std::map<std::string, std::size_t> seen;  // frames of each sensor
+  bool trajectoryFits = false;
   while (const auto frame = source.next())
   {
     progress(source.progress());
     if (seen[frame->scan->sensorLabel]++ % options.every != 0) continue;
     const auto odometry = odometryOf(*frame, trajectory);
-    if (trajectory && odometry) ++report.posesOfTrajectory;
+    trajectoryFits = trajectoryFits || (trajectory && odometry);
     writeFrame(*frame, odometry, options, writer, report);
   }
   progress(1.0);
   report.hasOdometry = !source.odometryKind().empty();
   for (const auto& problem : source.problems()) report.dropped.push_back(problem.text());
   if (report.frames == 0) throw std::runtime_error(rawlog + ": " + source.whyNoFrames());
+  if (trajectory && !trajectoryFits && !options.keepGoing)
+    throw std::runtime_error(
+        options.trajectory + ": has no pose at the time of any frame of " + rawlog);
   return report;
 }
 

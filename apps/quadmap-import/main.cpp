@@ -66,9 +66,6 @@ int importFromRawlog(ImportCli& cli)
   const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
   tellDropped(report);
   tellNotes(report.notes);
-  if (cli.trajectory.isSet() && report.posesOfTrajectory == 0 && !options.keepGoing)
-    throw std::runtime_error(
-        options.trajectory + ": has no pose at the time of any frame of " + rawlog);
   // A rawlog may have no poses at all, as a folder, but a trajectory is given for the sake of them.
   const bool hasPoses = report.poses > 0 || report.hasOdometry || cli.trajectory.isSet();
   if (options.posesAs != PosesAs::None && hasPoses)

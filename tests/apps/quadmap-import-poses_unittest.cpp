@@ -82,10 +82,13 @@ TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
 
 TEST_F(QuadmapImport, RefusesATrajectoryOfAnotherTime)
 {
-  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
   recording_.files.write("other.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
   const std::string command = "rawlog OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/other.tum";
-  expectImportFailure(run(command), "other.tum: has no pose at the time of any frame of ");
+  const std::string what = "other.tum: has no pose at the time of any frame of ";
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);
+  expectImportFailure(run(command + " --poses-as ground-truth"), what);
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  expectImportFailure(run(command), what);
   const auto kept = run(command + " --keep-going");
   EXPECT_EQ(kept.status, 0);
   EXPECT_NE(kept.err.find("6 of 6 frames have no pose in "), kNotFound) << kept.err;
