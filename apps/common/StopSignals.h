@@ -9,8 +9,7 @@
 #include "quadmap/base/Temporary.h"
 
 /** What Ctrl-C, SIGTERM and the end of the terminal do. A thread of its own receives these signals,
- * so that what they do may take locks and remove files. A limit on the size of files ends no
- * program. */
+ * so that what they do may take locks and remove files. */
 namespace quadmap::cli
 {
 enum class OnStop
