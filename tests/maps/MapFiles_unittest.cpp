@@ -124,6 +124,30 @@ TEST(MapFiles, AnAbsurdObjectIsNotRead)
   EXPECT_NE(refused(CPose3D(), 1e300).find("has a size that is"), std::string::npos);
 }
 
+TEST(MapFiles, AnObjectThatItsMeasurementsContradictIsNotRead)
+{
+  const TemporaryFolder folder;
+  CQuadricObjectMap map = smallMap();
+  const MapObject& object = *map.confirmedObjects().at(0);
+  const UprightState x = uprightStateOf(object.object);
+  const auto as8 = [](const double& number)
+  { return std::string(reinterpret_cast<const char*>(&number), sizeof number); };
+  const auto errorWith = [&](std::size_t after, double before, double edited)
+  {
+    std::string bytes = archiveOf(map);
+    const auto at = bytes.find(as8(before), after);
+    if (at == std::string::npos) return std::string("has no such number");
+    bytes.replace(at, sizeof edited, as8(edited));
+    return errorOf([&] { map.loadFromFile(folder.write("a.quadmap", gzipped(bytes))); });
+  };
+  const std::size_t begin = archiveOf(map).find(as8(x[0]));
+  EXPECT_NE(
+      errorWith(begin, x[2], 424).find(" m away from where its measurements have it"),
+      std::string::npos);
+  EXPECT_NE(errorWith(begin, x[4], -13).find("another size than its"), std::string::npos);
+  EXPECT_EQ(errorWith(begin, x[2], x[2] + 0.5), "") << "as good as a correction by hand";
+}
+
 TEST(MapFiles, OptionsThatMrptWouldRunAreNotRead)
 {
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 #include "../geometry/Algebra.h"
 #include "EstimatorFixture.h"
 #include "quadmap/estimation/ViewResiduals.h"
+#include "quadmap/obs/Plausible.h"
 
 using namespace quadmap;
 using namespace quadmap::testing;
@@ -229,6 +230,21 @@ TEST(MedianState, LeavesOutTheDepthsOfOtherThings)
   EXPECT_NEAR((*state)[0], 6, 1e-9);
   views.resize(3);
   EXPECT_NEAR((*medianState(views, boxy("suitcase")))[0], 4, 1e-9) << "when there are no others";
+}
+
+TEST(ObjectEstimator, NeverLeavesWhatAFileMayHold)
+{
+  // A damaged file may tell of any size. Estimated again and again, the object comes near it.
+  for (const double absurd : {1e-12, 1e12})
+  {
+    UprightState told = uprightStateOf(kCabinet.object);
+    told.tail<3>().setConstant(std::log(absurd));
+    ObjectEstimator::Estimate file{told, 1e-6 * UprightCovariance::Identity(), 0, false};
+    const auto estimator = ObjectEstimator::fromEstimate(file, boxy("suitcase"), {});
+    UprightState x = uprightStateOf(kCabinet.object);
+    for (int i = 0; i < 5; ++i) x = estimator.estimate(x, boxy("suitcase"), {}).state;
+    EXPECT_EQ(whyNoObject(ellipsoidOf(x)), std::nullopt) << absurd;
+  }
 }
 
 TEST(ObjectEstimator, NothingToEstimateIsAnError)

@@ -39,6 +39,17 @@ UprightCovariance covarianceIntersection(const UprightCovariance& a, const Uprig
   return 0.5 * (best + best.transpose());
 }
 
+bool isPositiveSemidefinite(const UprightCovariance& m)
+{
+  constexpr double kRounding = 1e-9;  // of the largest element [-]
+  if (!m.allFinite()) return false;
+  const double rounding = kRounding * m.cwiseAbs().maxCoeff();
+  return (m - m.transpose()).cwiseAbs().maxCoeff() <= rounding &&
+         Eigen::SelfAdjointEigenSolver<UprightCovariance>(m, Eigen::EigenvaluesOnly)
+                 .eigenvalues()
+                 .minCoeff() >= -rounding;
+}
+
 UprightCovariance withoutNegative(const UprightCovariance& symmetric)
 {
   const Eigen::SelfAdjointEigenSolver<UprightCovariance> eigen(symmetric);

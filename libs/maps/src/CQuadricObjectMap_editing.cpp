@@ -20,22 +20,6 @@ void requireObject(const Ellipsoid& object)
     throw std::invalid_argument("the objects of the map stand upright, this one is tilted");
 }
 
-/** A covariance may know nothing in some direction and everything in another, but no variance is
- * negative. */
-void requireCovariance(const UprightCovariance& m)
-{
-  constexpr double kRounding = 1e-9;  // of the largest element [-]
-  const double rounding = m.allFinite() ? kRounding * m.cwiseAbs().maxCoeff() : 0;
-  const bool isOne = m.allFinite() && (m - m.transpose()).cwiseAbs().maxCoeff() <= rounding &&
-                     Eigen::SelfAdjointEigenSolver<UprightCovariance>(m, Eigen::EigenvaluesOnly)
-                             .eigenvalues()
-                             .minCoeff() >= -rounding;
-  if (!isOne)
-    throw std::invalid_argument(
-        "the shared error of an object must be a covariance: symmetric, and without a negative "
-        "variance");
-}
-
 }  // namespace
 
 CQuadricObjectMap::Entry& CQuadricObjectMap::require(ObjectId id)
@@ -98,7 +82,10 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
 void CQuadricObjectMap::setSharedError(ObjectId id, const UprightCovariance& error)
 {
   Entry& object = require(id);
-  requireCovariance(error);
+  if (!isPositiveSemidefinite(error))
+    throw std::invalid_argument(
+        "the shared error of an object must be a covariance: symmetric, and without a negative "
+        "variance");
   object.covariance += error - object.estimator.sharedError();
   object.estimator.setSharedError(error);
   object.confirmed = isConfirmed(object);

@@ -135,10 +135,32 @@ InformationPrior readPrior(CArchive& in)
 {
   InformationPrior prior;
   readMatrix(in, prior.L);
+  requireStored(
+      isPositiveSemidefinite(prior.L), "what is known of an object has a negative information");
   readMatrix(in, prior.xi);
   prior.complete = readScalar<std::uint32_t>(in);
   prior.yawDefined = readScalar<std::uint32_t>(in);
   return prior;
+}
+
+/** An object that is not where its measurements have it was edited by hand. The next estimate would
+ * take it far away, to no place and no size. Of the objects that maps wrote, those seen once are
+ * pulled most, by 2 m and to 25 times their size. */
+void requireAgreement(const UprightState& pull, const MapObject& object)
+{
+  constexpr double kFarthest = 20, kRounding = 1e-3;  // [m], and [-] of the distance to the origin
+  constexpr double kMostScale = 10;                   // in the logarithm of a size [-]
+  const double distance = pull.head<3>().stableNorm();
+  requireStored(
+      distance <= kFarthest + kRounding * object.object.center().norm(),
+      mrpt::format(
+          "object %u (%s) is %g m away from where its measurements have it", object.id,
+          object.label().c_str(), distance));
+  requireStored(
+      pull.tail<3>().cwiseAbs().maxCoeff() <= kMostScale,
+      mrpt::format(
+          "object %u (%s) has another size than its measurements", object.id,
+          object.label().c_str()));
 }
 
 }  // namespace
@@ -197,6 +219,11 @@ try
     static_cast<MapObject&>(entry) = object;
     entry.estimator = ObjectEstimator::fromSummary(readPrior(in));
     entry.looks = ExistenceLooks(object.existenceLogOdds);
+    requireAgreement(
+        entry.estimator.pullOfSummary(
+            uprightStateOf(object.object), labels->table().properties(object.label()),
+            insertionOptions.estimator),
+        object);
   }
   for (auto n = readCount(in, kMostStoredObjects, "instances"); n > 0; --n)
   {

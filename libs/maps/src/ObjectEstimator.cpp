@@ -12,6 +12,7 @@
 #include "quadmap/estimation/RepeatedErrors.h"
 #include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RotationDistance.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -94,7 +95,15 @@ UprightState limited(UprightState step)
   return step / factor;
 }
 
-/** Minimises by Levenberg-Marquardt. \param x The start, which becomes the minimum.
+/** Whether a file may hold the object of a state. What is computed from an edited or absurd file
+ * may lead anywhere. */
+bool isPossible(const UprightState& x)
+{
+  return x.head<3>().stableNorm() <= kFarthestPosition && !whyNoSize(2 * x.tail<3>().array().exp());
+}
+
+/** Minimises by Levenberg-Marquardt. A step to what is no possible object is refused like one that
+ * raises the cost. \param x The start, which becomes the minimum.
  * \return The normal equations at the minimum. */
 template <typename Linearise>
 NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIterations)
@@ -110,7 +119,7 @@ NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIte
     if (!step.allFinite()) break;
     const UprightState candidate = x + step;
     const NormalEquations there = linearise(candidate);
-    if (there.cost <= eq.cost)
+    if (there.cost <= eq.cost && isPossible(candidate))
     {
       x = candidate;
       eq = there;
@@ -263,6 +272,15 @@ InformationPrior ObjectEstimator::summary(
     all.yawDefined += v.complete && v.yawDefined ? 1 : 0;
   }
   return all;
+}
+
+UprightState ObjectEstimator::pullOfSummary(
+    const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
+{
+  NormalEquations eq;
+  addPrior(prior_, at, eq);
+  addLabelPrior(at, label, options, eq);
+  return -UprightCovariance(eq.H + freeInformation()).ldlt().solve(eq.g);
 }
 
 ObjectEstimator ObjectEstimator::fromSummary(const InformationPrior& prior)

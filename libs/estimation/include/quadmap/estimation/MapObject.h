@@ -25,6 +25,10 @@ Ellipsoid ellipsoidOf(const UprightState& state);
  * ones know no more than one. Both are positive definite. */
 UprightCovariance covarianceIntersection(const UprightCovariance& a, const UprightCovariance& b);
 
+/** Whether a matrix is symmetric and has no negative eigenvalue, but for rounding. It may know
+ * nothing in some direction and everything in another. False for what is not finite. */
+bool isPositiveSemidefinite(const UprightCovariance& m);
+
 /** The nearest matrix without negative eigenvalues. */
 UprightCovariance withoutNegative(const UprightCovariance& symmetric);
 

@@ -83,6 +83,11 @@ class ObjectEstimator
   static ObjectEstimator fromEstimate(
       const Estimate& estimate, const LabelProperties& label, const EstimatorOptions& options);
 
+  /** The change of a state by which what a file knew would be satisfied best, were that linear. It
+   * is small for the states and the summaries that one map wrote together. */
+  UprightState pullOfSummary(
+      const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
+
   const std::deque<ObjectView>& views() const { return views_; }
 
  private:
