@@ -20,6 +20,7 @@ using namespace quadmap;
 
 constexpr int kMostThreads = 64;
 constexpr const char* kReport = "localization.json";
+constexpr const char* kTrajectory = "localization.tum";
 constexpr unsigned kUsefulThreads = 4;  // beyond these the images take all of the time
 
 /** The arguments of the program. */
@@ -150,7 +151,7 @@ void write(
     if (const auto warning = folder.keepCompleteResult(); !warning.empty())
       request.onWarning(warning);
   OutputSet& files = folder.files();
-  writeTumTrajectory(files.add("localization.tum"), result.trajectory());
+  writeTumTrajectory(files.add(kTrajectory), result.trajectory());
   writeTextFile(files.add(kReport), localizationToJson(request, result, QUADMAP_VERSION));
   files.commit();
   if (cli.line.verbosity() > mrpt::system::LVL_INFO) return;
@@ -203,7 +204,7 @@ int run(Cli& cli)
   if (cli.defaults.isSet()) throw cli::UsageError("--defaults: must be given alone");
   LocalizationRequest request = requestOf(cli);
   cli::onStop = cli::OnStop::Note;
-  RunFolder folder(cli.output.getValue(), "localization", kReport);
+  RunFolder folder(cli.output.getValue(), "localization", kReport, {kTrajectory});
   cli::ProgressBar bar;
   request.onProgress = [&bar](double share, const LocalizationEstimate& estimate)
   { bar(share, estimate.isLocalised ? " localised" : " searching"); };

@@ -211,6 +211,13 @@ TEST_F(StoppedPrograms, AnInterruptedRunReplacesACompleteOneOnlyWhenToldTo)
   EXPECT_TRUE(interrupted(out() + "/interrupted/report.json"));
   EXPECT_NE(log().find("--replace"), std::string::npos) << log();
 
+  const std::string objects = readFile(out() + "/objects.json");
+  fs::remove(report);
+  const auto again = startLongRun();
+  again.send(SIGINT);
+  EXPECT_EQ(again.wait(), 130);
+  EXPECT_EQ(readFile(out() + "/objects.json"), objects) << "it may be a complete one";
+
   const auto replacing = startLongRun({"--replace"});
   replacing.send(SIGINT);
   EXPECT_EQ(replacing.wait(), 130);

@@ -13,7 +13,7 @@ namespace
 /** Writes the report of a run. \return What the run warns of. */
 std::string writeRun(const std::string& path, bool interrupted, const std::string& content)
 {
-  RunFolder folder(path, "run", "report.json");
+  RunFolder folder(path, "run", "report.json", {"trajectory.tum"});
   const std::string warning = interrupted ? folder.keepCompleteResult() : "";
   const std::string state = interrupted ? "true" : "false";
   writeTextFile(
@@ -48,14 +48,32 @@ TEST(RunFolder, OnlyACompleteResultIsKept)
   }
 }
 
+TEST(RunFolder, AResultWhoseReportDoesNotTellIsKept)
+{
+  for (const std::string report : {"", "damaged", "{}", R"({"input":{"interrupted":7}})"})
+  {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out");
+    writeRun(out, false, " ");
+    std::filesystem::remove(out + "/report.json");
+    if (!report.empty()) writeTextFile(out + "/report.json", report);
+    writeTextFile(out + "/trajectory.tum", "complete");
+    const std::string warning = writeRun(out, true, "");
+    EXPECT_NE(warning.find("report.json does not tell"), std::string::npos) << warning;
+    EXPECT_EQ(report.empty() ? "" : readFile(out + "/report.json"), report);
+    EXPECT_EQ(readFile(out + "/trajectory.tum"), "complete");
+    EXPECT_TRUE(fs::exists(out + "/interrupted/report.json"));
+  }
+}
+
 TEST(RunFolder, ARunThatFailsLeavesNoFolder)
 {
   const TemporaryFolder folder;
   {
-    const RunFolder run(folder.path("a/b"), "run", "report.json");
+    const RunFolder run(folder.path("a/b"), "run", "report.json", {});
     EXPECT_TRUE(fs::is_directory(folder.path("a/b")));
     EXPECT_NE(
-        errorOf([&] { RunFolder(folder.path("a/b"), "run", "report.json"); })
+        errorOf([&] { RunFolder(folder.path("a/b"), "run", "report.json", {}); })
             .find("another program"),
         std::string::npos);
   }

@@ -1,5 +1,6 @@
 #include "quadmap/base/RunFolder.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -12,17 +13,16 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** Whether a report is that of a run that nobody stopped. */
-bool isOfCompleteRun(const std::string& report)
+/** Whether a report is that of a run that was stopped early; nothing when it does not tell. */
+std::optional<bool> isOfStoppedRun(const std::string& report)
 {
-  if (!fs::exists(report)) return false;
   try
   {
-    return readJson(report).at("input").at("interrupted") == false;
+    return readJson(report).at("input").at("interrupted").get<bool>();
   }
-  catch (const std::exception&)  // what cannot be read cannot be lost
+  catch (const std::exception&)
   {
-    return false;
+    return std::nullopt;
   }
 }
 }  // namespace
@@ -44,23 +44,43 @@ OutputDirectory::~OutputDirectory()
   while (!made_.empty()) made_.pop_back();
 }
 
-RunFolder::RunFolder(const std::string& path, std::string set, std::string report) :
+RunFolder::RunFolder(
+    const std::string& path,
+    std::string set,
+    std::string report,
+    std::vector<std::string> otherResults) :
     path_(path),
     set_(std::move(set)),
     report_(std::move(report)),
+    otherResults_(std::move(otherResults)),
     directory_(path_),
     files_(std::make_unique<OutputSet>(path_, set_))
 {
 }
 
+bool RunFolder::hasOtherResults() const
+{
+  return std::any_of(
+      otherResults_.begin(), otherResults_.end(),
+      [this](const auto& name)
+      {
+        std::error_code unknown;
+        return fs::exists(path_ + "/" + name, unknown);
+      });
+}
+
 std::string RunFolder::keepCompleteResult()
 {
-  if (!isOfCompleteRun(path_ + "/" + report_)) return {};
+  const auto wasStopped = isOfStoppedRun(path_ + "/" + report_);
+  if (wasStopped ? *wasStopped : !hasOtherResults()) return {};
   const std::string folder = path_ + "/interrupted";
   interruptedDirectory_.emplace(folder);
   files_ = std::make_unique<OutputSet>(folder, set_);
-  return path_ + ": keeps the result of an earlier run that was not interrupted; this one is in " +
-         folder + " (--replace puts it in its place)";
+  const std::string earlier =
+      wasStopped ? "that was not interrupted"
+                 : "of which " + report_ + " does not tell whether it was interrupted";
+  return path_ + ": keeps the result of an earlier run " + earlier + "; this one is in " + folder +
+         " (--replace puts it in its place)";
 }
 
 }  // namespace quadmap

@@ -22,7 +22,11 @@ class RawlogRun
  public:
   explicit RawlogRun(const RawlogRunRequest& request) :
       request_(request),
-      folder_(request.outputDirectory, "results", "report.json"),
+      folder_(
+          request.outputDirectory,
+          "results",
+          "report.json",
+          {"objects.quadmap", "objects.json", "trajectory.tum", "map.simplemap"}),
       survey_(survey(request)),
       source_(sourceOf(request, survey_)),
       spool_(request.outputDirectory),

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/base/Temporary.h"
@@ -32,20 +33,29 @@ class RunFolder
   /** \param set Name of the set of files, see OutputSet.
    *  \param report The JSON file of the set in which `input.interrupted` says whether the run was
    *  stopped early.
+   *  \param otherResults Names of other files that every run writes into it.
    *  \exception std::runtime_error If the folder cannot be made, or another program writes there.
    */
-  RunFolder(const std::string& path, std::string set, std::string report);
+  RunFolder(
+      const std::string& path,
+      std::string set,
+      std::string report,
+      std::vector<std::string> otherResults);
 
   OutputSet& files() { return *files_; }
 
   /** To be called by a run that was stopped early, before it adds files: it does not replace the
-   *  result of one that was not. When there is such a result, files() are from now on those of the
-   *  folder `interrupted` in this one.
+   *  result of one that was not. A result whose report is missing or damaged may be such a one.
+   *  When there is such a result, files() are from now on those of the folder `interrupted` in
+   *  this one.
    *  \return A warning that says so; empty when there is no such result. */
   std::string keepCompleteResult();
 
  private:
+  bool hasOtherResults() const;
+
   std::string path_, set_, report_;
+  std::vector<std::string> otherResults_;
   OutputDirectory directory_;
   std::optional<OutputDirectory> interruptedDirectory_;
   std::unique_ptr<OutputSet> files_;
