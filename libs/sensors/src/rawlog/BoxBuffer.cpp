@@ -24,22 +24,26 @@ std::size_t bytesOf(const CObservationObjects& boxes)
 
 double secondsOf(const BoxBuffer::Entry& e) { return mrpt::Clock::toDouble(e.boxes->timestamp); }
 
-/** What has to be known about a sidecar before it is read along with its rawlog. */
+/** What has to be known about a sidecar before it is read along with its rawlog. It is of no use
+ * when reading was stopped. */
 struct SidecarSurvey
 {
   bool hasBoxes = false, damaged = false;
   double stepBack = 0;  // most time by which a record is earlier than one before it [s]
 };
 
-SidecarSurvey surveyOf(const std::string& file, const RecordLimits& limits)
+SidecarSurvey surveyOf(
+    const std::string& file, const RecordLimits& limits, const std::function<bool()>& isStopped)
 {
   SidecarSurvey survey;
   std::optional<double> latest;
   RecordReader reader(file, limits);
   try
   {
-    while (const auto object = reader.next())
+    while (!isStopped())
     {
+      const auto object = reader.next();
+      if (!object) break;
       const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(object);
       survey.hasBoxes = survey.hasBoxes || boxes;
       if (!boxes || boxes->timestamp == INVALID_TIMESTAMP) continue;
@@ -58,8 +62,8 @@ SidecarSurvey surveyOf(const std::string& file, const RecordLimits& limits)
 
 void BoxBuffer::openSidecar(const std::string& file, const RecordLimits& limits)
 {
-  const SidecarSurvey survey = surveyOf(file, limits);
-  if (!survey.hasBoxes && !survey.damaged) return;
+  const SidecarSurvey survey = surveyOf(file, limits, isStopped_);
+  if (isStopped_() || (!survey.hasBoxes && !survey.damaged)) return;
   sidecar_ = std::make_unique<RecordReader>(file, limits);
   stepBack_ = survey.stepBack;
 }
@@ -68,6 +72,7 @@ void BoxBuffer::readUntil(double time)
 {
   while (sidecar_ && (!sidecarTime_ || *sidecarTime_ <= time + maxDelay_ + stepBack_))
   {
+    if (isStopped_()) return;
     const std::size_t record = sidecar_->recordsRead();
     const auto object = sidecar_->next();
     if (!object) return;

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "quadmap/obs/CObservationObjects.h"
 #include "rawlog/RecordReader.h"
@@ -23,8 +25,13 @@ class BoxBuffer
     CObservationObjects::Ptr boxes;
   };
 
-  /** \param maxDelay Largest difference of the times of boxes and scan [s]. */
-  explicit BoxBuffer(double maxDelay) : maxDelay_(maxDelay) {}
+  /** \param maxDelay Largest difference of the times of boxes and scan [s].
+   *  \param isStopped Asked before every record of the sidecar, of which no more is read from then
+   *  on. */
+  BoxBuffer(double maxDelay, std::function<bool()> isStopped) :
+      maxDelay_(maxDelay), isStopped_(std::move(isStopped))
+  {
+  }
 
   /** Opens a sidecar, whose records may be in any order. A file without boxes is ignored.
    *  \exception std::runtime_error If the file cannot be opened. */
@@ -55,6 +62,7 @@ class BoxBuffer
   void dropFirst(const std::string& label);
 
   double maxDelay_;
+  std::function<bool()> isStopped_;
   std::unique_ptr<RecordReader> sidecar_;
   std::optional<double> sidecarTime_;                 // latest time that was read [s]
   double stepBack_ = 0;                               // most by which its times go back [s]

@@ -52,7 +52,7 @@ RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOpti
     reader(file, o.limits),
     options(std::move(o)),
     imageRules(imageRulesFor(file, options)),
-    boxes(options.maxBoxDelay),
+    boxes(options.maxBoxDelay, [this] { return isStopped(); }),
     odometry(options.odometryKind),
     log_(owner)
 {
@@ -60,6 +60,12 @@ RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOpti
   registerObsClasses();
   const std::string sidecar = sidecarFor(file, options);
   if (!sidecar.empty()) boxes.openSidecar(sidecar, options.limits);
+}
+
+bool RawlogSource::Impl::isStopped()
+{
+  stopped = stopped || options.shouldStop();
+  return stopped;
 }
 
 void RawlogSource::Impl::report(const InputProblem& problem)
@@ -81,14 +87,15 @@ void RawlogSource::Impl::warnOnce(const std::string& text)
 
 std::optional<RgbdFrame> RawlogSource::Impl::next()
 {
-  while (!stopped && !(stopped = options.shouldStop()))
+  while (!isStopped())
   {
     if (!pending_.empty() && (ended_ || isReady(pending_.front())))
     {
       PendingFrame first = std::move(pending_.front());
       pending_.pop_front();
       pendingBytes_ -= first.bytes;
-      if (auto frame = complete(std::move(first))) return frame;
+      auto frame = complete(std::move(first));
+      if (frame && !stopped) return frame;  // a stopped one may lack its boxes
     }
     else if (ended_)
     {
@@ -232,6 +239,7 @@ void RawlogSource::Impl::finish()
   finished_ = true;
   tellUnknownPixelLabels();
   readSidecar(1e300);
+  if (stopped) return;
   const std::size_t lost = boxes.unpaired(options.sensorLabel);
   if (framesRead == 0 || lost == 0) return;
   const std::string text = mrpt::format(

@@ -47,6 +47,7 @@ struct RawlogSource::Impl
   OdometryReader odometry;
 
  private:
+  bool isStopped();
   void report(const InputProblem& problem);
   bool readRecord();
   void readObject(std::size_t record, const mrpt::serialization::CSerializable::Ptr& object);

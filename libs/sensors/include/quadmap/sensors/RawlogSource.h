@@ -33,8 +33,8 @@ struct RawlogSourceOptions
   RecordLimits limits;          //!< What a record may ask for
   bool imagesAnywhere = false;  //!< Read external images that lie outside the image folder
   std::string imagesHint;       //!< How a user sets imagesAnywhere, for messages; empty: not at all
-  /** Asked before every record, as a file may have no images for long. When it returns true, the
-   *  source is stopped: next() gives no frame from then on. */
+  /** Asked before every record of the rawlog and of the boxes, as a file may have no images for
+   * long. When it returns true, the source is stopped: next() gives no frame from then on. */
   std::function<bool()> shouldStop = [] { return false; };
 };
 
