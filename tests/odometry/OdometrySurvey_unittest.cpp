@@ -51,6 +51,22 @@ TEST(OdometrySurvey, TakesTheRawlogsOdometryWhenThereIsSome)
   EXPECT_EQ(survey.upOrigin, UpOrigin::Images) << "not asked for";
 }
 
+TEST(OdometrySurvey, ARawlogWithoutImagesIsReadOnce)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> records;
+  for (int i = 0; i < 40; ++i)
+    records.push_back(samplePose(kStart + i, {}, "odometry " + std::to_string(i % 20)));
+  int asked = 0;
+  RawlogSourceOptions options;
+  options.shouldStop = [&] { return ++asked < 0; };
+  const auto file = writeObjects(folder.path("x.rawlog"), records);
+  const auto survey = surveyOdometry(file, options, PoseSource::Auto);
+  EXPECT_TRUE(survey.withoutImages);
+  EXPECT_LT(asked, 50) << "records, of 20 kinds of odometry";
+  EXPECT_FALSE(surveyOdometry(writeHome(folder, true), {}, PoseSource::Auto).withoutImages);
+}
+
 TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
 {
   const TemporaryFolder folder;

@@ -164,6 +164,35 @@ TEST_F(RawlogTorture, EmbeddedJpeg)
   judgeRawlogs(at("x.rawlog: record 1", cases));
 }
 
+TEST_F(RawlogTorture, MuchInLittle)
+{
+  const auto repeated = [](const std::string& part, std::size_t times)
+  {
+    std::string all;
+    for (std::size_t i = 0; i < times; ++i) all += part;
+    return all;
+  };
+  const auto packed = [&](const std::string& part, std::size_t bytes)
+  {
+    const auto member = gzipped(part);
+    return repeated(member, bytes / member.size());
+  };
+  constexpr std::size_t kPacked = 4u << 20, kPart = 1u << 20;
+  const auto frame = object("mrpt::obs::CSensoryFrame", 2, littleEndian(0));
+  const auto comment = [](std::uint32_t letters)
+  {
+    return object(
+        "mrpt::obs::CObservationComment", 0,
+        littleEndian(letters) + std::string(letters, ' ') + std::string(8, '\0'));
+  };
+  judgeRawlogs({
+      {  "20 million frames",      packed(repeated(frame,      kPart / frame.size()), kPacked),true},
+      {"12 million comments", packed(repeated(comment(0), kPart / comment(0).size()), kPacked),
+       true},
+      {       "4 GB of text",  packed(comment(32u << 20),                   kPacked),     true     }
+  });
+}
+
 TEST_F(RawlogTorture, FramesAndActions)
 {
   auto frame = mrpt::obs::CSensoryFrame::Create();

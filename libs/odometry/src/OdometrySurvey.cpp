@@ -56,6 +56,8 @@ bool isBetter(const KindCoverage& a, const KindCoverage& b)
 std::string bestKind(
     const std::vector<std::string>& kinds, const std::string& rawlog, RawlogSourceOptions options)
 {
+  // Each kind takes another look at the rawlog, and a damaged one may have any number of them.
+  constexpr std::size_t kMostKinds = 8;
   // An image that comes just before the first pose does not tell which odometry is better.
   constexpr std::size_t kMostBehind = 1;
   if (kinds.size() < 2) return {};
@@ -63,6 +65,7 @@ std::string bestKind(
   std::size_t most = 0;
   for (const auto& kind : kinds)
   {
+    if (candidates.size() == kMostKinds) break;
     options.odometryKind = kind;
     candidates.push_back({kind, posedImages(rawlog, options)});
     most = std::max(most, candidates.back().posed);
@@ -103,6 +106,7 @@ std::string bestOdometryKind(const std::string& rawlog, RawlogSourceOptions opti
     RawlogSource source(rawlog, options);
     source.logging_enable_console_output = false;
     for (std::size_t i = 0; i < kFrames && source.next(); ++i) continue;
+    if (source.framesRead() == 0) return {};
     return bestKind(source.odometryKinds(), rawlog, options);
   }
   catch (const std::exception&)
@@ -127,7 +131,8 @@ OdometrySurvey surveyOdometry(
   UpVotes votes(perception, visual);
   try
   {
-    RawlogSource source(rawlog, options);
+    const auto rawlogSource = std::make_shared<RawlogSource>(rawlog, options);
+    RawlogSource& source = *rawlogSource;
     source.logging_enable_console_output = false;
     bool hasOdometry = false;
     SingleMoment moment;
@@ -140,8 +145,10 @@ OdometrySurvey surveyOdometry(
       moment.add(*frame);
       if (wanted != PoseSource::Rawlog) votes.add(*frame);
     }
+    if (source.wasStopped()) return survey;  // it may know a part only; the run ends at once
+    if (source.framesRead() == 0) survey.withoutImages = rawlogSource;
     // The run meets the same error and reports it; what else there is does not matter then.
-    if (endsAtProblems && !source.problems().empty()) return survey;
+    if (source.framesRead() == 0 || (endsAtProblems && !source.problems().empty())) return survey;
     if (usesOdometry) survey.odometryKind = bestKind(source.odometryKinds(), rawlog, options);
     if (options.shouldStop()) return survey;  // it may know a part only; the run ends at once
     hasOdometry = hasOdometry || !survey.odometryKind.empty();

@@ -27,11 +27,26 @@ std::string classNameIn(const std::string& head)
   const auto legal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
   return std::all_of(name.begin(), name.end(), legal) ? name : std::string();
 }
+/** What a rawlog may hold [bytes], and in how many records. Recordings of images compress to a
+ * third, those of a robot that stands still to a hundredth, with a record in four bytes. A file
+ * that holds more was made to keep its reader busy: 13 MB can hold 13 GB, or 60 million records. */
+std::uint64_t mostBytesIn(std::uint64_t fileBytes)
+{
+  constexpr std::uint64_t kAlways = std::uint64_t{1} << 30, kMostPerByte = 100;
+  return kAlways + kMostPerByte * fileBytes;
+}
+
+std::uint64_t mostRecordsIn(std::uint64_t fileBytes)
+{
+  constexpr std::uint64_t kAlways = 1000000, kLeastBytes = 8;  // of a record, beyond the first ones
+  return kAlways + fileBytes / kLeastBytes;
+}
 }  // namespace
 
 RecordReader::RecordReader(const std::string& file, const RecordLimits& limits) :
     file_(file), stream_(file), reader_(stream_, limits)
 {
+  stream_.setMostBytes(mostBytesIn(stream_.getTotalBytesCount()));
 }
 
 std::string RecordReader::explain(const std::exception& e) const
@@ -52,6 +67,11 @@ std::string RecordReader::explain(const std::exception& e) const
 mrpt::serialization::CSerializable::Ptr RecordReader::next()
 {
   if (ended_) return nullptr;
+  if (recordsRead_ > mostRecordsIn(stream_.getTotalBytesCount()))
+  {
+    ended_ = true;
+    throw InputError({file_, recordsRead_, "", "the file has too many records for its size"});
+  }
   stream_.startRecord();
   try
   {

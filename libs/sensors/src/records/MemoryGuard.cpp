@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <mutex>
 
@@ -27,13 +28,29 @@ rlim_t memoryNow()
 std::mutex mutex;
 int guards = 0;
 rlimit limitWithoutGuards{};
+
+/** The memory of the process as it was a moment ago [bytes]. To ask the system takes ten times as
+ * long as to read a small record, of which a file may have millions. */
+rlim_t recentMemory()
+{
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kMoment(1);  // allocates less than kMore by far
+  static Clock::time_point askedAt;
+  static rlim_t answer = 0;
+  if (const auto now = Clock::now(); answer == 0 || now - askedAt > kMoment)
+  {
+    askedAt = now;
+    answer = memoryNow();
+  }
+  return answer;
+}
 }  // namespace
 
 MemoryGuard::MemoryGuard()
 {
   const std::lock_guard<std::mutex> lock(mutex);
   if (guards++ == 0) ::getrlimit(RLIMIT_DATA, &limitWithoutGuards);
-  const rlim_t now = memoryNow();
+  const rlim_t now = recentMemory();
   if (now == 0) return;
   rlimit limit = limitWithoutGuards;
   limit.rlim_cur = std::min(limitWithoutGuards.rlim_cur, now + kMore);

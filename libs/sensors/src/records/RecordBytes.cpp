@@ -11,6 +11,8 @@ namespace
 {
 /** Memory grows with what was there, in such steps [bytes]. */
 constexpr std::uint64_t kPiece = 1u << 20;
+/** Most records without images have less [bytes]. */
+constexpr std::size_t kSmallRecord = 1024;
 }  // namespace
 
 RecordBytes::RecordBytes(mrpt::io::CStream& from, std::uint64_t mostBytes) :
@@ -22,6 +24,7 @@ bool RecordBytes::begin()
 {
   std::uint8_t first = 0;
   if (from_.Read(&first, 1) != 1) return false;
+  bytes_.reserve(kSmallRecord);
   bytes_.assign(1, first);
   return true;
 }

@@ -29,11 +29,6 @@ std::string withoutNamespaces(const std::string& name)
 }
 }  // namespace
 
-void RecordCheck::require(bool condition, const std::string& what)
-{
-  if (!condition) throw std::runtime_error(what);
-}
-
 RecordCheck::Head RecordCheck::headAfterFirstByte()
 {
   const std::size_t begin = bytes.size() - 1;
@@ -77,9 +72,12 @@ void RecordCheck::content(const Head& head)
     return void(readUnknown(head.begin));
   require(
       head.version >= layout.firstVersion && head.version <= layout.lastVersion,
-      mrpt::format(
-          "%s is of version %d, versions %d to %d can be read", head.name.c_str(), head.version,
-          layout.firstVersion, layout.lastVersion));
+      [&]
+      {
+        return mrpt::format(
+            "%s is of version %d, versions %d to %d can be read", head.name.c_str(), head.version,
+            layout.firstVersion, layout.lastVersion);
+      });
   require(++depth_ <= kDeepest, "objects are nested in each other too deeply");
   layout.follow(*this, head);
   --depth_;
@@ -98,7 +96,8 @@ void RecordCheck::object()
   if (head.name == "nullptr") return endOfObject();
   if (knows(head.name)) return content(head);
   require(
-      mrpt::rtti::findRegisteredClass(head.name) != nullptr, "class " + head.name + " is unknown");
+      mrpt::rtti::findRegisteredClass(head.name) != nullptr,
+      [&] { return "class " + head.name + " is unknown"; });
   readUnknown(head.begin);  // to find its end
 }
 
@@ -136,7 +135,7 @@ int RecordCheck::objectOf(const char* className)
 {
   bytes.copy(1);
   const Head head = headAfterFirstByte();
-  require(head.name == className, std::string("a ") + className + " is missing");
+  require(head.name == className, [&] { return std::string("a ") + className + " is missing"; });
   content(head);
   return head.version;
 }
@@ -144,14 +143,14 @@ int RecordCheck::objectOf(const char* className)
 std::uint32_t RecordCheck::count(std::uint32_t most, const char* what)
 {
   const auto n = bytes.number<std::uint32_t>();
-  require(n <= most, mrpt::format("states %u %s, more than %u", n, what, most));
+  require(n <= most, [&] { return mrpt::format("states %u %s, more than %u", n, what, most); });
   return n;
 }
 
 bool RecordCheck::flag()
 {
   const bool isSet = bytes.number<std::uint8_t>() != 0;
-  bytes.replaceFrom(bytes.size() - 1, {std::uint8_t{isSet}});
+  *bytes.at(bytes.size() - 1) = isSet;
   return isSet;
 }
 
@@ -177,16 +176,22 @@ std::uint64_t RecordCheck::pixels(std::uint64_t rows, std::uint64_t columns) con
   require((rows == 0) == (columns == 0), "states an image without rows, or without columns");
   require(
       rows == 0 || (rows <= limits.imagePixels && columns <= limits.imagePixels / rows),
-      mrpt::format(
-          "states an image of %llux%llu pixels, more than %llu million",
-          static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),
-          static_cast<unsigned long long>(limits.imagePixels >> 20)));
+      [&]
+      {
+        return mrpt::format(
+            "states an image of %llux%llu pixels, more than %llu million",
+            static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),
+            static_cast<unsigned long long>(limits.imagePixels >> 20));
+      });
   require(
       std::max(rows, columns) <= kLongestImageSide,
-      mrpt::format(
-          "states an image of %llux%llu pixels, more than %llu in a row or a column",
-          static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),
-          static_cast<unsigned long long>(kLongestImageSide)));
+      [&]
+      {
+        return mrpt::format(
+            "states an image of %llux%llu pixels, more than %llu in a row or a column",
+            static_cast<unsigned long long>(columns), static_cast<unsigned long long>(rows),
+            static_cast<unsigned long long>(kLongestImageSide));
+      });
   return rows * columns;
 }
 

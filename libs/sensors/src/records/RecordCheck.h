@@ -2,7 +2,9 @@
 
 #include <mrpt/serialization/CSerializable.h>
 
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "quadmap/sensors/CheckedReader.h"
 #include "records/RecordBytes.h"
@@ -52,8 +54,18 @@ class RecordCheck
   std::uint64_t pixels(std::uint64_t rows, std::uint64_t columns) const;  //!< Checked product
   std::uint32_t count(std::uint32_t most, const char* what);              //!< Checked number
 
-  /** \exception std::runtime_error With `what`, when the condition does not hold. */
-  static void require(bool condition, const std::string& what);
+  /** \param what A text, or a function that makes it. Records are many: a text that nobody needs
+   * would take longer than all else.
+   *  \exception std::runtime_error With that text, when the condition does not hold. */
+  template <typename What>
+  static void require(bool condition, const What& what)
+  {
+    if (condition) return;
+    if constexpr (std::is_invocable_v<What>)
+      throw std::runtime_error(what());
+    else
+      throw std::runtime_error(what);
+  }
 
   /** MRPT's reading of the object that begins there, after its content was checked. */
   mrpt::serialization::CSerializable::Ptr readByMrpt(std::size_t begin);

@@ -83,6 +83,7 @@ class RawlogRun
       const RawlogRunRequest& request, const OdometrySurvey& survey)
   {
     if (request.source) return request.source;
+    if (survey.withoutImages) return survey.withoutImages;
     return std::make_shared<RawlogSource>(
         request.rawlog, sourceOptions(request, survey.odometryKind));
   }
@@ -174,6 +175,8 @@ class RawlogRun
       if (interrupted)
         throw std::runtime_error(
             source_->failure().value_or(file + ": interrupted before the first image"));
+      if (!request_.keepGoing && !source_->problems().empty())  // the survey passed over them
+        throw std::runtime_error(source_->problems().front().text());
       throw std::runtime_error(file + ": " + source_->whyNoFrames(request_.sensorLabel));
     }
     if (!interrupted) requirePoses();

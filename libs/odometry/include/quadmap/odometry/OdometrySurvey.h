@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ struct OdometrySurvey
   std::string uselessKind;
   /** The first images have no odometry at all, so that visual odometry is used. */
   bool foundNone = false;
+
+  /** The rawlog when it was read to its end and has no image that can be used, so that nobody needs
+   * to read it once more to say why; null otherwise. Broken records are among its problems(). */
+  std::shared_ptr<RawlogSource> withoutImages;
 
   /** What to tell the user about `uselessKind`, one line; empty when that is. */
   std::string warning(const std::string& rawlog) const;
