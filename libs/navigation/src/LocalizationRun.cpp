@@ -13,6 +13,7 @@
 #include "quadmap/perception/RoomPerception.h"
 #include "quadmap/sensors/KeyframeSelector.h"
 #include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/sensors/RememberedStop.h"
 
 namespace quadmap
 {
@@ -259,7 +260,9 @@ std::optional<std::size_t> LocalizationResult::localisedFrom() const
 
 LocalizationResult localiseInMap(const LocalizationRequest& request)
 {
-  return LocalizationRun(request).run();
+  LocalizationRequest remembering = request;
+  remembering.shouldStop = rememberedStop(request.shouldStop);
+  return LocalizationRun(remembering).run();
 }
 
 }  // namespace quadmap

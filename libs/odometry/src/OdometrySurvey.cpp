@@ -5,6 +5,7 @@
 
 #include "UpVotes.h"
 #include "quadmap/odometry/SingleMoment.h"
+#include "quadmap/sensors/RememberedStop.h"
 
 namespace quadmap
 {
@@ -127,6 +128,7 @@ OdometrySurvey surveyOdometry(
   const bool usesOdometry = wanted == PoseSource::Auto || wanted == PoseSource::Rawlog;
   if (!usesOdometry && wanted != PoseSource::Visual) return survey;
   const bool endsAtProblems = !options.keepGoing;
+  options.shouldStop = rememberedStop(options.shouldStop);
   options.keepGoing = true;
   UpVotes votes(perception, visual);
   try

@@ -224,6 +224,25 @@ TEST_F(RawlogRun, IsInterruptedBetweenImagesAsWell)
   }
 }
 
+TEST_F(RawlogRun, IsInterruptedByOneWordBeforeTheFirstImage)
+{
+  for (int n = 1; n <= 30; ++n)  // of the questions, all but the last ones before the first image
+  {
+    auto request = requestFor(recording());
+    int asked = 0;
+    request.shouldStop = [&] { return ++asked == n; };
+    try
+    {
+      EXPECT_TRUE(runOnRawlog(request).interrupted) << n;
+    }
+    catch (const std::runtime_error& e)
+    {
+      EXPECT_NE(std::string(e.what()).find("interrupted before the first"), std::string::npos) << n;
+    }
+    std::filesystem::remove_all(request.outputDirectory);
+  }
+}
+
 TEST_F(RawlogRun, IsInterruptedWhereNoImagesAre)
 {
   std::vector<mrpt::serialization::CSerializable::Ptr> records;

@@ -11,6 +11,7 @@
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
+#include "quadmap/sensors/RememberedStop.h"
 #include "run/ObjectSlam.h"
 
 namespace quadmap
@@ -20,6 +21,7 @@ namespace
 class RawlogRun
 {
  public:
+  /** \param request shouldStop() of it remembers a yes. */
   explicit RawlogRun(const RawlogRunRequest& request) :
       request_(request),
       folder_(
@@ -266,6 +268,11 @@ class RawlogRun
 
 }  // namespace
 
-RawlogRunSummary runOnRawlog(const RawlogRunRequest& request) { return RawlogRun(request).run(); }
+RawlogRunSummary runOnRawlog(const RawlogRunRequest& request)
+{
+  RawlogRunRequest remembering = request;
+  remembering.shouldStop = rememberedStop(request.shouldStop);
+  return RawlogRun(remembering).run();
+}
 
 }  // namespace quadmap
