@@ -57,7 +57,8 @@ std::unique_ptr<BackEnd> createBackEnd(
   if (slam.method == SlamMethod::Point)
     return std::make_unique<PointBackEnd>(configuration, correctPoses, labels);
   if (slam.method == SlamMethod::Odometry || !correctPoses) return std::make_unique<GivenPoses>();
-  return std::make_unique<JointBackEnd>(configuration.joint, configuration.mapInsertion, labels);
+  return std::make_unique<JointBackEnd>(
+      configuration.joint, configuration.mapInsertion, labels, configuration.relocalization);
 }
 
 }  // namespace quadmap

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "GraphOptions.h"
+#include "LoopClosure.h"
 #include "MergedObjects.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ObjectRules.h"
@@ -51,13 +52,15 @@ CPose3DPDFGaussian tiltOf(const CPose3D& pose, double sigma)
 JointBackEnd::JointBackEnd(
     const JointOptions& options,
     const CQuadricObjectMap::TInsertionOptions& mapOptions,
-    const LabelTable& labels) :
+    const LabelTable& labels,
+    const ConstellationOptions& places) :
     options_(options),
     viewNoise_(mapOptions.poseNoise),
     estimator_(mapOptions.estimator),
     existence_(mapOptions.existence),
     agreement_(mapOptions.agreement),
     labels_(labels),
+    places_(places),
     graph_(graphOptions(options, mapOptions.estimator, GraphScope::Window))
 {
 }
@@ -239,6 +242,31 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
     result.keyframes[k].T_map_robot = graph_.pose(k);
   consolidateMap(result);
   estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, result);
+  closeLoops(boxesOf, result);
+}
+
+void JointBackEnd::closeLoops(const BoxesOf& boxesOf, SlamResult& result) const
+{
+  constexpr int kMost = 5;
+  LoopSummary loops;
+  while (loops.closed < kMost && !loops.open)
+  {
+    const StepNoise noise = result.correction->stepNoise.atLeastClaimed();
+    const auto doubles = findDoubles(result, noise, labels_, places_);
+    if (!doubles) break;
+    SlamResult closed = result;
+    bringTogether(*doubles, result.map, places_.positionSigma, noise, closed.keyframes);
+    rebuildMap(boxesOf, closed);
+    estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, closed);
+    if (becameOne(*doubles, result, closed))
+    {
+      result = std::move(closed);
+      ++loops.closed;
+    }
+    else
+      loops.open = LoopSummary::Open{doubles->pairs.size(), doubles->distance};
+  }
+  result.loops = loops;
 }
 
 void JointBackEnd::correctWith(

@@ -11,6 +11,7 @@
 #include "BackEnd.h"
 #include "MergedObjects.h"
 #include "OdometryChain.h"
+#include "quadmap/constellation/ConstellationOptions.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap
@@ -27,7 +28,8 @@ class JointBackEnd : public BackEnd
   JointBackEnd(
       const JointOptions& options,
       const CQuadricObjectMap::TInsertionOptions& mapOptions,
-      const LabelTable& labels);
+      const LabelTable& labels,
+      const ConstellationOptions& places = {});
 
   mrpt::poses::CPose3D addKeyframe(
       const mrpt::poses::CPose3D& T_odom_robot,
@@ -74,6 +76,9 @@ class JointBackEnd : public BackEnd
   static double takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result);
   /** Rounds of association and estimation. */
   void estimate(const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) const;
+  /** Finds places that the run came back to without noticing, and estimates everything anew with
+   * their objects as one. */
+  void closeLoops(const BoxesOf& boxesOf, SlamResult& result) const;
 
   JointOptions options_;
   PoseNoise viewNoise_;  //!< Of the map's options: what a view errs by beyond its faces
@@ -81,6 +86,7 @@ class JointBackEnd : public BackEnd
   ExistenceOptions existence_;
   AgreementOptions agreement_;
   const LabelTable& labels_;
+  ConstellationOptions places_;
   FactorGraph graph_;
   StepFit stepFit_;  //!< Of the steps that have left the window
   OdometryMotion odometry_;

@@ -21,4 +21,9 @@ void followMerged(const CQuadricObjectMap& map, FactorGraph& graph, CamerasOf& c
 /** Gives them the boxes that were decided for the merged ones as well. */
 void followMerged(const CQuadricObjectMap& map, std::vector<BoxDecision>& decisions);
 
+/** For each object of one map of a run the object of another one that has most of its boxes.
+ * \param before,after The decisions that led to the maps. */
+std::map<ObjectId, ObjectId> heirsOf(
+    const std::vector<BoxDecision>& before, const std::vector<BoxDecision>& after);
+
 }  // namespace quadmap

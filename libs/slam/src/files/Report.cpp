@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "files/EstimationJson.h"
 #include "files/ResultWriter.h"
 #include "quadmap/base/Json.h"
 #include "quadmap/base/OutputFile.h"
@@ -131,47 +132,6 @@ Json boxesJson(const SlamResult& result)
   };
 }
 
-/** Figures of the final estimation, or null when poses were taken as given. */
-Json correctionJson(const std::optional<CorrectionSummary>& correction)
-{
-  if (!correction) return nullptr;
-  const StepNoise& noise = correction->stepNoise;
-  return {
-      {        "rounds",                   correction->rounds                        },
-      {   "last_move_m",                                 rounded(correction->lastMove,6)},
-      {     "converged",                                        correction->converged                                                            },
-      {"odometry_noise",
-       {{"position", rounded(noise.position, 3)}, {"angle", rounded(noise.angle, 3)}}}
-  };
-}
-
-/** The place of the run in the known map and the changes of the room, or null without a map. */
-Json mapChangesJson(const std::optional<MapContinuation>& continuation)
-{
-  if (!continuation) return nullptr;
-  const MapContinuation& c = *continuation;
-  const auto& T = c.match.T_map_local;
-  Json moved = Json::array(), pairs = Json::array();
-  for (const auto& move : c.moved)
-    moved.push_back({
-        {      "from",             move.from},
-        { "to",               move.to           },
-        { "distance_m", rounded(move.distance,                               4)}
-    });
-  for (const auto& [local, known] : c.match.pairs) pairs.push_back(known);
-  return {
-      {    "map_objects",                     c.knownObjects                         },
-      {          "found",                                                       pairs},
-      {  "shift_and_yaw",
-       {rounded(T.x(), 6), rounded(T.y(), 6), rounded(T.z(), 6), rounded(T.yaw(), 6)}},
-      {       "log_odds",                                     rounded(c.match.logOdds,3)},
-      {"log_odds_second",                               rounded(c.match.secondLogOdds,                                                           3)},
-      {          "moved",                                                       moved               },
-      {        "removed",                                                   c.removed },
-      {          "added",                                                     c.added               }
-  };
-}
-
 Json problemsJson(const std::vector<InputProblem>& problems)
 {
   Json json = Json::array();
@@ -279,10 +239,11 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
       {        "objects", run.result.map.confirmedObjects().size()},
       { "dropped_floors",                 run.result.droppedFloors                                        },
       {     "correction",    correctionJson(run.result.correction)},
-      {    "map_changes",  mapChangesJson(run.result.continuation)                                        },
-      {       "warnings",                      run.result.warnings},
-      {        "dropped",         problemsJson(run.input.problems)                                        },
-      {         "timing",                          timingJson(run)}
+      {          "loops",              loopsJson(run.result.loops)                                        },
+      {    "map_changes",  mapChangesJson(run.result.continuation)},
+      {       "warnings",                      run.result.warnings                                        },
+      {        "dropped",         problemsJson(run.input.problems)},
+      {         "timing",                          timingJson(run)                                        }
   };
   std::string start = jsonText(head, 2);
   start.erase(start.rfind('\n'));  // the closing brace comes after the associations

@@ -11,6 +11,7 @@
 #include "ClaimTogether.h"
 #include "KnownObjects.h"
 #include "backend/BackEnd.h"
+#include "backend/MergedObjects.h"
 #include "quadmap/constellation/GoneObjects.h"
 #include "quadmap/slam/SlamResult.h"
 
@@ -29,30 +30,6 @@ CQuadricObjectMap preparedMap(const CQuadricObjectMap& given, const CQuadricObje
   map.renderOptions = run.renderOptions;
   map.perceptionOptions = run.perceptionOptions;
   return map;
-}
-
-/** For each object of the run's own map the object of the continued one that took over most of its
- * boxes. */
-std::map<ObjectId, ObjectId> heirsOf(
-    const std::vector<BoxDecision>& before, const std::vector<BoxDecision>& after)
-{
-  using Box = std::pair<std::size_t, std::size_t>;  // keyframe, box
-  std::map<Box, ObjectId> now;
-  for (const auto& d : after)
-    if (d.decision.object) now[{d.keyframe, d.decision.box}] = *d.decision.object;
-  std::map<ObjectId, std::map<ObjectId, std::size_t>> votes;
-  for (const auto& d : before)
-  {
-    const auto heir = now.find({d.keyframe, d.decision.box});
-    if (d.decision.object && heir != now.end()) ++votes[*d.decision.object][heir->second];
-  }
-  std::map<ObjectId, ObjectId> heirs;
-  for (const auto& [object, counts] : votes)
-    heirs[object] = std::max_element(
-                        counts.begin(), counts.end(),
-                        [](const auto& a, const auto& b) { return a.second < b.second; })
-                        ->first;
-  return heirs;
 }
 
 /** The edges between poses and objects, which name the objects of the run's own map, with the ids

@@ -1,7 +1,6 @@
-// This file chooses the keyframes. ObjectSlam_stages.cpp takes them through the stages.
+// This file chooses the keyframes. ObjectSlam_stages.cpp takes them through the stages,
+// and ObjectSlam_warnings.cpp says what is wrong with the result.
 #include "run/ObjectSlam.h"
-
-#include <algorithm>
 
 #include "keyframes/BoxCounts.h"
 #include "quadmap/base/ErrorText.h"
@@ -170,6 +169,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier)
     backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
   }
   warnOfNoisyOdometry();
+  warnOfOpenLoop();
   if (earlier) continueFrom(*earlier);
   result_.map.claimContradictions();
 }
@@ -225,49 +225,11 @@ void ObjectSlam::requireInstanceIds() const
         "associations should be given, but none of the %zu boxes has an instance id", boxes));
 }
 
-void ObjectSlam::warnOfMissingDepth()
-{
-  const bool several = result_.countsBySensor.size() > 1;
-  for (const auto& [sensor, counts] : result_.countsBySensor)
-    if (counts.keyframesWithoutDepth > 0)
-      warnOfInput(mrpt::format(
-          "%zu of %zu keyframes%s have no valid depth at all", counts.keyframesWithoutDepth,
-          counts.keyframes, several ? (" of " + sensor).c_str() : ""));
-}
-
-void ObjectSlam::warnOfDroppedFloors()
-{
-  result_.droppedFloors = perception_.room().droppedFloors();
-  if (result_.droppedFloors > 0)
-    warnOfInput(mrpt::format(
-        "what was taken for the floor was given up %zu times, because more keyframes showed things "
-        "below it than had shown it",
-        result_.droppedFloors));
-}
-
 /** Notes what is new in the boxes of a keyframe. */
 void ObjectSlam::lookThrough(const CObservationObjects& boxes)
 {
   warnOfUnknownLabels(boxes);
   for (const auto& object : boxes.objects) anyInstanceId_ |= object.instanceId.has_value();
-}
-
-void ObjectSlam::warnOfNoisyOdometry()
-{
-  constexpr double kNotable = 1.5;  // less is said in report.json alone
-  if (!result_.correction) return;
-  const StepNoise& noise = result_.correction->stepNoise;
-  if (std::max(noise.position, noise.angle) >= kNotable)
-    warnOfInput(mrpt::format(
-        "the odometry errs by more than it claims: positions by %.1f and angles by %.1f times as "
-        "much; it was trusted so much less",
-        noise.position, noise.angle));
-}
-
-void ObjectSlam::warnOfDoubtfulPoses()
-{
-  for (const auto& text : {odometry_.warningOfJumps(), contradictions_.warning()})
-    if (!text.empty()) warnOfInput(text);
 }
 
 void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)

@@ -116,6 +116,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void warnOfMissingDepth();
   void warnOfDroppedFloors();
   void warnOfNoisyOdometry();
+  void warnOfOpenLoop();
   void warnOfDoubtfulPoses();
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;

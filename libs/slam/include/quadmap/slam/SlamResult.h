@@ -76,6 +76,21 @@ struct CorrectionSummary
   StepNoise stepNoise;     //!< What the odometry was found to err by
 };
 
+/** Places that the run came back to without noticing, so that their objects were twice in the map.
+ */
+struct LoopSummary
+{
+  int closed = 0;  //!< Times that such objects became one, and everything was estimated anew
+
+  /** Objects that are twice in the map. Poses and objects are doubtful then. */
+  struct Open
+  {
+    std::size_t objects = 0;
+    double distance = 0;  //!< Largest distance between the two of one thing [m]
+  };
+  std::optional<Open> open = std::nullopt;
+};
+
 /** Where the poses came from. */
 struct OdometrySummary
 {
@@ -99,6 +114,7 @@ struct SlamResult
    * measurements. */
   std::vector<FactorGraph::GraphEdge> edges;
   std::optional<CorrectionSummary> correction;  //!< Empty when poses were taken as given
+  LoopSummary loops;                            //!< Of the final estimation
   std::optional<MapContinuation> continuation;  //!< Set when it continued a map
   std::size_t droppedFloors = 0;                //!< See RoomPlanes::droppedFloors()
   std::vector<std::string> warnings;

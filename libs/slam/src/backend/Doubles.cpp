@@ -1,0 +1,294 @@
+#include "Doubles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "OdometryDrift.h"
+#include "SightedObjects.h"
+#include "quadmap/estimation/ObjectRules.h"
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kGate = 11.34;  // chi^2 of three degrees of freedom, 99 %
+constexpr double kMargin = 1.0;  // around the objects, of the area of the map [m]
+/** Candidates that are compared with each other, at most: the time grows with their square. */
+constexpr std::size_t kMostCandidates = 100;
+
+bool haveOneLabel(
+    const MapObject& a,
+    const MapObject& b,
+    const LabelTable& labels,
+    const ConstellationOptions& options)
+{
+  return labelAgreement(a, b, labels) >= options.minLabelAgreement;
+}
+
+/** Smaller and larger horizontal half length [m]. Heights are not compared: see comparedPoint(). */
+Eigen::Array2d widthsOf(const MapObject& object)
+{
+  const Eigen::Vector3d s = object.object.semiAxes();
+  return {std::min(s.x(), s.y()), std::max(s.x(), s.y())};
+}
+
+Eigen::Vector2d placeOf(const SightedObject& sighted)
+{
+  return sighted.object->object.center().head<2>();
+}
+
+/** Two objects that may be one thing. */
+struct Candidate
+{
+  const SightedObject *before = nullptr, *again = nullptr;
+  double logDensity = 0;  //!< Of things with this label [ln 1/m^2]
+
+  Eigen::Vector3d gap() const
+  {
+    return comparedPoint(*again->object) - comparedPoint(*before->object);
+  }
+  OdometryDrift::Moved moved() const
+  {
+    return {comparedPoint(*again->object), before->nearest, again->nearest};
+  }
+  bool isSame(const Candidate& other) const
+  {
+    return before == other.before && again == other.again;
+  }
+  bool shares(const Candidate& other) const
+  {
+    return before == other.before || again == other.again || before == other.again ||
+           again == other.before;
+  }
+};
+
+/** Candidates that are taken for true together. */
+struct Hypothesis
+{
+  std::vector<Candidate> pairs;
+  double logOdds = 0;
+  double distance2 = 0;  //!< Squared Mahalanobis distance of all gaps together
+
+  bool shares(const Candidate& candidate) const
+  {
+    return std::any_of(
+        pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.shares(candidate); });
+  }
+  bool has(const Candidate& candidate) const
+  {
+    return std::any_of(
+        pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.isSame(candidate); });
+  }
+  /** Takes a thing of the other one for something else. */
+  bool contradicts(const Hypothesis& other) const
+  {
+    return std::any_of(
+        pairs.begin(), pairs.end(),
+        [&](const auto& pair) { return other.shares(pair) && !other.has(pair); });
+  }
+};
+
+class DoublesFinder
+{
+ public:
+  DoublesFinder(
+      const SlamResult& result,
+      const StepNoise& noise,
+      const LabelTable& labels,
+      const ConstellationOptions& options) :
+      labels_(labels),
+      options_(options),
+      sighted_(sightedObjects(result)),
+      drift_(result.keyframes, noise)
+  {
+    for (const auto& object : sighted_)
+      for (const double margin : {-kMargin, kMargin})
+        bounds_.extend((placeOf(object).array() + margin).matrix());
+    addCandidates();
+  }
+
+  std::optional<Doubles> find() const
+  {
+    std::vector<Hypothesis> found;
+    for (const Candidate& seed : candidates_)
+      if (std::none_of(found.begin(), found.end(), [&](const auto& h) { return h.has(seed); }))
+        found.push_back(grownFrom(seed));
+    const auto best = std::max_element(
+        found.begin(), found.end(),
+        [](const auto& a, const auto& b) { return a.logOdds < b.logOdds; });
+    if (best == found.end() || !isEnough(best->pairs)) return std::nullopt;
+    double second = 0;
+    for (const Hypothesis& other : found)
+      if (other.contradicts(*best)) second = std::max(second, other.logOdds);
+    if (best->logOdds - second < options_.minLogOdds) return std::nullopt;
+    return doublesOf(*best);
+  }
+
+ private:
+  /** Those that the drift explains each for itself, the most likely ones first. */
+  void addCandidates()
+  {
+    std::vector<Hypothesis> single;
+    for (const auto& before : sighted_)
+      for (const auto& again : sighted_)
+        if (mayBeOne(before, again))
+          single.push_back(evaluated({
+              {&before, &again, logDensity(before)}
+          }));
+    std::stable_sort(
+        single.begin(), single.end(),
+        [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
+    for (const Hypothesis& hypothesis : single)
+      if (hypothesis.distance2 <= kGate && candidates_.size() < kMostCandidates)
+        candidates_.push_back(hypothesis.pairs.front());
+  }
+
+  bool mayBeOne(const SightedObject& before, const SightedObject& again) const
+  {
+    return before.nearest < again.nearest &&
+           haveOneLabel(*before.object, *again.object, labels_, options_) &&
+           (widthsOf(*before.object) / widthsOf(*again.object)).log().abs().maxCoeff() <=
+               options_.maxSizeLogRatio &&
+           !wereSeenTogether(before, again);
+  }
+
+  double logDensity(const SightedObject& of) const
+  {
+    const auto rivals = std::count_if(
+        sighted_.begin(), sighted_.end(),
+        [&](const auto& other)
+        { return haveOneLabel(*of.object, *other.object, labels_, options_); });
+    return std::log(static_cast<double>(rivals) / bounds_.volume());
+  }
+
+  /** The candidate, and those that agree with it, the most telling one first. */
+  Hypothesis grownFrom(const Candidate& seed) const
+  {
+    Hypothesis hypothesis = evaluated({seed});
+    while (auto more = withOneMore(hypothesis)) hypothesis = std::move(*more);
+    return hypothesis;
+  }
+
+  std::optional<Hypothesis> withOneMore(const Hypothesis& hypothesis) const
+  {
+    std::optional<Hypothesis> best;
+    for (const Candidate& candidate : candidates_)
+    {
+      if (hypothesis.shares(candidate)) continue;
+      auto pairs = hypothesis.pairs;
+      pairs.push_back(candidate);
+      Hypothesis more = evaluated(std::move(pairs));
+      if (more.distance2 - hypothesis.distance2 <= kGate &&
+          more.logOdds > (best ? *best : hypothesis).logOdds)
+        best = std::move(more);
+    }
+    return best;
+  }
+
+  /** doc/mathematics.md, (16.24) and (16.25). */
+  Hypothesis evaluated(std::vector<Candidate> pairs) const
+  {
+    const auto n = static_cast<Eigen::Index>(pairs.size());
+    Eigen::MatrixXd S(3 * n, 3 * n), horizontal(2 * n, 2 * n);
+    Eigen::VectorXd gaps(3 * n);
+    double logOdds = static_cast<double>(unmatched(pairs)) * std::log(1 - options_.knownShare);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      const Candidate& pair = pairs[static_cast<std::size_t>(i)];
+      gaps.segment<3>(3 * i) = pair.gap();
+      logOdds += std::log(options_.knownShare) - pair.logDensity - std::log(2 * M_PI);
+      for (Eigen::Index j = 0; j < n; ++j)
+      {
+        const Candidate& other = pairs[static_cast<std::size_t>(j)];
+        Eigen::Matrix3d block = drift_.covariance(pair.moved(), other.moved());
+        if (i == j) block += measured(pair);
+        S.block<3, 3>(3 * i, 3 * j) = block;
+        horizontal.block<2, 2>(2 * i, 2 * j) = block.topLeftCorner<2, 2>();
+      }
+    }
+    const double distance2 = gaps.dot(S.ldlt().solve(gaps));
+    logOdds -= 0.5 * (distance2 + horizontal.ldlt().vectorD().array().log().sum());
+    return {std::move(pairs), logOdds, distance2};
+  }
+
+  /** Covariance of what was measured of the two, without the drift between them. */
+  Eigen::Matrix3d measured(const Candidate& pair) const
+  {
+    return pair.before->object->covariance.topLeftCorner<3, 3>() +
+           pair.again->object->covariance.topLeftCorner<3, 3>() +
+           options_.positionSigma * options_.positionSigma * Eigen::Matrix3d::Identity();
+  }
+
+  /** Number of objects that are among those seen again, but were not seen before. */
+  std::size_t unmatched(const std::vector<Candidate>& pairs) const
+  {
+    Eigen::AlignedBox2d area;
+    std::size_t leftAt = 0;  // keyframe
+    for (const Candidate& pair : pairs)
+    {
+      area.extend(placeOf(*pair.again));
+      leftAt = std::max(leftAt, pair.before->nearest);
+    }
+    const auto isMatched = [&](const SightedObject& object)
+    {
+      return std::any_of(
+          pairs.begin(), pairs.end(), [&](const Candidate& c) { return c.again == &object; });
+    };
+    return static_cast<std::size_t>(std::count_if(
+        sighted_.begin(), sighted_.end(),
+        [&](const SightedObject& object)
+        {
+          return *object.keyframes.begin() > leftAt && area.contains(placeOf(object)) &&
+                 !isMatched(object);
+        }));
+  }
+
+  bool isEnough(const std::vector<Candidate>& pairs) const
+  {
+    const bool heading = std::any_of(
+        pairs.begin(), pairs.end(),
+        [](const Candidate& pair) {
+          return pair.before->object->orientationDefined && pair.again->object->orientationDefined;
+        });
+    return pairs.size() >= 2 &&
+           pairs.size() + (heading ? 1 : 0) >= static_cast<std::size_t>(options_.minPairs);
+  }
+
+  static Doubles doublesOf(const Hypothesis& hypothesis)
+  {
+    Doubles doubles;
+    doubles.logOdds = hypothesis.logOdds;
+    for (const Candidate& pair : hypothesis.pairs)
+    {
+      const auto &before = *pair.before, &again = *pair.again;
+      doubles.pairs.push_back({before.object->id, again.object->id, before.nearest, again.nearest});
+      doubles.distance = std::max(doubles.distance, pair.gap().norm());
+    }
+    return doubles;
+  }
+
+  const LabelTable& labels_;
+  const ConstellationOptions& options_;
+  std::vector<SightedObject> sighted_;
+  OdometryDrift drift_;
+  Eigen::AlignedBox2d bounds_;  //!< Of the map [m]
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+Eigen::Vector3d comparedPoint(const MapObject& object)
+{
+  return object.object.center() + object.object.semiAxes().z() * Eigen::Vector3d::UnitZ();
+}
+
+std::optional<Doubles> findDoubles(
+    const SlamResult& result,
+    const StepNoise& noise,
+    const LabelTable& labels,
+    const ConstellationOptions& options)
+{
+  return DoublesFinder(result, noise, labels, options).find();
+}
+
+}  // namespace quadmap

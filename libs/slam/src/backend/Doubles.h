@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "quadmap/constellation/ConstellationOptions.h"
+#include "quadmap/obs/LabelTable.h"
+#include "quadmap/slam/SlamResult.h"
+
+namespace quadmap
+{
+/** Things that a map has twice, because the run came back to them without noticing. */
+struct Doubles
+{
+  /** Two objects that are one thing. */
+  struct Pair
+  {
+    ObjectId before = 0, again = 0;
+    std::size_t keyframeBefore = 0, keyframeAgain = 0;  //!< Those that saw each from nearest
+  };
+  std::vector<Pair> pairs;
+  double logOdds = 0;   //!< That these are one, against chance
+  double distance = 0;  //!< Largest distance between the two of a pair [m]
+};
+
+/** The point of an object whose place is compared: the middle of its top [m]. What hides an object
+ * hides its bottom, which is then taken to be on the floor. Where the robot has drifted in height,
+ * the top is still where it was measured. */
+Eigen::Vector3d comparedPoint(const MapObject& object);
+
+/** Finds those objects of a run that are most certainly one thing each, as far as the drift of the
+ * odometry explains where they are: doc/mathematics.md, "Loops". Nothing when there are none, or
+ * when they could as well be others. Deterministic.
+ * \param result With map, decisions and keyframes.
+ * \param noise How many times as much as it claims the odometry errs by. */
+std::optional<Doubles> findDoubles(
+    const SlamResult& result,
+    const StepNoise& noise,
+    const LabelTable& labels,
+    const ConstellationOptions& options);
+
+}  // namespace quadmap

@@ -1,0 +1,168 @@
+#include "backend/Doubles.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "backend/LoopClosure.h"
+
+using namespace quadmap;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+const LabelTable& labels()
+{
+  static const LabelTable table = LabelTable::installed();
+  return table;
+}
+
+/** A robot that goes along x and back, one keyframe each half metre. The odometry claims 5 cm and
+ * 1 degree for a step. */
+class ThereAndBack
+{
+ public:
+  static constexpr std::size_t kKeyframes = 41;
+
+  ThereAndBack()
+  {
+    result_.map.setLabels(labels());
+    for (std::size_t k = 0; k < kKeyframes; ++k)
+    {
+      const double x = 0.5 * static_cast<double>(std::min(k, kKeyframes - 1 - k));
+      Keyframe keyframe;
+      keyframe.T_map_robot = keyframe.T_odom_robot = CPose3D(x, 0, 0, 0, 0, 0);
+      if (k > 0)
+      {
+        mrpt::poses::CPose3DPDFGaussian step(
+            keyframe.T_map_robot - result_.keyframes.back().T_map_robot);
+        for (int i = 0; i < 6; ++i) step.cov(i, i) = i < 3 ? 0.05 * 0.05 : 3e-4;
+        keyframe.odometryStep = step;
+      }
+      result_.keyframes.push_back(keyframe);
+    }
+  }
+
+  /** An object that some keyframes saw. */
+  ObjectId add(
+      const std::string& label, const Eigen::Vector3d& center, const std::vector<std::uint32_t>& by)
+  {
+    MapObject object;
+    object.object =
+        Ellipsoid(CPose3D(center.x(), center.y(), center.z(), 0, 0, 0), {0.2, 0.2, 0.3});
+    object.covariance = 1e-4 * UprightCovariance::Identity();
+    object.labelCounts = {
+        {label, 10}
+    };
+    object.completeCount = 10;
+    object.orientationDefined = false;
+    const ObjectId id = result_.map.addObject(object);
+    for (const std::uint32_t k : by)
+    {
+      BoxDecision decision;
+      decision.keyframe = k;
+      decision.decision.box = boxes_[k]++;
+      decision.decision.object = id;
+      result_.decisions.push_back(decision);
+    }
+    return id;
+  }
+
+  /** Four things beside the start of the way, seen from keyframes first to first + 3. */
+  std::vector<ObjectId> addPlace(const Eigen::Vector3d& at, std::uint32_t first)
+  {
+    const std::vector<std::uint32_t> by = {first, first + 1, first + 2, first + 3};
+    return {
+        add("chair", at + Eigen::Vector3d(1, 1, 0.3), by),
+        add("chair", at + Eigen::Vector3d(1.8, 1.1, 0.3), by),
+        add("potted plant", at + Eigen::Vector3d(1.2, -0.9, 0.3), by),
+        add("trash can", at + Eigen::Vector3d(0.3, -1.2, 0.3), by)};
+  }
+
+  std::optional<Doubles> doubles(double noise = 1) const
+  {
+    return findDoubles(result_, {noise, noise}, labels(), ConstellationOptions());
+  }
+
+  SlamResult& result() { return result_; }
+
+ private:
+  SlamResult result_;
+  std::map<std::uint32_t, std::size_t> boxes_;
+};
+
+const Eigen::Vector3d kDrift(0.3, 0.6, 0.2);  // [m]
+
+}  // namespace
+
+TEST(Doubles, AreFoundWhereTheOdometryMayHaveDriftedThatFar)
+{
+  ThereAndBack run;
+  const auto before = run.addPlace({0, 0, 0}, 0), again = run.addPlace(kDrift, 36);
+  const auto doubles = run.doubles();
+  ASSERT_TRUE(doubles);
+  std::map<ObjectId, ObjectId> pairs;
+  for (const auto& pair : doubles->pairs) pairs[pair.before] = pair.again;
+  ASSERT_EQ(pairs.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(pairs[before[i]], again[i]);
+  EXPECT_NEAR(doubles->distance, kDrift.norm(), 1e-6);
+}
+
+TEST(Doubles, AreNotFoundBeyondTheDrift)
+{
+  ThereAndBack run;
+  run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 36);
+  EXPECT_FALSE(run.doubles(0.1));
+}
+
+TEST(Doubles, AreNoTwoPlacesOfOneImage)
+{
+  ThereAndBack run;
+  run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 3);  // keyframe 3 saw both
+  EXPECT_FALSE(run.doubles());
+}
+
+TEST(Doubles, AreNotFoundWhereOneThingAloneIsTwice)
+{
+  ThereAndBack run;
+  run.add("chair", {1, 1, 0.3}, {0, 1, 2});
+  run.add("chair", Eigen::Vector3d(1, 1, 0.3) + kDrift, {36, 37, 38});
+  EXPECT_FALSE(run.doubles());
+}
+
+// The second place may be the first one, moved by half a metre along the row or by a whole one.
+TEST(Doubles, AreNotFoundWhereTheyCouldBeOthersAsWell)
+{
+  ThereAndBack run;
+  for (int i = 0; i < 6; ++i) run.add("chair", {0.5 * i, 1, 0.3}, {0, 1, 2});
+  for (int i = 0; i < 4; ++i) run.add("chair", {0.5 * i + 0.25, 1.1, 0.3}, {36, 37, 38});
+  EXPECT_FALSE(run.doubles());
+}
+
+TEST(Doubles, AreBroughtTogetherByTheStepsBetween)
+{
+  ThereAndBack run;
+  run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 36);
+  const auto doubles = run.doubles();
+  ASSERT_TRUE(doubles);
+  auto keyframes = run.result().keyframes;
+  bringTogether(*doubles, run.result().map, 0.02, {}, keyframes);
+  EXPECT_NEAR(keyframes.front().T_map_robot.norm(), 0, 1e-9) << "the first keyframe stays";
+  for (const auto& pair : doubles->pairs)
+  {
+    const auto& k = run.result().keyframes;
+    const auto moved = [&](ObjectId id, std::size_t by)
+    {
+      const Eigen::Vector3d c = run.result().map.find(id)->object.center();
+      const auto p =
+          (keyframes[by].T_map_robot + (-k[by].T_map_robot)).composePoint({c.x(), c.y(), c.z()});
+      return Eigen::Vector3d(p.x, p.y, p.z);
+    };
+    const double left =
+        (moved(pair.before, pair.keyframeBefore) - moved(pair.again, pair.keyframeAgain)).norm();
+    EXPECT_LT(left, 0.05) << "[m]; sigma is 0.02 m each";
+  }
+}
