@@ -232,6 +232,47 @@ TEST(MedianState, LeavesOutTheDepthsOfOtherThings)
   EXPECT_NEAR((*medianState(views, boxy("suitcase")))[0], 4, 1e-9) << "when there are no others";
 }
 
+// A side is where the sum of the whitened distances from the measured ends, and from the bounds
+// beyond it, is least: here by trying many places.
+TEST(MedianState, WeighsMeasuredEndsAgainstBounds)
+{
+  struct End
+  {
+    double x, sigma;
+    bool isMeasured;
+  };
+  const std::vector<std::vector<End>> cases = {
+      {{0.10, 0.02, true}, {0.12, 0.02, true},  {0.30, 0.02, true}, {0.05, 0.02, false}},
+      {{0.10, 0.05, true}, {0.11, 0.05, true}, {0.40, 0.02, false}, {0.42, 0.02, false}},
+      {{0.10, 0.01, true}, {0.11, 0.01, true}, {0.40, 0.05, false}, {0.42, 0.05, false}},
+  };
+  for (const auto& ends : cases)
+  {
+    std::deque<ObjectView> views;
+    for (const End& end : ends)
+    {
+      ObjectView view;
+      view.complete = true;
+      view.center.x() = end.x - 0.2;
+      view.halfSizes.setConstant(0.2);
+      view.faces.fill({FaceKind::Measured, 0.02});
+      view.faces[0] = {end.isMeasured ? FaceKind::Measured : FaceKind::AtLeast, end.sigma};
+      views.push_back(view);
+    }
+    const auto cost = [&](double x)
+    {
+      double sum = 0;
+      for (const End& end : ends)
+        sum += (end.isMeasured ? std::abs(end.x - x) : std::max(0.0, end.x - x)) / end.sigma;
+      return sum;
+    };
+    const auto state = medianState(views, boxy("suitcase"));
+    ASSERT_TRUE(state);
+    const double side = (*state)[0] + std::exp((*state)[4]);
+    for (double x = 0; x < 0.5; x += 0.001) EXPECT_LE(cost(side), cost(x) + 1e-9) << "at " << x;
+  }
+}
+
 TEST(ObjectEstimator, NeverLeavesWhatAFileMayHold)
 {
   // A damaged file may tell of any size. Estimated again and again, the object comes near it.

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/geometry/RotationDistance.h"
@@ -28,13 +31,55 @@ double commonYaw(const std::deque<ObjectView>& views)
   return std::atan2(s, c) / 4;
 }
 
-/** Positions of one side along its outward normal, from a point near the object [m]: all measured
- * ones, and the lower bounds. */
-struct Side
+/** A place along a side's outward normal [m], and how strongly it pulls. */
+struct Pull
 {
-  std::vector<double> measured, atLeast;
+  double position, weight;
 
-  double position() const { return measured.empty() ? quantile(atLeast, 0.8) : median(measured); }
+  bool operator<(const Pull& other) const { return position < other.position; }
+};
+
+/** Where that share of all weights has been passed; 0 without any. */
+double weightedQuantile(std::vector<Pull> pulls, double share)
+{
+  std::sort(pulls.begin(), pulls.end());
+  double left = 0;
+  for (const Pull& pull : pulls) left += share * pull.weight;
+  for (const Pull& pull : pulls)
+    if ((left -= pull.weight) <= 0) return pull.position;
+  return pulls.empty() ? 0 : pulls.back().position;
+}
+
+/** One side of an object, along its outward normal from a point near it: its measured ends, and the
+ * lower bounds. */
+class Side
+{
+ public:
+  void add(double position, const FaceMeasurement& face)
+  {
+    (isEquality(face.kind) ? ends_ : bounds_).push_back({position, 1 / face.sigma});
+  }
+
+  /** doc/mathematics.md, (11.26) [m]. */
+  double position() const
+  {
+    constexpr double kBelieved = 0.75;  // of the bounds; what goes beyond is another thing
+    const double farthest = weightedQuantile(bounds_, kBelieved);
+    if (ends_.empty()) return farthest;
+    // The sum is least where the pulls from both sides are equal. A bound pulls outwards, from
+    // wherever that is, until it is reached.
+    std::vector<Pull> pulls;
+    for (const auto& [end, weight] : ends_) pulls.push_back({end, 2 * weight});
+    for (const auto& [bound, weight] : bounds_)
+    {
+      pulls.push_back({std::min(bound, farthest), weight});
+      pulls.push_back({std::numeric_limits<double>::infinity(), weight});
+    }
+    return weightedQuantile(std::move(pulls), 0.5);
+  }
+
+ private:
+  std::vector<Pull> ends_, bounds_;
 };
 
 /** \param near A point near the object. About a point far from it, a view with a wrong yaw would
@@ -58,8 +103,7 @@ std::array<Side, kFaces> collectSides(
         turned = kAround[static_cast<std::size_t>(((at + quarter) % 4 + 4) % 4)];
       }
       const double position = v.faceOffset(f) - v.faceNormal(f).dot(near);
-      auto& side = sides[turned];
-      (isEquality(v.faces[f].kind) ? side.measured : side.atLeast).push_back(position);
+      sides[turned].add(position, v.faces[f]);
     }
   }
   return sides;
