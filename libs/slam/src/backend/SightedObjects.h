@@ -21,7 +21,8 @@ struct SightedObject
  * Pointers are to the map of `result`. */
 std::vector<SightedObject> sightedObjects(const SlamResult& result);
 
-/** Did some image show both? They are two things then. */
+/** Did images show both? They are two things then. Few of the images that showed one of them do not
+ * count: there a box may have been given to the wrong one. */
 bool wereSeenTogether(const SightedObject& a, const SightedObject& b);
 
 }  // namespace quadmap
