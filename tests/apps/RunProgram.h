@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <string>
 
@@ -23,11 +24,20 @@ inline bool isOneLine(const std::string& text)
   return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
 }
 
-/** The text with each `word` in it replaced. */
+/** The text with each `word` in it replaced, but not where it is part of another one: the random
+ * name of a temporary folder may have its letters. */
 inline std::string replaced(std::string text, const std::string& word, const std::string& value)
 {
-  for (auto at = text.find(word); at != kNotFound; at = text.find(word, at + value.size()))
-    text.replace(at, word.size(), value);
+  const auto isLetter = [](const std::string& of, std::size_t i)
+  { return i < of.size() && std::isalnum(static_cast<unsigned char>(of[i])) != 0; };
+  for (auto at = text.find(word); at != kNotFound;)
+  {
+    const std::size_t end = at + word.size();
+    const bool isPart =
+        isLetter(word, 0) && ((at > 0 && isLetter(text, at - 1)) || isLetter(text, end));
+    if (!isPart) text.replace(at, word.size(), value);
+    at = text.find(word, at + (isPart ? 1 : value.size()));
+  }
   return text;
 }
 
