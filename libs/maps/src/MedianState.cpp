@@ -39,31 +39,44 @@ struct Pull
   bool operator<(const Pull& other) const { return position < other.position; }
 };
 
-/** Where that share of all weights has been passed; 0 without any. */
+/** Where that share of all weights has been passed, or the middle of where it just has been and the
+ * next; 0 without any. */
 double weightedQuantile(std::vector<Pull> pulls, double share)
 {
+  constexpr double kRounding = 1e-9;  // of all weights
   std::sort(pulls.begin(), pulls.end());
-  double left = 0;
-  for (const Pull& pull : pulls) left += share * pull.weight;
-  for (const Pull& pull : pulls)
-    if ((left -= pull.weight) <= 0) return pull.position;
-  return pulls.empty() ? 0 : pulls.back().position;
+  double all = 0;
+  for (const Pull& pull : pulls) all += pull.weight;
+  double left = share * all;
+  for (std::size_t i = 0; i < pulls.size(); ++i)
+  {
+    left -= pulls[i].weight;
+    if (left > kRounding * all) continue;
+    const bool isPassed = left < -kRounding * all || i + 1 == pulls.size();
+    if (isPassed || std::isinf(pulls[i + 1].position)) return pulls[i].position;
+    return 0.5 * (pulls[i].position + pulls[i + 1].position);
+  }
+  return 0;
 }
 
-/** One side of an object, along its outward normal from a point near it: its measured ends, and the
- * lower bounds. */
+/** One side of an object, along its outward normal from a point near it: its measured ends, the
+ * lower bounds, and where the cuboids end of which nothing else is known. */
 class Side
 {
  public:
   void add(double position, const FaceMeasurement& face)
   {
-    (isEquality(face.kind) ? ends_ : bounds_).push_back({position, 1 / face.sigma});
+    auto& pulls = isEquality(face.kind)            ? ends_
+                  : face.kind == FaceKind::AtLeast ? bounds_
+                                                   : others_;
+    pulls.push_back({position, 1 / face.sigma});
   }
 
   /** doc/mathematics.md, (11.26) [m]. */
   double position() const
   {
     constexpr double kBelieved = 0.75;  // of the bounds; what goes beyond is another thing
+    if (ends_.empty() && bounds_.empty()) return weightedQuantile(others_, kBelieved);
     const double farthest = weightedQuantile(bounds_, kBelieved);
     if (ends_.empty()) return farthest;
     // The sum is least where the pulls from both sides are equal. A bound pulls outwards, from
@@ -79,7 +92,7 @@ class Side
   }
 
  private:
-  std::vector<Pull> ends_, bounds_;
+  std::vector<Pull> ends_, bounds_, others_;
 };
 
 /** \param near A point near the object. About a point far from it, a view with a wrong yaw would
