@@ -39,15 +39,14 @@ UprightCovariance covarianceIntersection(const UprightCovariance& a, const Uprig
   return 0.5 * (best + best.transpose());
 }
 
-bool isPositiveSemidefinite(const UprightCovariance& m)
+bool isPositiveSemidefinite(const UprightCovariance& m, double rounding)
 {
-  constexpr double kRounding = 1e-9;  // of the largest element [-]
   if (!m.allFinite()) return false;
-  const double rounding = kRounding * m.cwiseAbs().maxCoeff();
-  return (m - m.transpose()).cwiseAbs().maxCoeff() <= rounding &&
+  const double tolerance = rounding * m.cwiseAbs().maxCoeff();
+  return (m - m.transpose()).cwiseAbs().maxCoeff() <= tolerance &&
          Eigen::SelfAdjointEigenSolver<UprightCovariance>(m, Eigen::EigenvaluesOnly)
                  .eigenvalues()
-                 .minCoeff() >= -rounding;
+                 .minCoeff() >= -tolerance;
 }
 
 UprightCovariance withoutNegative(const UprightCovariance& symmetric)

@@ -135,17 +135,19 @@ InformationPrior readPrior(CArchive& in)
 {
   InformationPrior prior;
   readMatrix(in, prior.L);
+  constexpr double kRounding = 1e-5;  // [-], of sums over whole runs
   requireStored(
-      isPositiveSemidefinite(prior.L), "what is known of an object has a negative information");
+      isPositiveSemidefinite(prior.L, kRounding),
+      "what is known of an object has a negative information");
   readMatrix(in, prior.xi);
   prior.complete = readScalar<std::uint32_t>(in);
   prior.yawDefined = readScalar<std::uint32_t>(in);
   return prior;
 }
 
-/** An object that is not where its measurements have it was edited by hand. The next estimate would
- * take it far away, to no place and no size. Of the objects that maps wrote, those seen once are
- * pulled most, by 2 m and to 25 times their size. */
+/** An object that is not where its measurements have it was edited or damaged. The next estimate
+ * would take it far away, to no place and no size. Of the objects that maps wrote, those seen once
+ * are pulled most, by 2 m and to 25 times their size. */
 void requireAgreement(const UprightState& pull, const MapObject& object)
 {
   constexpr double kFarthest = 20, kRounding = 1e-3;  // [m], and [-] of the distance to the origin

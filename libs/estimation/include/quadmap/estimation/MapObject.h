@@ -26,8 +26,9 @@ Ellipsoid ellipsoidOf(const UprightState& state);
 UprightCovariance covarianceIntersection(const UprightCovariance& a, const UprightCovariance& b);
 
 /** Whether a matrix is symmetric and has no negative eigenvalue, but for rounding. It may know
- * nothing in some direction and everything in another. False for what is not finite. */
-bool isPositiveSemidefinite(const UprightCovariance& m);
+ * nothing in some direction and everything in another. False for what is not finite.
+ * \param rounding Share of its largest element, >= 0. */
+bool isPositiveSemidefinite(const UprightCovariance& m, double rounding = 1e-9);
 
 /** The nearest matrix without negative eigenvalues. */
 UprightCovariance withoutNegative(const UprightCovariance& symmetric);
