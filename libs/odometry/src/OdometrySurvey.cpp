@@ -55,13 +55,16 @@ bool isBetter(const KindCoverage& a, const KindCoverage& b)
 /** The best of several kinds. It is empty when there are not several, or when none of them gives
  * poses. */
 std::string bestKind(
-    const std::vector<std::string>& kinds, const std::string& rawlog, RawlogSourceOptions options)
+    std::vector<std::string> kinds, const std::string& rawlog, RawlogSourceOptions options)
 {
   // Each kind takes another look at the rawlog, and a damaged one may have any number of them.
   constexpr std::size_t kMostKinds = 8;
   // An image that comes just before the first pose does not tell which odometry is better.
   constexpr std::size_t kMostBehind = 1;
   if (kinds.size() < 2) return {};
+  std::stable_sort(
+      kinds.begin(), kinds.end(),
+      [](const auto& a, const auto& b) { return rankOf(a) > rankOf(b); });
   std::vector<KindCoverage> candidates;
   std::size_t most = 0;
   for (const auto& kind : kinds)

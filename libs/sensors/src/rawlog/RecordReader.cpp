@@ -27,6 +27,7 @@ std::string classNameIn(const std::string& head)
   const auto legal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
   return std::all_of(name.begin(), name.end(), legal) ? name : std::string();
 }
+
 /** What a rawlog may hold [bytes], and in how many records. Recordings of images compress to a
  * third, those of a robot that stands still to a hundredth, with a record in four bytes. A file
  * that holds more was made to keep its reader busy: 13 MB can hold 13 GB, or 60 million records. */
