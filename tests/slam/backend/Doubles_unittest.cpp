@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "backend/LoopClosure.h"
@@ -57,21 +58,26 @@ class ThereAndBack
     object.completeCount = 10;
     object.orientationDefined = false;
     const ObjectId id = result_.map.addObject(object);
-    for (const std::uint32_t k : by)
-    {
-      BoxDecision decision;
-      decision.keyframe = k;
-      decision.decision.box = boxes_[k]++;
-      decision.decision.object = id;
-      result_.decisions.push_back(decision);
-    }
+    for (const std::uint32_t k : by) addBox(id, k);
     return id;
   }
 
-  /** Four things beside the start of the way, seen from keyframes first to first + 3. */
-  std::vector<ObjectId> addPlace(const Eigen::Vector3d& at, std::uint32_t first)
+  /** A box that a keyframe took for that object. */
+  void addBox(ObjectId id, std::uint32_t k)
   {
-    const std::vector<std::uint32_t> by = {first, first + 1, first + 2, first + 3};
+    BoxDecision decision;
+    decision.keyframe = k;
+    decision.decision.box = boxes_[k]++;
+    decision.decision.object = id;
+    result_.decisions.push_back(decision);
+  }
+
+  /** Four things beside the start of the way, seen from that many keyframes. */
+  std::vector<ObjectId> addPlace(
+      const Eigen::Vector3d& at, std::uint32_t first, std::uint32_t count = 4)
+  {
+    std::vector<std::uint32_t> by;
+    for (std::uint32_t k = first; k < first + count; ++k) by.push_back(k);
     return {
         add("chair", at + Eigen::Vector3d(1, 1, 0.3), by),
         add("chair", at + Eigen::Vector3d(1.8, 1.1, 0.3), by),
@@ -116,12 +122,28 @@ TEST(Doubles, AreNotFoundBeyondTheDrift)
   EXPECT_FALSE(run.doubles(0.1));
 }
 
-TEST(Doubles, AreNoTwoPlacesOfOneImage)
+TEST(Doubles, AreNoThingsThatOneImageShows)
 {
   ThereAndBack run;
-  run.addPlace({0, 0, 0}, 0);
-  run.addPlace(kDrift, 3);  // keyframe 3 saw both
+  const auto before = run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 36);
+  ASSERT_TRUE(run.doubles());
+  for (const ObjectId id : before) run.addBox(id, 36);
   EXPECT_FALSE(run.doubles());
+}
+
+TEST(Doubles, MayShareFewImages)
+{
+  ThereAndBack run;
+  const ObjectId before = run.addPlace({0, 0, 0}, 0, 12).front();
+  const ObjectId again = run.addPlace(kDrift, 29, 12).front();
+  run.addBox(before, 30);  // one of twelve
+  const auto doubles = run.doubles();
+  ASSERT_TRUE(doubles);
+  EXPECT_EQ(doubles->pairs.size(), 4U);
+  EXPECT_TRUE(std::any_of(
+      doubles->pairs.begin(), doubles->pairs.end(),
+      [&](const auto& pair) { return pair.before == before && pair.again == again; }));
 }
 
 TEST(Doubles, AreNotFoundWhereOneThingAloneIsTwice)

@@ -13,8 +13,9 @@ namespace
 {
 constexpr double kGate = 11.34;  // chi^2 of three degrees of freedom, 99 %
 constexpr double kMargin = 1.0;  // around the objects, of the area of the map [m]
-/** Candidates that are compared with each other, at most: the time grows with their square. */
-constexpr std::size_t kMostCandidates = 100;
+/** Candidates that are compared with each other, and pairs that are found, at most: the time grows
+ * with powers of both. Association finds the other doubles when the poses are right. */
+constexpr std::size_t kMostCandidates = 100, kMostPairs = 10;
 
 bool haveOneLabel(
     const MapObject& a,
@@ -116,7 +117,8 @@ class DoublesFinder
     const auto best = std::max_element(
         found.begin(), found.end(),
         [](const auto& a, const auto& b) { return a.logOdds < b.logOdds; });
-    if (best == found.end() || !isEnough(best->pairs)) return std::nullopt;
+    if (best == found.end()) return std::nullopt;
+    if (best->pairs.size() < static_cast<std::size_t>(options_.minPairs)) return std::nullopt;
     double second = 0;
     for (const Hypothesis& other : found)
       if (other.contradicts(*best)) second = std::max(second, other.logOdds);
@@ -130,25 +132,33 @@ class DoublesFinder
   {
     std::vector<Hypothesis> single;
     for (const auto& before : sighted_)
+    {
+      std::optional<double> density;
       for (const auto& again : sighted_)
-        if (mayBeOne(before, again))
-          single.push_back(evaluated({
-              {&before, &again, logDensity(before)}
-          }));
+      {
+        if (!mayBeOne(before, again)) continue;
+        if (!density) density = logDensity(before);
+        if (auto one = evaluated({
+                {&before, &again, *density}
+        });
+            one.distance2 <= kGate)
+          single.push_back(std::move(one));
+      }
+    }
     std::stable_sort(
         single.begin(), single.end(),
         [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
-    for (const Hypothesis& hypothesis : single)
-      if (hypothesis.distance2 <= kGate && candidates_.size() < kMostCandidates)
-        candidates_.push_back(hypothesis.pairs.front());
+    if (single.size() > kMostCandidates)
+      single.erase(single.begin() + kMostCandidates, single.end());
+    for (const Hypothesis& hypothesis : single) candidates_.push_back(hypothesis.pairs.front());
   }
 
   bool mayBeOne(const SightedObject& before, const SightedObject& again) const
   {
     return before.nearest < again.nearest &&
-           haveOneLabel(*before.object, *again.object, labels_, options_) &&
            (widthsOf(*before.object) / widthsOf(*again.object)).log().abs().maxCoeff() <=
                options_.maxSizeLogRatio &&
+           haveOneLabel(*before.object, *again.object, labels_, options_) &&
            !wereSeenTogether(before, again);
   }
 
@@ -165,7 +175,12 @@ class DoublesFinder
   Hypothesis grownFrom(const Candidate& seed) const
   {
     Hypothesis hypothesis = evaluated({seed});
-    while (auto more = withOneMore(hypothesis)) hypothesis = std::move(*more);
+    while (hypothesis.pairs.size() < kMostPairs)
+    {
+      auto more = withOneMore(hypothesis);
+      if (!more) break;
+      hypothesis = std::move(*more);
+    }
     return hypothesis;
   }
 
@@ -191,7 +206,8 @@ class DoublesFinder
     const auto n = static_cast<Eigen::Index>(pairs.size());
     Eigen::MatrixXd S(3 * n, 3 * n), horizontal(2 * n, 2 * n);
     Eigen::VectorXd gaps(3 * n);
-    double logOdds = static_cast<double>(unmatched(pairs)) * std::log(1 - options_.knownShare);
+    double logOdds = 0;
+    if (n > 1) logOdds = static_cast<double>(unmatched(pairs)) * std::log(1 - options_.knownShare);
     for (Eigen::Index i = 0; i < n; ++i)
     {
       const Candidate& pair = pairs[static_cast<std::size_t>(i)];
@@ -241,17 +257,6 @@ class DoublesFinder
           return *object.keyframes.begin() > leftAt && area.contains(placeOf(object)) &&
                  !isMatched(object);
         }));
-  }
-
-  bool isEnough(const std::vector<Candidate>& pairs) const
-  {
-    const bool heading = std::any_of(
-        pairs.begin(), pairs.end(),
-        [](const Candidate& pair) {
-          return pair.before->object->orientationDefined && pair.again->object->orientationDefined;
-        });
-    return pairs.size() >= 2 &&
-           pairs.size() + (heading ? 1 : 0) >= static_cast<std::size_t>(options_.minPairs);
   }
 
   static Doubles doublesOf(const Hypothesis& hypothesis)

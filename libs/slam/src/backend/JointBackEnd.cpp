@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "GraphOptions.h"
 #include "LoopClosure.h"
@@ -254,19 +255,36 @@ void JointBackEnd::closeLoops(const BoxesOf& boxesOf, SlamResult& result) const
     const StepNoise noise = result.correction->stepNoise.atLeastClaimed();
     const auto doubles = findDoubles(result, noise, labels_, places_);
     if (!doubles) break;
-    SlamResult closed = result;
-    bringTogether(*doubles, result.map, places_.positionSigma, noise, closed.keyframes);
-    rebuildMap(boxesOf, closed);
-    estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, closed);
-    if (becameOne(*doubles, result, closed))
+    if (auto closed = closedLoop(*doubles, noise, boxesOf, result))
     {
-      result = std::move(closed);
+      result = std::move(*closed);
       ++loops.closed;
     }
     else
       loops.open = LoopSummary::Open{doubles->pairs.size(), doubles->distance};
   }
   result.loops = loops;
+}
+
+std::optional<SlamResult> JointBackEnd::closedLoop(
+    const Doubles& doubles,
+    const StepNoise& noise,
+    const BoxesOf& boxesOf,
+    const SlamResult& result) const
+{
+  SlamResult closed = result;
+  try
+  {
+    bringTogether(doubles, result.map, places_.positionSigma, noise, closed.keyframes);
+    rebuildMap(boxesOf, closed);
+    estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, closed);
+  }
+  catch (const std::runtime_error&)  // poses so bent that nothing can be estimated
+  {
+    return std::nullopt;
+  }
+  if (!becameOne(doubles, result, closed)) return std::nullopt;
+  return closed;
 }
 
 void JointBackEnd::correctWith(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "BackEnd.h"
+#include "Doubles.h"
 #include "MergedObjects.h"
 #include "OdometryChain.h"
 #include "quadmap/constellation/ConstellationOptions.h"
@@ -79,6 +80,13 @@ class JointBackEnd : public BackEnd
   /** Finds places that the run came back to without noticing, and estimates everything anew with
    * their objects as one. */
   void closeLoops(const BoxesOf& boxesOf, SlamResult& result) const;
+  /** The run with these doubles as one. Nothing when they are not: other things are torn then, or
+   * nothing can be estimated. */
+  std::optional<SlamResult> closedLoop(
+      const Doubles& doubles,
+      const StepNoise& noise,
+      const BoxesOf& boxesOf,
+      const SlamResult& result) const;
 
   JointOptions options_;
   PoseNoise viewNoise_;  //!< Of the map's options: what a view errs by beyond its faces

@@ -58,16 +58,16 @@ void bringTogether(
 
 bool becameOne(const Doubles& doubles, const SlamResult& before, const SlamResult& after)
 {
-  if (sightedObjects(after).size() >= sightedObjects(before).size()) return false;
   const auto heirs = heirsOf(before.decisions, after.decisions);
-  const auto one = std::count_if(
+  const auto one = static_cast<std::size_t>(std::count_if(
       doubles.pairs.begin(), doubles.pairs.end(),
       [&](const Doubles::Pair& pair)
       {
         const auto a = heirs.find(pair.before), b = heirs.find(pair.again);
         return a != heirs.end() && b != heirs.end() && a->second == b->second;
-      });
-  return 2 * static_cast<std::size_t>(one) > doubles.pairs.size();
+      }));
+  return 2 * one > doubles.pairs.size() &&
+         sightedObjects(after).size() + one <= sightedObjects(before).size();
 }
 
 }  // namespace quadmap

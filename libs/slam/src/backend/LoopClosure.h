@@ -19,7 +19,7 @@ void bringTogether(
     std::vector<Keyframe>& keyframes);
 
 /** Are the doubles of a run one thing each after it was estimated anew? Most pairs must be, and
- * altogether there must be fewer objects: where others were torn apart, nothing was won. */
+ * there must be as many objects fewer: where others were torn apart, the places were two. */
 bool becameOne(const Doubles& doubles, const SlamResult& before, const SlamResult& after);
 
 }  // namespace quadmap

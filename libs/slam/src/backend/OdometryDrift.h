@@ -17,7 +17,8 @@ namespace quadmap
 class OdometryDrift
 {
  public:
-  /** \param noise How many times as much as they claim the steps err by. */
+  /** \param noise How many times as much as they claim the steps err by. A keyframe without a step
+   * counts as one that did not drift: nothing is closed that needs it. */
   OdometryDrift(const std::vector<Keyframe>& keyframes, const StepNoise& noise);
 
   /** How far two things of the map are moved, each from where it was seen before. */

@@ -34,13 +34,12 @@ std::vector<SightedObject> sightedObjects(const SlamResult& result)
 
 bool wereSeenTogether(const SightedObject& a, const SightedObject& b)
 {
-  constexpr double kWrong =
-      0.1;  // share of the images in which a box may be given to the wrong one
+  constexpr double kWrongBoxes = 0.1;  // share of the images
   const auto both = std::count_if(
       a.keyframes.begin(), a.keyframes.end(),
       [&](std::size_t k) { return b.keyframes.count(k) > 0; });
   return static_cast<double>(both) >
-         kWrong * static_cast<double>(std::min(a.keyframes.size(), b.keyframes.size()));
+         kWrongBoxes * static_cast<double>(std::min(a.keyframes.size(), b.keyframes.size()));
 }
 
 }  // namespace quadmap

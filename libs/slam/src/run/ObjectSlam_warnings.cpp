@@ -43,8 +43,8 @@ void ObjectSlam::warnOfOpenLoop()
     MRPT_LOG_INFO_FMT("loops closed by objects: %i", result_.loops.closed);
   if (const auto& open = result_.loops.open)
     warnOfInput(mrpt::format(
-        "%zu objects seem to be twice in the map, up to %.1f m apart, and could not be made one: "
-        "poses and objects are doubtful",
+        "%zu objects may be twice in the map, up to %.1f m apart, and could not be made one: poses "
+        "and objects are doubtful",
         open->objects, open->distance));
 }
 
