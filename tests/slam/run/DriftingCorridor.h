@@ -1,0 +1,44 @@
+#pragma once
+
+#include "../SyntheticRoom.h"
+#include "quadmap/evaluation/EvaluationReport.h"
+#include "quadmap/simulator/Simulator.h"
+#include "quadmap/slam/RawlogRun.h"
+
+namespace quadmap
+{
+/** A run along a corridor and back, and how far it is from the truth. */
+struct DriftingCorridor
+{
+  SlamResult result;
+  EvaluationReport report;
+};
+
+/** \param width,height Of the images [px].
+ *  \param drift How many times as much as it claims the odometry drifts. */
+inline DriftingCorridor driftingCorridor(
+    unsigned width, unsigned height, double drift, std::uint64_t seed)
+{
+  const TemporaryFolder folder;
+  auto scene = simulator::readScene(simulator::findScene("corridor"));
+  scene.options.resize(width, height);
+  simulator::NoiseFactors factors;
+  factors.odometry = drift;
+  scene.options.scaleNoise(factors);
+  simulator::simulateToFiles(
+      simulator::Simulator(scene, LabelTable::installed(), seed), folder.path("a.rawlog"));
+
+  RawlogRunRequest request;
+  request.rawlog = folder.path("a.rawlog");
+  request.outputDirectory = folder.path("out");
+  DriftingCorridor run;
+  run.result = runOnRawlog(request).result;
+
+  EvaluationInput input;
+  input.estimate = request.outputDirectory;
+  input.trueObjectsPath = folder.path("a.objects.gt.json");
+  input.trueTrajectoryPath = folder.path("a.groundtruth.tum");
+  run.report = evaluateRun(input);
+  return run;
+}
+}  // namespace quadmap
