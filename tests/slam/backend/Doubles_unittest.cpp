@@ -78,6 +78,10 @@ class ThereAndBack
   {
     std::vector<std::uint32_t> by;
     for (std::uint32_t k = first; k < first + count; ++k) by.push_back(k);
+    return addPlace(at, by);
+  }
+  std::vector<ObjectId> addPlace(const Eigen::Vector3d& at, const std::vector<std::uint32_t>& by)
+  {
     return {
         add("chair", at + Eigen::Vector3d(1, 1, 0.3), by),
         add("chair", at + Eigen::Vector3d(1.8, 1.1, 0.3), by),
@@ -161,6 +165,24 @@ TEST(Doubles, AreNotFoundWhereTheyCouldBeOthersAsWell)
   for (int i = 0; i < 6; ++i) run.add("chair", {0.5 * i, 1, 0.3}, {0, 1, 2});
   for (int i = 0; i < 4; ++i) run.add("chair", {0.5 * i + 0.25, 1.1, 0.3}, {36, 37, 38});
   EXPECT_FALSE(run.doubles());
+}
+
+TEST(Doubles, BecameOneWhenNothingElseWasTorn)
+{
+  ThereAndBack run;
+  run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 36);
+  run.add("couch", {5, 2, 0.3}, {10, 11});
+  const auto doubles = run.doubles();
+  ASSERT_TRUE(doubles);
+  EXPECT_FALSE(becameOne(*doubles, run.result(), run.result()));
+
+  ThereAndBack closed;
+  closed.addPlace({0, 0, 0}, std::vector<std::uint32_t>{0, 1, 2, 3, 36, 37, 38, 39});
+  closed.add("couch", {5, 2, 0.3}, {10});
+  EXPECT_TRUE(becameOne(*doubles, run.result(), closed.result()));
+  closed.add("couch", {6, 2, 0.3}, {11});
+  EXPECT_FALSE(becameOne(*doubles, run.result(), closed.result()));
 }
 
 TEST(Doubles, AreBroughtTogetherByTheStepsBetween)
