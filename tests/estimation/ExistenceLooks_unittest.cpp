@@ -100,6 +100,16 @@ TEST(ExistenceLooks, EvidenceCanTurn)
   EXPECT_LT(logOdds(gone), -kOptions.confirmLogOdds);
 }
 
+TEST(ExistenceLooks, WhatWasAlwaysSeenAndThenIsSeenEveryThirdTimeIsStillThere)
+{
+  std::vector<bool> seen(40, true);
+  for (int i = 0; i < 24; ++i) seen.push_back(i % 3 == 2);
+  constexpr double kOfGoodDetector = 0.9;
+  EXPECT_GT(looks(seen, 0.1).logOdds(kOfGoodDetector, kOptions), kOptions.confirmLogOdds);
+  seen.insert(seen.end(), 24, false);
+  EXPECT_LT(looks(seen, 0.1).logOdds(kOfGoodDetector, kOptions), -kOptions.confirmLogOdds);
+}
+
 TEST(ExistenceLooks, ForgottenVisitsLeaveWhatTheySaid)
 {
   ExistenceLooks walk;

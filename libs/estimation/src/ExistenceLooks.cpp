@@ -78,11 +78,16 @@ void ExistenceLooks::take(
 {
   const LookCounts counts = independent(visit, options);
   const ExistenceEvidence evidence(
-      detectionProbability(known.counts, labelProbability, options), options.falseAlarmProbability);
+      detectionProbability(known.recent, labelProbability, options), options.falseAlarmProbability);
   known.logOdds = std::clamp(
       known.logOdds + counts.seen * evidence.detection() + counts.missed * evidence.miss(),
       -options.maxLogOdds, options.maxLogOdds);
   known.counts += counts;
+  known.recent += counts;
+  // How well it is seen changes with the place and the light, so that old looks are forgotten.
+  const double sum = known.recent.seen + known.recent.missed;
+  const double share = std::min(1.0, options.detectionPriorWeight / sum);
+  known.recent = {share * known.recent.seen, share * known.recent.missed};
 }
 
 double ExistenceLooks::logOdds(double labelProbability, const ExistenceOptions& options) const

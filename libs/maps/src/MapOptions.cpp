@@ -113,7 +113,8 @@ void describeExistence(InsertionOptions& o, OptionList& list)
       "nothing else: mean of the prior. What each label's objects show then counts on top.");
   list.number(
       "detectionPriorWeight", o.existence.detectionPriorWeight, {kSmall, 1e6}, "looks",
-      "Weight of that prior against the run's independent looks.");
+      "Weight of that prior against the run's independent looks. An object's own earlier looks "
+      "weigh as much at most: how well it is seen changes with the place.");
   list.number(
       "falseAlarmProbability", o.existence.falseAlarmProbability, {0.0001, 0.999}, "",
       "A box appears where nothing is with this probability per frame.");

@@ -46,7 +46,7 @@ class ExistenceLooks
 
   ExistenceLooks() = default;
   /** Starts from log-odds that earlier looks led to. Those looks are no longer known. */
-  explicit ExistenceLooks(double logOdds) : before_{logOdds, {}} {}
+  explicit ExistenceLooks(double logOdds) : before_{logOdds, {}, {}} {}
 
   /** \param center Of the object [m]. */
   void add(const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options);
@@ -71,6 +71,7 @@ class ExistenceLooks
   {
     double logOdds = 0;
     LookCounts counts;
+    LookCounts recent;  // of these, as many as tell its own p_D
   };
 
   static double correlation(const Visit& of, const Visit& with, const ExistenceOptions& options);

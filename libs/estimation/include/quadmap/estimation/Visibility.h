@@ -17,8 +17,10 @@ namespace quadmap
  * they are independent of other looks. */
 struct ExistenceOptions
 {
-  double detectionProbability = 0.5;   //!< Prior mean of pD, of a visible object, in (0, 1)
-  double detectionPriorWeight = 10;    //!< Weight of that prior [independent looks], > 0
+  double detectionProbability = 0.5;  //!< Prior mean of pD, of a visible object, in (0, 1)
+  /** Weight of that prior, and the most that an object's earlier looks weigh against it
+   * [independent looks], > 0 */
+  double detectionPriorWeight = 10;
   double falseAlarmProbability = 0.1;  //!< pFA: a box where nothing is, in (0, pD)
   /** A detector repeats a mistake as long as it looks from the same place: a look, be it a
    * detection or a miss, counts in full when the camera has moved by this angle as seen from the
