@@ -29,6 +29,20 @@ MapObject objectAt(const Eigen::Vector3d& place)
   return object;
 }
 
+DetectedObject boxOf(const std::string& label, double score, const ImageBox& box)
+{
+  DetectedObject detected;
+  detected.label = label;
+  detected.score = score;
+  detected.box = box;
+  return detected;
+}
+
+bool isDropped(const std::vector<DetectedObject>& boxes, std::size_t k)
+{
+  return hasBetterTwin(boxes, k, LabelTable::installed(), {});
+}
+
 double likelihoodAt(const Eigen::Vector3d& place, double wrongDepthShare)
 {
   AgreementOptions options;
@@ -36,6 +50,27 @@ double likelihoodAt(const Eigen::Vector3d& place, double wrongDepthShare)
   return positionLogLikelihood(partialView(), objectAt(place), options);
 }
 }  // namespace
+
+TEST(BetterTwin, OfTwoNamesForAThingTheSurerOneStays)
+{
+  // YOLOX on the first image of tum_fr2_desk: a monitor with its keyboard makes a laptop, too.
+  const std::vector<DetectedObject> desk{
+      boxOf("laptop", 0.54, {189, 95, 387, 270}), boxOf("tvmonitor", 0.72, {238, 95, 385, 227}),
+      boxOf("keyboard", 0.83, {201, 259, 391, 315})};
+  EXPECT_TRUE(isDropped(desk, 0));
+  EXPECT_FALSE(isDropped(desk, 1));
+  EXPECT_FALSE(isDropped(desk, 2));
+}
+
+TEST(BetterTwin, NeighboursOfOneLabelAndThingsInFrontOfOthersStay)
+{
+  const ImageBox box{100, 100, 200, 200}, beside{130, 100, 230, 200};  // IoU 0.54
+  EXPECT_FALSE(isDropped({boxOf("chair", 0.5, box), boxOf("chair", 0.9, beside)}, 0));
+  EXPECT_FALSE(isDropped({boxOf("chair", 0.5, box), boxOf("cup", 0.9, beside)}, 0));
+  EXPECT_TRUE(isDropped({boxOf("chair", 0.5, box), boxOf("cup", 0.9, box)}, 0));
+  EXPECT_TRUE(isDropped({boxOf("cup", 0.5, box), boxOf("cup", 0.5, box)}, 1)) << "one of two stays";
+  EXPECT_FALSE(isDropped({boxOf("cup", 0.5, box), boxOf("cup", 0.5, box)}, 0));
+}
 
 TEST(PartialPosition, IsADensity)
 {

@@ -113,16 +113,29 @@ DepthHypotheses depthHypotheses(
       std::log(options.wrongDepthShare) + logGaussian(off, S_object + wrongDepthCovariance(view))};
 }
 
+/** Are they two names that a detector takes for each other? */
+bool areConfused(const std::string& a, const std::string& b, const LabelTable& labels)
+{
+  const std::string nameA = labels.canonical(a), nameB = labels.canonical(b);
+  return nameA != nameB && labels.compatible(nameA, nameB);
+}
+
 }  // namespace
 
-bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU)
+bool hasBetterTwin(
+    const std::vector<DetectedObject>& objects,
+    std::size_t k,
+    const LabelTable& labels,
+    const AgreementOptions& options)
 {
+  const DetectedObject& box = objects[k];
   for (std::size_t j = 0; j < objects.size(); ++j)
   {
-    if (j == k || imageBoxIoU(objects[j].box, objects[k].box) <= duplicateIoU) continue;
-    const bool better =
-        objects[j].score > objects[k].score || (objects[j].score == objects[k].score && j < k);
-    if (better) return true;
+    const DetectedObject& other = objects[j];
+    const double iou = imageBoxIoU(other.box, box.box);
+    if (j == k || iou <= std::min(options.confusedIoU, options.duplicateIoU)) continue;
+    if (iou <= options.duplicateIoU && !areConfused(other.label, box.label, labels)) continue;
+    if (other.score > box.score || (other.score == box.score && j < k)) return true;
   }
   return false;
 }

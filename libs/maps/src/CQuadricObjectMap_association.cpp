@@ -57,7 +57,7 @@ CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
     frame.allBoxes.push_back(detected.box);
     frame.allLabels.push_back(sure ? table.canonical(detected.label) : "");
     if (!sure) continue;
-    if (hasBetterTwin(obs.objects, k, insertionOptions.agreement.duplicateIoU)) continue;
+    if (hasBetterTwin(obs.objects, k, table, insertionOptions.agreement)) continue;
     auto view = viewOf(
         detected, frame.geometry.T_map_sensor, table.properties(table.canonical(detected.label)),
         noise);

@@ -47,6 +47,10 @@ void describeAgreement(InsertionOptions& o, OptionList& list)
   list.number(
       "duplicateIoU", o.agreement.duplicateIoU, {kSmall, 1}, "",
       "Two boxes of one frame with at least this IoU show the same thing.");
+  list.number(
+      "confusedIoU", o.agreement.confusedIoU, {kSmall, 1}, "",
+      "So do two with at least this IoU whose labels a detector takes for each other. Detectors "
+      "suppress copies label by label. In real images the surer box of such a pair is right.");
 }
 
 void describeEstimation(InsertionOptions& o, OptionList& list)

@@ -75,7 +75,7 @@ std::vector<BoxView> boxViewsOf(
   {
     const DetectedObject& detected = boxes.objects[k];
     if (!detected.measurement.edges || detected.score < options.minScore) continue;
-    if (hasBetterTwin(boxes.objects, k, options.agreement.duplicateIoU)) continue;
+    if (hasBetterTwin(boxes.objects, k, labels, options.agreement)) continue;
     BoxView view;
     view.keyframe = keyframe;
     view.box = k;

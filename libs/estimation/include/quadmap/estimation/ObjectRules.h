@@ -21,6 +21,8 @@ struct AgreementOptions
   double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
   double wrongDepthShare = 0.05;  //!< Of partial measurements whose depth is another thing's [-]
   double duplicateIoU = 0.8;      //!< Two boxes of one frame this alike show the same thing, (0, 1]
+  /** ... or this alike, when their labels are two that a detector takes for each other, (0, 1] */
+  double confusedIoU = 0.5;
 };
 
 struct MergeOptions
@@ -31,9 +33,14 @@ struct MergeOptions
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
 };
 
-/** Is there another box of the same frame around nearly the same pixels, which the detector is
- * surer of? \param k Index of the box. \param duplicateIoU As in AgreementOptions. */
-bool hasBetterTwin(const std::vector<DetectedObject>& objects, std::size_t k, double duplicateIoU);
+/** Is there another box of the same frame around the same thing, which the detector is surer of? A
+ * detector leaves two where two names suit a thing: one suppresses its own copies label by label.
+ * \param k Index of the box. */
+bool hasBetterTwin(
+    const std::vector<DetectedObject>& objects,
+    std::size_t k,
+    const LabelTable& labels,
+    const AgreementOptions& options);
 
 /** Share of the object's measurements whose label a detector takes for this one, in [0, 1]:
  * doc/mathematics.md, (12.10). */
