@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "OdometryChain.h"
+#include "quadmap/geometry/PoseAngles.h"
 #include "quadmap/geometry/PosePosition.h"
 #include "quadmap/geometry/RotationVector.h"
 
@@ -20,11 +21,10 @@ Matrix6 ofStep(
     const mrpt::poses::CPose3D& T_map_to,
     const mrpt::poses::CPose3DPDFGaussian& step)
 {
-  const Eigen::Matrix3d R = T_map_from.getRotationMatrix().asEigen();
   Matrix6 J = Matrix6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  // Of small angles yaw, pitch and roll are turns about z, y and x.
-  J.bottomRightCorner<3, 3>() = R.rowwise().reverse();
+  J.topLeftCorner<3, 3>() = T_map_from.getRotationMatrix().asEigen();
+  J.bottomRightCorner<3, 3>() =
+      T_map_to.getRotationMatrix().asEigen() * localTurnsPerAngle(step.mean);
   J.topRightCorner<3, 3>() = crossMatrix(positionOf(T_map_to)) * J.bottomRightCorner<3, 3>();
   return J * step.cov.asEigen() * J.transpose();
 }
