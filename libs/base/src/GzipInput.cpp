@@ -124,13 +124,19 @@ std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
 std::size_t GzInput::Read(void* buffer, std::size_t count)
 {
   if (!failure_.empty()) throw std::runtime_error(failure_);
-  requireRoomFor(count);
   auto* bytes = static_cast<char*>(buffer);
-  const std::size_t done = readAvailable(bytes, count);
+  const std::size_t done = readSome(bytes, count);
   if (done < count && (done > 0 || recordBytes_ > 0))
     fail("the file is truncated (it ends within a record)");
   if (head_.size() < kHeadBytes) head_.append(bytes, std::min(done, kHeadBytes - head_.size()));
   recordBytes_ += done;
+  return done;
+}
+
+std::size_t GzInput::readSome(char* bytes, std::size_t count)
+{
+  requireRoomFor(count);
+  const std::size_t done = readAvailable(bytes, count);
   position_ += done;
   return done;
 }

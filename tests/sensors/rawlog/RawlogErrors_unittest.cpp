@@ -158,7 +158,7 @@ TEST(RawlogErrors, UnknownClass)
   bytes.replace(at, 21, "CObservationRobotNose");
   expectProblem(
       folder.write("x.rawlog", bytes), {"x.rawlog: record 1: ", "CObservationRobotNose", "unknown"},
-      1);
+      2);
 }
 
 TEST(RawlogErrors, UnknownClassInsideASensoryFrame)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "InputError.h"
 #include "quadmap/base/ErrorText.h"
@@ -61,7 +62,7 @@ std::string RecordReader::explain(const std::exception& e) const
   }
   if (!stream_.failure().empty()) return name + ": " + stream_.failure();
   if (!mrpt::rtti::findRegisteredClass(name))
-    return "class " + name + " is unknown; MRPT files cannot be read on after an unknown class";
+    return "class " + name + " is unknown, and MRPT files do not tell where such an object ends";
   return name + " cannot be read: " + rootMessage(e);
 }
 
@@ -73,25 +74,62 @@ mrpt::serialization::CSerializable::Ptr RecordReader::next()
     ended_ = true;
     throw InputError({file_, recordsRead_, "", "the file has too many records for its size"});
   }
+  if (std::exchange(isLost_, false))
+  {
+    if (const auto leftOut = findNext())
+      throw InputError(
+          {file_, recordsRead_, "", std::to_string(*leftOut) + " bytes before it were left out"});
+    ended_ = true;
+    return nullptr;
+  }
+  const auto object = found_ ? std::exchange(found_, nullptr) : read();
+  if (object)
+    ++recordsRead_;
+  else
+    ended_ = true;
+  return object;
+}
+
+mrpt::serialization::CSerializable::Ptr RecordReader::read()
+{
   stream_.startRecord();
   try
   {
-    auto object = reader_.next();
-    if (object)
-      ++recordsRead_;
-    else
-      ended_ = true;
-    return object;
+    return reader_.next();
   }
   catch (const DamagedImage& e)
   {
-    throw InputError({file_, recordsRead_++, e.sensor, explain(e)});
+    const std::string why = explain(e);
+    throw InputError({file_, recordsRead_++, e.sensor, why});
   }
   catch (const std::exception& e)
   {
-    ended_ = true;
-    throw InputError({file_, recordsRead_, "", explain(e)});
+    isLost_ = true;
+    const std::string why = explain(e);
+    throw InputError({file_, recordsRead_++, "", why});
   }
+}
+
+/** Finds the next object behind one that could not be read. Bytes that only look like the beginning
+ * of one, as in an image, are tried and left out with the others.
+ * \return How many bytes lie in between; nothing when there is no further object. */
+std::optional<std::uint64_t> RecordReader::findNext()
+{
+  std::uint64_t leftOut = 0;
+  while (const auto passed = stream_.skipToNextRecord())
+  {
+    leftOut += *passed;
+    try
+    {
+      found_ = reader_.next();
+      return leftOut;
+    }
+    catch (const std::exception&)
+    {
+      continue;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace quadmap

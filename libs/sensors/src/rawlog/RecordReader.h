@@ -3,11 +3,13 @@
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "quadmap/base/GzipInput.h"
 #include "quadmap/sensors/CheckedReader.h"
+#include "rawlog/RecordInput.h"
 
 namespace quadmap
 {
@@ -19,9 +21,11 @@ class RecordReader
   /** \exception std::runtime_error If the file cannot be opened. */
   explicit RecordReader(const std::string& file, const RecordLimits& limits = {});
 
-  /** The next object, or null at the clean end of the file.
-   *  \exception InputError For an object with a damaged image, and if reading cannot go on, because
-   *  of an unknown class or because the file is truncated or damaged: see hasEnded(). */
+  /** The next object, or null at the end of the file. That may follow an exception.
+   *  \exception InputError For an object that cannot be read: its image is damaged, its class is
+   *  unknown, it states sizes that cannot be right, or the file is truncated or damaged. Where the
+   *  next object begins is only known in the first case. In the others the next call looks for it,
+   *  and if there is one, throws once more to say how many bytes were left out. */
   mrpt::serialization::CSerializable::Ptr next();
 
   bool hasEnded() const { return ended_; }  //!< Nothing more can be read: next() returns null
@@ -32,11 +36,15 @@ class RecordReader
 
  private:
   std::string explain(const std::exception& e) const;
+  mrpt::serialization::CSerializable::Ptr read();
+  std::optional<std::uint64_t> findNext();
 
   std::string file_;
-  GzInput stream_;
+  RecordInput stream_;
   CheckedReader reader_;
+  mrpt::serialization::CSerializable::Ptr found_;  //!< By findNext()
   std::size_t recordsRead_ = 0;
+  bool isLost_ = false;  //!< Where the next object begins is not known
   bool ended_ = false;
 };
 

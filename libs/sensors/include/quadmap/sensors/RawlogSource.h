@@ -52,7 +52,7 @@ struct RawlogSourceOptions
  * next() gives the frames in the order of the file. It throws std::runtime_error for a truncated
  * file, an unknown class, a missing external image and the like. The message is one line with file,
  * record and sensor. With keepGoing such a record is noted in problems() instead, and reading goes
- * on if the file allows it. */
+ * on with the next one that is found. */
 class RawlogSource : public FrameSource
 {
  public:

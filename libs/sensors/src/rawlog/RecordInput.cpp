@@ -1,0 +1,123 @@
+#include "rawlog/RecordInput.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <stdexcept>
+
+namespace quadmap
+{
+namespace
+{
+constexpr std::size_t kHeadBytes = 160;        // more than the longest class name MRPT can write
+constexpr std::size_t kPieceBytes = 1u << 16;  // read at a time while the next record is looked for
+
+bool isRecordClass(const std::string& name)
+{
+  const auto* found = mrpt::rtti::findRegisteredClass(name);
+  return found && (found->derivedFrom(CLASS_ID(mrpt::obs::CObservation)) ||
+                   found->derivedFrom(CLASS_ID(mrpt::obs::CSensoryFrame)) ||
+                   found->derivedFrom(CLASS_ID(mrpt::obs::CActionCollection)));
+}
+}  // namespace
+
+RecordInput::RecordInput(const std::string& file) : file_(file) {}
+
+void RecordInput::startRecord()
+{
+  begin_ = next_;
+  wasForgotten_ = false;
+  failure_.clear();
+  if (begin_ <= bytes_.size() / 2) return;  // what is ahead is moved seldom
+  bytes_.erase(0, begin_);
+  begin_ = next_ = 0;
+}
+
+std::string RecordInput::recordHead() const
+{
+  if (wasForgotten_) return {};
+  return bytes_.substr(begin_, std::min(kHeadBytes, next_ - begin_));
+}
+
+/** Reads the file until there are so many bytes, as far as it has them. */
+void RecordInput::fetch(std::size_t size)
+{
+  const std::size_t before = bytes_.size();
+  if (size <= before) return;
+  bytes_.resize(size);
+  std::size_t got = 0;
+  try
+  {
+    got = file_.readSome(bytes_.data() + before, size - before);
+  }
+  catch (const std::runtime_error& e)
+  {
+    failure_ = e.what();
+  }
+  bytes_.resize(before + got);
+}
+
+std::size_t RecordInput::Read(void* buffer, std::size_t count)
+{
+  if (next_ == bytes_.size() && next_ - begin_ > kMostKept)
+  {
+    bytes_.clear();
+    begin_ = next_ = 0;
+    wasForgotten_ = true;
+  }
+  fetch(next_ + count);
+  const std::size_t done = std::min(count, bytes_.size() - next_);
+  std::memcpy(buffer, bytes_.data() + next_, done);
+  next_ += done;
+  if (done < count && failure_.empty() && (next_ > begin_ || wasForgotten_))
+    failure_ = "the file is truncated (it ends within a record)";
+  if (done < count && !failure_.empty()) throw std::runtime_error(failure_);
+  return done;
+}
+
+/** Whether MRPT may have written a record there: a byte with the length of a name and a mark, and
+ * the name of a class of which records are. */
+bool RecordInput::isRecordAt(std::size_t at) const
+{
+  constexpr unsigned kMark = 0x80;
+  const auto first = static_cast<unsigned char>(bytes_[at]);
+  const std::size_t length = first & ~kMark;
+  if ((first & kMark) == 0 || length == 0 || length >= bytes_.size() - at) return false;
+  const auto name = bytes_.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+  const auto end = name + static_cast<std::ptrdiff_t>(length);
+  const auto legal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
+  return std::all_of(name, end, legal) && isRecordClass(std::string(name, end));
+}
+
+std::optional<std::uint64_t> RecordInput::skipToNextRecord()
+{
+  searched_ += next_ - begin_;
+  if (wasForgotten_ || searched_ > kMostSearched) return std::nullopt;
+  for (std::size_t at = begin_ + 1; at - begin_ <= kMostKept; ++at)
+  {
+    if (at + kHeadBytes > bytes_.size()) fetch(at + kPieceBytes);
+    if (at >= bytes_.size()) break;
+    if (!isRecordAt(at)) continue;
+    const std::uint64_t passed = at - begin_;
+    next_ = at;
+    startRecord();
+    return passed;
+  }
+  return std::nullopt;
+}
+
+std::size_t RecordInput::Write(const void*, std::size_t)
+{
+  throw std::logic_error("RecordInput: is read only");
+}
+
+std::uint64_t RecordInput::Seek(std::int64_t, TSeekOrigin)
+{
+  throw std::logic_error("RecordInput: cannot seek");
+}
+
+}  // namespace quadmap

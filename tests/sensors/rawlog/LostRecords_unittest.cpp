@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <chrono>
+#include <cstring>
+
+#include "RawlogProblems.h"
+
+using namespace quadmap;
+
+// Behind a record that cannot be read the next one is looked for.
+namespace
+{
+constexpr std::uint32_t kRays = 1234;  // stated once in a file of the samples below
+
+mrpt::obs::CObservation2DRangeScan::Ptr sampleRays(double time)
+{
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->timestamp = stamp(time);
+  scan->sensorLabel = "laser";
+  scan->resizeScan(kRays);
+  for (std::size_t i = 0; i < kRays; ++i) scan->setScanRange(i, 1.5f);
+  return scan;
+}
+
+std::string bytesOf(std::uint32_t number)
+{
+  std::string bytes(sizeof number, '\0');
+  std::memcpy(bytes.data(), &number, sizeof number);
+  return bytes;
+}
+
+/** The bytes of two images, a laser scan between them, and a pose behind. */
+std::string recordedBytes(const TemporaryFolder& folder)
+{
+  return readFile(writeObjects(
+      folder.path("x.rawlog"),
+      {sampleScan(kStart), sampleRays(kStart), sampleScan(kStart + 1), samplePose(kStart + 1, {})},
+      false));
+}
+
+/** The file with another count of rays. */
+std::string withRays(const TemporaryFolder& folder, std::uint32_t count)
+{
+  std::string bytes = recordedBytes(folder);
+  const auto at = bytes.find(bytesOf(kRays), bytes.find("CObservation2DRangeScan"));
+  EXPECT_LT(at, bytes.size());
+  return folder.write("x.rawlog", bytes.replace(at, sizeof count, bytesOf(count)));
+}
+
+/** Expects that the laser scan alone is lost. */
+void expectOneLost(const std::string& file)
+{
+  expectProblem(file, {"x.rawlog: record 1: ", "CObservation2DRangeScan"}, 2);
+  RawlogSource source(file, keepGoing());
+  readAll(source);
+  EXPECT_EQ(
+      source.contentSummary(), "2 CObservation3DRangeScan \"camera\", 1 CObservationRobotPose");
+  const TemporaryFolder folder;
+  const auto lost = readFile(writeObjects(folder.path("y"), {sampleRays(kStart)}, false)).size();
+  ASSERT_EQ(source.problems().size(), 2u);
+  EXPECT_EQ(
+      source.problems()[1].text(),
+      file + ": record 2: " + std::to_string(lost) + " bytes before it were left out");
+}
+}  // namespace
+
+TEST(LostRecords, ACountThatIsTooSmallCostsItsRecord)
+{
+  const TemporaryFolder folder;
+  expectOneLost(withRays(folder, 3));
+}
+
+// It takes the bytes of the records behind for rays, or those of the whole file.
+TEST(LostRecords, ACountThatIsTooLargeCostsItsRecord)
+{
+  const TemporaryFolder folder;
+  for (const std::uint32_t count : {kRays + 10, kRays + 500, 100000u, 0xffffffffu})
+  {
+    SCOPED_TRACE(count);
+    expectOneLost(withRays(folder, count));
+  }
+}
+
+TEST(LostRecords, TheirBytesMayLookLikeARecord)
+{
+  const TemporaryFolder folder;
+  std::string bytes = readFile(withRays(folder, 0xffffffffu));
+  const std::string posed =
+      readFile(writeObjects(folder.path("p"), {samplePose(kStart, {})}, false));
+  const std::string head = posed.substr(0, posed.find("CObservationRobotPose") + 21);
+  const auto ranges = bytes.find(bytesOf(0xffffffffu)) + 100;
+  expectOneLost(folder.write("x.rawlog", bytes.replace(ranges, head.size(), head)));
+}
+
+TEST(LostRecords, EndTheFileWhenNothingIsBehindThem)
+{
+  const TemporaryFolder folder;
+  const std::string bytes = recordedBytes(folder);
+  const std::string cut = bytes.substr(0, bytes.find("CObservation2DRangeScan") + 100);
+  expectProblem(folder.write("x.rawlog", cut), {"x.rawlog: record 1: ", "truncated"}, 1);
+  RawlogSource source(folder.path("x.rawlog"), keepGoing());
+  readAll(source);
+  EXPECT_EQ(source.problems().size(), 1u);
+}
+
+TEST(LostRecords, OfTheSidecarCostNoOthers)
+{
+  const TemporaryFolder folder;
+  const auto file = writeObjects(
+      folder.path("x.rawlog"),
+      {sampleScan(kStart), sampleScan(kStart + 1), sampleScan(kStart + 2)});
+  const auto sidecar = folder.path("x.objects.rawlog");
+  std::string bytes = readFile(writeObjects(
+      sidecar, {sampleBoxes(kStart), sampleBoxes(kStart + 1), sampleBoxes(kStart + 2)}, false));
+  const std::string name = "CObservationObjects";
+  const auto second = bytes.find(name, bytes.find(name) + 1);
+  ASSERT_LT(second, bytes.size());
+  bytes[second + name.size()] = 99;  // its version
+  folder.write("x.objects.rawlog", bytes);
+  RawlogSource source(file, keepGoing());
+  const auto frames = readAll(source);
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_TRUE(frames[0].objects);
+  EXPECT_FALSE(frames[1].objects);
+  EXPECT_TRUE(frames[2].objects);
+}
+
+// Each beginning of a record states a size that takes all bytes behind it.
+TEST(LostRecords, AreNotSearchedForever)
+{
+  const TemporaryFolder folder;
+  const std::string rays = readFile(withRays(folder, 900000));
+  const auto from = rays.find("mrpt::obs::CObservation2DRangeScan") - 1;
+  const auto to = rays.find(bytesOf(900000)) + sizeof(std::uint32_t);
+  const std::string beginning = rays.substr(from, to - from);
+  std::string bytes;
+  while (bytes.size() < (1u << 23)) bytes += beginning;
+  const auto begin = std::chrono::steady_clock::now();
+  RawlogSource source(folder.write("x.rawlog", bytes), keepGoing());
+  EXPECT_TRUE(readAll(source).empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "0.4 s with the bound";
+}
