@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "DoublesHypothesis.h"
 #include "OdometryDrift.h"
 #include "SightedObjects.h"
 #include "quadmap/estimation/ObjectRules.h"
@@ -11,6 +12,8 @@ namespace quadmap
 {
 namespace
 {
+using doubles::Candidate, doubles::Hypothesis;
+
 constexpr double kGate = 11.34;  // chi^2 of three degrees of freedom, 99 %
 constexpr double kMargin = 1.0;  // around the objects, of the area of the map [m]
 /** Candidates that are compared with each other, and pairs that are found, at most: the time grows
@@ -37,57 +40,6 @@ Eigen::Vector2d placeOf(const SightedObject& sighted)
 {
   return sighted.object->object.center().head<2>();
 }
-
-/** Two objects that may be one thing. */
-struct Candidate
-{
-  const SightedObject *before = nullptr, *again = nullptr;
-  double logDensity = 0;  //!< Of things with this label [ln 1/m^2]
-
-  Eigen::Vector3d gap() const
-  {
-    return comparedPoint(*again->object) - comparedPoint(*before->object);
-  }
-  OdometryDrift::Moved moved() const
-  {
-    return {comparedPoint(*again->object), before->nearest, again->nearest};
-  }
-  bool isSame(const Candidate& other) const
-  {
-    return before == other.before && again == other.again;
-  }
-  bool shares(const Candidate& other) const
-  {
-    return before == other.before || again == other.again || before == other.again ||
-           again == other.before;
-  }
-};
-
-/** Candidates that are taken for true together. */
-struct Hypothesis
-{
-  std::vector<Candidate> pairs;
-  double logOdds = 0;
-  double distance2 = 0;  //!< Squared Mahalanobis distance of all gaps together
-
-  bool shares(const Candidate& candidate) const
-  {
-    return std::any_of(
-        pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.shares(candidate); });
-  }
-  bool has(const Candidate& candidate) const
-  {
-    return std::any_of(
-        pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.isSame(candidate); });
-  }
-  /** Takes a thing of the other one for something else. */
-  bool contradicts(const Hypothesis& other) const
-  {
-    return std::any_of(
-        pairs.begin(), pairs.end(),
-        [&](const auto& pair) { return other.shares(pair) && !other.has(pair); });
-  }
-};
 
 class DoublesFinder
 {
