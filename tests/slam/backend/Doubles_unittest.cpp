@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "backend/LoopClosure.h"
@@ -89,9 +90,10 @@ class ThereAndBack
         add("trash can", at + Eigen::Vector3d(0.3, -1.2, 0.3), by)};
   }
 
-  std::optional<Doubles> doubles(double noise = 1) const
+  std::optional<Doubles> doubles(
+      double noise = 1, const std::function<bool()>& shouldStop = [] { return false; }) const
   {
-    return findDoubles(result_, {noise, noise}, labels(), ConstellationOptions());
+    return findDoubles(result_, {noise, noise}, labels(), ConstellationOptions(), shouldStop);
   }
 
   SlamResult& result() { return result_; }
@@ -124,6 +126,23 @@ TEST(Doubles, AreNotFoundBeyondTheDrift)
   run.addPlace({0, 0, 0}, 0);
   run.addPlace(kDrift, 36);
   EXPECT_FALSE(run.doubles(0.1));
+}
+
+// Asked for each pair that the search may start with: with four things twice, four times at least.
+TEST(Doubles, AreNotSearchedAfterAStop)
+{
+  ThereAndBack run;
+  run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 36);
+  int asked = 0;
+  ASSERT_TRUE(run.doubles(1, [&] { return ++asked < 0; }));
+  EXPECT_GE(asked, 4);
+  for (const int last : {1, asked})
+  {
+    int now = 0;
+    EXPECT_FALSE(run.doubles(1, [&] { return ++now == last; })) << last;
+    EXPECT_EQ(now, last) << "it goes on no further";
+  }
 }
 
 TEST(Doubles, AreNoThingsThatOneImageShows)

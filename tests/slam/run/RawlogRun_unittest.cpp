@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "../../sensors/SampleRawlog.h"
 #include "../../sensors/StopAfter.h"
@@ -253,6 +254,21 @@ TEST_F(RawlogRun, IsInterruptedWhereNoImagesAre)
   request.shouldStop = [&] { return ++asked > 10; };
   expectFailure(request, "interrupted before the first image");
   EXPECT_LT(asked, 20);
+}
+
+// What the run asks last is whether to look for doubles on.
+TEST_F(RawlogRun, IsInterruptedBehindTheLastImageAsWell)
+{
+  auto request = requestFor(recording());
+  int asked = 0, last = 0;
+  request.shouldStop = [&] { return ++asked == last; };
+  EXPECT_FALSE(runOnRawlog(request).interrupted);
+  std::filesystem::remove_all(request.outputDirectory);
+  last = std::exchange(asked, 0);
+  const auto summary = runOnRawlog(request);
+  EXPECT_TRUE(summary.interrupted);
+  EXPECT_TRUE(summary.result.loops.stopped);
+  EXPECT_EQ(readTumTrajectory(output("trajectory.tum")).size(), 6u);
 }
 
 TEST_F(RawlogRun, ProgressGrowsToOne)

@@ -40,6 +40,12 @@ class BackEnd
   /** After the last keyframe: `result`'s poses, map and decisions become the final ones. */
   virtual void finish(const BoxesOf& boxesOf, SlamResult& result) = 0;
 
+  /** After finish(): finds places that the run came back to without noticing, and estimates
+   * everything anew with their objects as one. This one does not.
+   *  \param shouldStop Remembers a yes; what is closed then stays, and `result` is told. */
+  virtual void closeLoops(
+      const BoxesOf& boxesOf, const std::function<bool()>& shouldStop, SlamResult& result);
+
   /** What a map says of the objects of a run, by the run's ids. Both are in the map's frame. */
   using KnownObjects = std::function<std::map<ObjectId, ObjectPrior>(const CQuadricObjectMap&)>;
 

@@ -60,12 +60,15 @@ class DoublesFinder
     addCandidates();
   }
 
-  std::optional<Doubles> find() const
+  std::optional<Doubles> find(const std::function<bool()>& shouldStop) const
   {
     std::vector<Hypothesis> found;
     for (const Candidate& seed : candidates_)
+    {
+      if (shouldStop()) return std::nullopt;
       if (std::none_of(found.begin(), found.end(), [&](const auto& h) { return h.has(seed); }))
         found.push_back(grownFrom(seed));
+    }
     const auto best = std::max_element(
         found.begin(), found.end(),
         [](const auto& a, const auto& b) { return a.logOdds < b.logOdds; });
@@ -243,9 +246,10 @@ std::optional<Doubles> findDoubles(
     const SlamResult& result,
     const StepNoise& noise,
     const LabelTable& labels,
-    const ConstellationOptions& options)
+    const ConstellationOptions& options,
+    const std::function<bool()>& shouldStop)
 {
-  return DoublesFinder(result, noise, labels, options).find();
+  return DoublesFinder(result, noise, labels, options).find(shouldStop);
 }
 
 }  // namespace quadmap

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -34,11 +35,13 @@ Eigen::Vector3d comparedPoint(const MapObject& object);
  * odometry explains where they are: doc/mathematics.md, "Loops". Nothing when there are none, or
  * when they could as well be others. Deterministic.
  * \param result With map, decisions and keyframes.
- * \param noise How many times as much as it claims the odometry errs by. */
+ * \param noise How many times as much as it claims the odometry errs by.
+ * \param shouldStop Asked often; after a yes nothing is found. */
 std::optional<Doubles> findDoubles(
     const SlamResult& result,
     const StepNoise& noise,
     const LabelTable& labels,
-    const ConstellationOptions& options);
+    const ConstellationOptions& options,
+    const std::function<bool()>& shouldStop);
 
 }  // namespace quadmap

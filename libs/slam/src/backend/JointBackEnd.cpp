@@ -243,18 +243,19 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
     result.keyframes[k].T_map_robot = graph_.pose(k);
   consolidateMap(result);
   estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, result);
-  closeLoops(boxesOf, result);
 }
 
-void JointBackEnd::closeLoops(const BoxesOf& boxesOf, SlamResult& result) const
+void JointBackEnd::closeLoops(
+    const BoxesOf& boxesOf, const std::function<bool()>& shouldStop, SlamResult& result)
 {
   constexpr int kMost = 5;
   LoopSummary loops;
   while (loops.closed < kMost && !loops.open)
   {
     const StepNoise noise = result.correction->stepNoise.atLeastClaimed();
-    const auto doubles = findDoubles(result, noise, labels_, places_);
-    if (!doubles) break;
+    const auto doubles = findDoubles(result, noise, labels_, places_, shouldStop);
+    loops.stopped = shouldStop();
+    if (loops.stopped || !doubles) break;
     if (auto closed = closedLoop(*doubles, noise, boxesOf, result))
     {
       result = std::move(*closed);

@@ -42,6 +42,9 @@ class JointBackEnd : public BackEnd
    * poses. `result` is told how it went. */
   void finish(const BoxesOf& boxesOf, SlamResult& result) override;
 
+  void closeLoops(
+      const BoxesOf& boxesOf, const std::function<bool()>& shouldStop, SlamResult& result) override;
+
   /** As finish(), but it is the known objects that say where the map lies. */
   void correctWith(
       const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) override;
@@ -77,9 +80,6 @@ class JointBackEnd : public BackEnd
   static double takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result);
   /** Rounds of association and estimation. */
   void estimate(const KnownObjects& knownObjects, const BoxesOf& boxesOf, SlamResult& result) const;
-  /** Finds places that the run came back to without noticing, and estimates everything anew with
-   * their objects as one. */
-  void closeLoops(const BoxesOf& boxesOf, SlamResult& result) const;
   /** The run with these doubles as one. Nothing when they are not: other things are torn then, or
    * nothing can be estimated. */
   std::optional<SlamResult> closedLoop(

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -40,9 +41,11 @@ class BackEndStage
   }
 
   /** Call it after the last keyframe. */
-  void finish(const BackEnd::BoxesOf& boxesOf, SlamResult& result)
+  void finish(
+      const BackEnd::BoxesOf& boxesOf, const std::function<bool()>& shouldStop, SlamResult& result)
   {
     backEnd_->finish(boxesOf, result);
+    backEnd_->closeLoops(boxesOf, shouldStop, result);
   }
 
   BackEnd& backEnd() { return *backEnd_; }

@@ -151,7 +151,7 @@ void ObjectSlam::settle()
   takeFinished();
 }
 
-void ObjectSlam::finish(const CQuadricObjectMap* earlier)
+void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bool()>& shouldStop)
 {
   const SlamCounts counts = result_.counts();
   if (counts.framesWithoutPose > 0 && counts.framesWithoutPose == counts.frames)
@@ -166,7 +166,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier)
   for (const auto& line : modelShares(result_.labels)) MRPT_LOG_DEBUG_STREAM(line);
   {
     const auto scope = times_.measure("consolidation");
-    backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, result_);
+    backEnd_.finish([this](std::size_t k) { return spool_.objects(k); }, shouldStop, result_);
   }
   warnOfNoisyOdometry();
   warnOfOpenLoop();

@@ -3,6 +3,7 @@
 #include <mrpt/system/COutputLogger.h>
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -86,10 +87,13 @@ class ObjectSlam : public mrpt::system::COutputLogger
 
   /** Call it after the last frame. It makes the final estimate.
    *  \param earlier Map of an earlier run that goes on in this one; null: there is none.
+   *  \param shouldStop Remembers a yes. Loops are not closed then, and the result says so.
    *  \exception As in addFrame().
    *  \exception std::runtime_error If there were frames, but none had a pose.
    *  \exception NotLocalised If the run cannot be found in the map. */
-  void finish(const CQuadricObjectMap* earlier = nullptr);
+  void finish(
+      const CQuadricObjectMap* earlier = nullptr,
+      const std::function<bool()>& shouldStop = [] { return false; });
 
   /** For a camera, which does not wait: a frame is no keyframe while the threads that work on the
    * keyframes before are busy, and a later one takes its place. */

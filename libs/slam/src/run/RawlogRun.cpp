@@ -64,7 +64,7 @@ class RawlogRun
     requireContent(interrupted);
     finish();
     request_.onClosing();
-    return write(interrupted);
+    return write(interrupted || slam_.result().loops.stopped);
   }
   catch (const BadFrame& e)
   {
@@ -219,7 +219,7 @@ class RawlogRun
   {
     try
     {
-      slam_.finish(request_.map.get());
+      slam_.finish(request_.map.get(), request_.shouldStop);
     }
     catch (const BadFrame&)
     {

@@ -89,6 +89,7 @@ struct LoopSummary
     double distance = 0;  //!< Largest distance between the two of one thing [m]
   };
   std::optional<Open> open = std::nullopt;
+  bool stopped = false;  //!< The run was told to stop before all such objects were found
 };
 
 /** Where the poses came from. */
