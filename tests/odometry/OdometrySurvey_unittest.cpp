@@ -67,6 +67,33 @@ TEST(OdometrySurvey, ARawlogWithoutImagesIsReadOnce)
   EXPECT_FALSE(surveyOdometry(writeHome(folder, true), {}, PoseSource::Auto).withoutImages);
 }
 
+// A damaged rawlog may name any number of kinds, and each takes another look at it.
+TEST(OdometrySurvey, TriesEightKindsOfOdometry)
+{
+  const TemporaryFolder folder;
+  const auto looksFor = [&](int kinds)
+  {
+    std::vector<mrpt::serialization::CSerializable::Ptr> records;
+    for (const auto& frame : homeFrames(2))
+    {
+      for (int i = 0; i < 40; ++i)  // as many records for any number of kinds
+        records.push_back(
+            samplePose(frame.time(), *frame.T_odom_robot, "wheels " + std::to_string(i % kinds)));
+      records.push_back(frame.scan);
+    }
+    int asked = 0;
+    RawlogSourceOptions options;
+    options.shouldStop = [&] { return ++asked < 0; };
+    const auto file = writeObjects(folder.path("x.rawlog"), records);
+    surveyOdometry(file, options, PoseSource::Auto);
+    return asked;
+  };
+  const int oneLook = looksFor(1), allLooks = looksFor(8);
+  EXPECT_GT(allLooks, 8 * oneLook);
+  EXPECT_LT(allLooks, 10 * oneLook);
+  EXPECT_EQ(looksFor(20), allLooks);
+}
+
 TEST(OdometrySurvey, ASecondSourceAheadOfTheImagesChangesNothing)
 {
   const TemporaryFolder folder;
