@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "backend/JointBackEnd.h"
 #include "backend/LoopClosure.h"
 
 using namespace quadmap;
@@ -202,6 +203,27 @@ TEST(Doubles, BecameOneWhenNothingElseWasTorn)
   EXPECT_TRUE(becameOne(*doubles, run.result(), closed.result()));
   closed.add("couch", {6, 2, 0.3}, {11});
   EXPECT_FALSE(becameOne(*doubles, run.result(), closed.result()));
+}
+
+// There are no boxes that could make them one.
+TEST(Doubles, ThatDoNotBecomeOneLeaveARunAsItWas)
+{
+  ThereAndBack run;
+  run.addPlace({0, 0, 0}, 0);
+  run.addPlace(kDrift, 36);
+  SlamResult& result = run.result();
+  result.correction.emplace();
+  EXPECT_EQ(result.loops.warning(), "");
+  JointBackEnd backEnd({}, result.map.insertionOptions, labels());
+  backEnd.closeLoops([](std::size_t) { return nullptr; }, [] { return false; }, result);
+  EXPECT_EQ(result.loops.closed, 0);
+  ASSERT_TRUE(result.loops.open);
+  EXPECT_EQ(result.loops.open->objects, 4U);
+  EXPECT_EQ(result.map.objects().size(), 8U);
+  EXPECT_EQ(
+      result.loops.warning(),
+      "4 objects may be twice in the map, up to 0.7 m apart, and could not be made one: poses and "
+      "objects are doubtful");
 }
 
 TEST(Doubles, AreBroughtTogetherByTheStepsBetween)

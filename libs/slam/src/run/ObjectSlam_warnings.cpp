@@ -41,11 +41,7 @@ void ObjectSlam::warnOfOpenLoop()
 {
   if (result_.loops.closed > 0)
     MRPT_LOG_INFO_FMT("loops closed by objects: %i", result_.loops.closed);
-  if (const auto& open = result_.loops.open)
-    warnOfInput(mrpt::format(
-        "%zu objects may be twice in the map, up to %.1f m apart, and could not be made one: poses "
-        "and objects are doubtful",
-        open->objects, open->distance));
+  if (const auto text = result_.loops.warning(); !text.empty()) warnOfInput(text);
 }
 
 void ObjectSlam::warnOfDoubtfulPoses()

@@ -1,5 +1,7 @@
 #include "quadmap/slam/SlamResult.h"
 
+#include <mrpt/core/format.h>
+
 namespace quadmap
 {
 SlamCounts& SlamCounts::operator+=(const SlamCounts& other)
@@ -12,6 +14,15 @@ SlamCounts& SlamCounts::operator+=(const SlamCounts& other)
   keyframesFromPixelLabels += other.keyframesFromPixelLabels;
   boxes += other.boxes;
   return *this;
+}
+
+std::string LoopSummary::warning() const
+{
+  if (!open) return {};
+  return mrpt::format(
+      "%zu objects may be twice in the map, up to %.1f m apart, and could not be made one: poses "
+      "and objects are doubtful",
+      open->objects, open->distance);
 }
 
 SlamCounts SlamResult::counts() const

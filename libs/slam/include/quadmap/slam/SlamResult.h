@@ -90,6 +90,9 @@ struct LoopSummary
   };
   std::optional<Open> open = std::nullopt;
   bool stopped = false;  //!< The run was told to stop before all such objects were found
+
+  /** Says so when there are some; empty otherwise. */
+  std::string warning() const;
 };
 
 /** Where the poses came from. */
