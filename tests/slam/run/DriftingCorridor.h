@@ -15,9 +15,14 @@ struct DriftingCorridor
 };
 
 /** \param width,height Of the images [px].
- *  \param drift How many times as much as it claims the odometry drifts. */
+ *  \param drift How many times as much as it claims the odometry drifts.
+ *  \param earlier Map of an earlier run that goes on in this one; null: there is none. */
 inline DriftingCorridor driftingCorridor(
-    unsigned width, unsigned height, double drift, std::uint64_t seed)
+    unsigned width,
+    unsigned height,
+    double drift,
+    std::uint64_t seed,
+    const CQuadricObjectMap::ConstPtr& earlier = nullptr)
 {
   const TemporaryFolder folder;
   auto scene = simulator::readScene(simulator::findScene("corridor"));
@@ -31,6 +36,7 @@ inline DriftingCorridor driftingCorridor(
   RawlogRunRequest request;
   request.rawlog = folder.path("a.rawlog");
   request.outputDirectory = folder.path("out");
+  request.map = earlier;
   DriftingCorridor run;
   run.result = runOnRawlog(request).result;
 

@@ -14,3 +14,17 @@ TEST(LoopClosure, MakesDoublesOne)
   EXPECT_GE(report.objects->f1().value_or(0), 0.8) << "0.33 with the doubles";
   EXPECT_LT(report.trajectory->ateRmse, 0.2) << "[m]; 0.92 with the doubles";
 }
+
+TEST(LoopClosure, LeavesARunThatCanGoOnInAMap)
+{
+  const auto earlier = driftingCorridor(160, 120, 1, 9);
+  const auto [result, report] =
+      driftingCorridor(160, 120, 10, 9, std::make_shared<CQuadricObjectMap>(earlier.result.map));
+  EXPECT_GE(result.loops.closed, 1);
+  ASSERT_TRUE(result.continuation);
+  EXPECT_GE(result.continuation->match.pairs.size(), 6U) << "of seven things";
+  EXPECT_TRUE(result.continuation->removed.empty());
+  EXPECT_TRUE(result.continuation->added.empty());
+  EXPECT_EQ(report.objects->f1().value_or(0), 1);
+  EXPECT_LT(report.trajectory->ateRmse, 0.15) << "[m]";
+}
