@@ -129,6 +129,18 @@ TEST(Doubles, AreNotFoundBeyondTheDrift)
   EXPECT_FALSE(run.doubles(0.1));
 }
 
+// A heading that errs moves what is seen far away to the side, but hardly along the way.
+TEST(Doubles, OfRoomsFurnishedAlikeAreFoundInTheDirectionOfTheDriftOnly)
+{
+  constexpr double kApart = 1.5;  // [m]
+  ThereAndBack sideways, along;
+  for (ThereAndBack* run : {&sideways, &along}) run->addPlace({0, 0, 0}, 0);
+  sideways.addPlace({0, kApart, 0}, 36);
+  along.addPlace({kApart, 0, 0}, 36);
+  EXPECT_TRUE(sideways.doubles());
+  EXPECT_FALSE(along.doubles());
+}
+
 // Asked for each pair that the search may start with: with four things twice, four times at least.
 TEST(Doubles, AreNotSearchedAfterAStop)
 {
