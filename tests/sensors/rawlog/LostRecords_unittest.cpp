@@ -139,5 +139,6 @@ TEST(LostRecords, AreNotSearchedForever)
   const auto begin = std::chrono::steady_clock::now();
   RawlogSource source(folder.write("x.rawlog", bytes), keepGoing());
   EXPECT_TRUE(readAll(source).empty());
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "0.4 s with the bound";
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20))
+      << "0.4 s with the bound";
 }
