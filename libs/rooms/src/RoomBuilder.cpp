@@ -62,11 +62,27 @@ std::optional<std::size_t> RoomBuilder::put(SceneObject object, double freeInFro
       if (overlap(front, boundsOf(other))) return std::nullopt;
     free_.push_back(front);
   }
+  add(std::move(object));
+  return scene_.objects.size() - 1;
+}
+
+void RoomBuilder::add(SceneObject object)
+{
   std::string name = object.label.empty() ? "thing" : object.label;
   std::replace(name.begin(), name.end(), ' ', '_');
   object.name = mrpt::format("%s_%02d", name.c_str(), ++count_[name]);
   scene_.objects.push_back(std::move(object));
-  return scene_.objects.size() - 1;
+}
+
+void RoomBuilder::detach(std::size_t index, std::size_t firstPart)
+{
+  auto& parts = scene_.objects[index].parts;
+  const auto first = parts.begin() + static_cast<std::ptrdiff_t>(firstPart);
+  SceneObject rest;
+  rest.T_world_obj = scene_.objects[index].T_world_obj;
+  rest.parts.assign(first, parts.end());
+  parts.erase(first, parts.end());
+  add(std::move(rest));
 }
 
 WallPlace RoomBuilder::placeAtWall(std::size_t wall, double along) const

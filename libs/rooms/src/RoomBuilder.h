@@ -48,6 +48,9 @@ class RoomBuilder
   std::optional<std::size_t> putBeside(
       SceneObject object, std::size_t piece, const mrpt::poses::CPose3D& T_piece_obj);
 
+  /** Makes the parts of an object from one on a thing of its own, which no detector knows. */
+  void detach(std::size_t index, std::size_t firstPart);
+
   WallPlace placeAtWall(std::size_t wall, double along) const;
 
   const SceneObject& object(std::size_t index) const { return scene_.objects[index]; }
@@ -57,6 +60,7 @@ class RoomBuilder
   void keepFree(const UprightBox& floor) { free_.push_back(floor); }
 
  private:
+  void add(SceneObject object);
   bool fits(const SceneObject& object) const;
 
   Scene& scene_;

@@ -99,14 +99,16 @@ void addScreens(RoomBuilder& room, std::size_t piece, const Shelf& top)
     room.putOnShelf(laptop(kit), piece, top, yaw);
     return;
   }
-  const SceneObject screen = monitor(kit);
-  const double width = 2 * halfOf(screen).y();
+  const StandingScreen screen = monitor(kit);
+  const double width = 2 * halfOf(screen.whole).y();
   const int count = width < 0.9 * top.half.y() && kit.chance(0.45) ? 2 : 1;
   for (int i = 0; i < count; ++i)
   {
     const double y = count == 2 ? (i - 0.5) * (width + kit.between(0.03, 0.12)) : kit.gaussian(0.1);
     const double yaw = count == 2 ? (0.5 - i) * kit.between(0.1, 0.6) : kit.gaussian(0.15);
-    room.putBeside(screen, piece, {back - backOf(screen) + 0.1, y, top.z, yaw, 0, 0});
+    const double x = back - backOf(screen.whole) + 0.1;
+    if (const auto put = room.putBeside(screen.whole, piece, {x, y, top.z, yaw, 0, 0}))
+      room.detach(*put, screen.panelParts);
   }
   const double front = top.center.x() + top.half.x();
   if (kit.chance(0.8))
@@ -214,7 +216,9 @@ void addLounge(RoomBuilder& room)
     const auto low = room.putAtWall(stand.object, 0.6);
     if (!low) return;
     const double yaw = kit.gaussian(0.05);
-    room.putOnShelf(television(kit), *low, stand.shelves[0], yaw);
+    const StandingScreen screen = television(kit);
+    if (const auto put = room.putOnShelf(screen.whole, *low, stand.shelves[0], yaw))
+      room.detach(*put, screen.panelParts);
     addSmallThings(room, *low, stand.shelves[0], kit.whole(0, 2));
   }
 }

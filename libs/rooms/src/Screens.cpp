@@ -29,12 +29,13 @@ Eigen::Vector3d panelOf(FurnitureKit& kit, double minWidth, double maxWidth)
 
 }  // namespace
 
-SceneObject television(FurnitureKit& kit)
+StandingScreen television(FurnitureKit& kit)
 {
   SceneObject tv = objectOf("tv");
   const Eigen::Vector3d size = panelOf(kit, 0.7, 1.35);
   const double lift = kit.between(0.04, 0.1), depth = kit.between(0.18, 0.28);
   addPanel(tv, kit, size, lift, kit.between(0.01, 0.035));
+  const std::size_t panelParts = tv.parts.size();
   const std::size_t plastic = kit.darkPlastic();
   if (kit.chance(0.5))
     for (const double side : {-1, 1})
@@ -48,7 +49,7 @@ SceneObject television(FurnitureKit& kit)
     addBox(tv, {0, 0, lift / 2}, {0.05, 0.2, lift}, plastic);
     addBox(tv, {0, 0, 0.01}, {depth, kit.between(0.35, 0.55), 0.02}, plastic);
   }
-  return tv;
+  return {tv, panelParts};
 }
 
 SceneObject wallTelevision(FurnitureKit& kit)
@@ -59,18 +60,19 @@ SceneObject wallTelevision(FurnitureKit& kit)
   return tv;
 }
 
-SceneObject monitor(FurnitureKit& kit)
+StandingScreen monitor(FurnitureKit& kit)
 {
   SceneObject monitor = objectOf(kit.chance(0.5) ? "tv" : "monitor");
   const Eigen::Vector3d size = panelOf(kit, 0.45, 0.72);
   const double lift = kit.between(0.06, 0.2);
   addPanel(monitor, kit, size, lift, kit.between(0.008, 0.025));
+  const std::size_t panelParts = monitor.parts.size();
   const std::size_t plastic = kit.darkPlastic();
-  const double back = size.x() / 2 + 0.03;
+  const double back = size.x() / 2 + 0.04;
   addBox(monitor, {-back, 0, (lift + 0.15) / 2}, {0.03, 0.06, lift + 0.15}, plastic);
   addBox(
       monitor, {-0.03, 0, 0.01}, {kit.between(0.16, 0.24), kit.between(0.2, 0.3), 0.02}, plastic);
-  return monitor;
+  return {monitor, panelParts};
 }
 
 SceneObject laptop(FurnitureKit& kit)
