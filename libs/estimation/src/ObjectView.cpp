@@ -48,7 +48,6 @@ Eigen::Vector3d composed(const mrpt::poses::CPose3D& T, const Eigen::Vector3d& p
 bool setCuboid(
     const CompleteMeasurement& m,
     const mrpt::poses::CPose3D& T_map_sensor,
-    UsualSupport support,
     const PoseNoise& noise,
     ObjectView& view)
 {
@@ -65,9 +64,6 @@ bool setCuboid(
   const double range = (view.center - view.camera).norm();
   const double poseSigma = std::hypot(noise.position, range * noise.angle);
   view.faces = m.faces;
-  // Things stand on something. A lower end that is not the support's is where the view of it ends.
-  FaceKind& bottom = view.faces[kFaces - 1].kind;
-  if (bottom == FaceKind::Measured && support != UsualSupport::Wall) bottom = FaceKind::AtLeast;
   for (auto& face : view.faces)
     face.sigma = std::hypot(std::max(face.sigma, kMinFaceSigma), poseSigma);
   return true;
@@ -260,7 +256,7 @@ std::optional<ObjectView> viewOf(
   }
 
   if (m.kind == MeasurementKind::Complete && m.complete &&
-      setCuboid(*m.complete, T_map_sensor, properties.support, noise, view))
+      setCuboid(*m.complete, T_map_sensor, noise, view))
   {
     if (properties.dominantDirection && !view.yawDefined)
       view.faceExponent = properties.shapeExponent;

@@ -126,6 +126,7 @@ class Segmenter
     out.object.support = task.support;
     if (!boxOf(index).isValid()) return out;
     out.object.coverage = coverageOf(cloud_, boxOf(index));
+    out.object.box = boxOf(index);
     out.object.inBox = cloud_.cellsOf(boxOf(index));
     if (task.wall && task.label.support == UsualSupport::Wall)
       out.object.onWall =

@@ -87,7 +87,8 @@ struct ObjectCloud
   std::optional<WallDistance> onWall;   //!< Of things that usually hang on walls, and do
   std::optional<Plane> top;             //!< Where its kind ends in a horizontal surface; normal up
   double coverage = 0;                  //!< Share of the box's cells with valid depth
-  DepthCloud::CellRange inBox;          //!< Cells of the detector's box; some lie around it
+  ImageBox box;                         //!< Of the detector [px]
+  DepthCloud::CellRange inBox;          //!< The cells of this box; some lie around it
   double leak = 0;  //!< Share of the box's outline across which the surface goes on outside
 
   bool empty() const { return points.empty(); }

@@ -6,6 +6,7 @@
 #include "cuboid/FaceEstimator.h"
 #include "cuboid/FaceSigmas.h"
 #include "cuboid/HeadingEstimate.h"
+#include "cuboid/HeldUp.h"
 #include "cuboid/OnWall.h"
 #include "cuboid/TopRim.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -111,11 +112,10 @@ void endAtRim(
 
 /** The rim of a thing that rises little above the noise of its support is taken for the support:
  * the sides lie outside of what is left. The edges of the box tell where. */
-void openThinSides(double tolerance, Faces& faces)
+void openThinSides(double clear, Faces& faces)
 {
-  constexpr double kClear = 2.0;  // tolerances of the support
   const double height = faces[kTop].position + faces[kBottom].position;
-  if (height > kClear * tolerance) return;
+  if (height > clear) return;
   for (std::size_t side = 0; side < kSides; ++side)
     if (faces[side].source != FaceSource::Surface && faces[side].worth.kind == FaceKind::Measured)
       faces[side].worth.kind = FaceKind::AtLeast;
@@ -141,31 +141,25 @@ void addHeadingSigma(Faces& faces, const HeadingEstimate& yaw)
   }
 }
 
-CompleteMeasurement assemble(const Faces& faces, const Eigen::Matrix3d& R_obj_optical)
+}  // namespace
+
+Ellipsoid cuboidOf(const Faces& faces, const Eigen::Matrix3d& R_obj_optical)
 {
-  CompleteMeasurement out;
   Eigen::Vector3d center_obj, semiAxes;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto positive = static_cast<std::size_t>(2 * axis), negative = positive + 1;
-    const double high = faces[positive].position, low = -faces[negative].position;
+    const auto positive = static_cast<std::size_t>(2 * axis);
+    const double high = faces[positive].position, low = -faces[positive + 1].position;
     center_obj[axis] = 0.5 * (high + low);
     semiAxes[axis] = std::max(kMinHalfSize, 0.5 * (high - low));
-    out.faces[positive] = faces[positive].worth;
-    out.faces[negative] = faces[negative].worth;
   }
-  mrpt::math::CMatrixDouble33 R;
-  const Eigen::Matrix3d R_optical_obj = R_obj_optical.transpose();
-  const Eigen::Vector3d center = R_optical_obj * center_obj;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) R(i, j) = R_optical_obj(i, j);
-  const mrpt::poses::CPose3D T_optical_obj(
-      R, mrpt::math::TPoint3D(center.x(), center.y(), center.z()));
-  out.object_sensor = Ellipsoid(T_optical_obj, semiAxes);
-  return out;
+  const Eigen::Vector3d center = R_obj_optical.transpose() * center_obj;
+  return Ellipsoid(
+      mrpt::poses::CPose3D::FromRotationAndTranslation(
+          mrpt::math::CMatrixDouble33(R_obj_optical.transpose()),
+          mrpt::math::TPoint3D(center.x(), center.y(), center.z())),
+      semiAxes);
 }
-
-}  // namespace
 
 CompleteMeasurement fitCuboid(
     const DepthCloud& cloud,
@@ -188,6 +182,10 @@ CompleteMeasurement fitCuboid(
   { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
   for (std::size_t face = 0; face < kFaces; ++face)
     if (!isKnown(face)) faces[face] = estimator.face(face);
+  // Things stand on something. A lower end that is not the support's is where the view of it ends.
+  if (!object.support && label.support != UsualSupport::Wall &&
+      faces[kBottom].worth.kind == FaceKind::Measured)
+    faces[kBottom].worth.kind = FaceKind::AtLeast;
   if (object.top)
   {
     faces[kTop].position = -object.top->d;
@@ -198,10 +196,13 @@ CompleteMeasurement fitCuboid(
     // Distance of the supporting plane below the camera, along the object's -z.
     faces[kBottom].position = planes.plane(*object.support).plane.d;
     faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
+    if (const auto held = heldUpBottom(cloud.camera(), estimator, faces, label, options))
+      faces[kBottom] = *held;
   }
-  if (object.support || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
+  const bool stands = faces[kBottom].worth.kind == FaceKind::Support;
+  if (stands || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
     placeHiddenPart(faces, estimator, label);
-  if (object.support) openThinSides(supportTolerance(estimator.range(), label, options), faces);
+  if (stands) openThinSides(clearOfSupport(estimator.range(), label, options), faces);
   if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
   if (object.onWall) endAtWall(*object.onWall, estimator, options, faces);
   if (label.dominantDirection)
@@ -209,7 +210,9 @@ CompleteMeasurement fitCuboid(
   else
     completeRound(faces, estimator);
 
-  CompleteMeasurement out = assemble(faces, estimator.R_obj_optical());
+  CompleteMeasurement out;
+  out.object_sensor = cuboidOf(faces, estimator.R_obj_optical());
+  for (std::size_t face = 0; face < kFaces; ++face) out.faces[face] = faces[face].worth;
   out.yawDefined = yaw.defined;
   out.yawSigma = yaw.sigma;
   out.yawDominance = yaw.dominance;

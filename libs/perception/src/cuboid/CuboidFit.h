@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "cloud/ObjectCloud.h"
+#include "cuboid/FaceEstimator.h"
 #include "quadmap/obs/ObjectMeasurement.h"
 #include "quadmap/perception/PerceptionOptions.h"
 
@@ -10,6 +11,9 @@ namespace quadmap
 {
 /** These sensors do not measure half of the size of thinner things [m]. */
 inline constexpr double kMinHalfSize = 0.008;
+
+/** The cuboid between six faces, optical frame. */
+Ellipsoid cuboidOf(const Faces& faces, const Eigen::Matrix3d& R_obj_optical);
 
 /** The upright cuboid around an object's cloud, with what each face is worth (doc/mathematics.md,
  * 8). Its frame is the optical one (object_sensor must still be transformed).

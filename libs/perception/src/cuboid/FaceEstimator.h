@@ -69,6 +69,11 @@ class FaceEstimator
 
   FaceEstimate face(std::size_t face) const;
 
+  /** The lower end of the object by its cloud within the detector's box; its sigma is left open. */
+  FaceEstimate endInBox() const;
+
+  const ImageBox& box() const { return object_.box; }  //!< Of the detector [px]
+
   /** The near side of something round with this radius [m]: each point knows by its normal how far
    * it is from the outermost one. Nothing when too few points look at the camera. */
   std::optional<FaceEstimate> nearSideOfRound(std::size_t face, double radius) const;

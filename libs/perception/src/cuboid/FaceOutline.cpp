@@ -13,6 +13,8 @@ namespace quadmap
 {
 namespace
 {
+constexpr double kMaxCut = 0.3;  // share of the lines whose ends make an end of the object
+
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
 {
@@ -86,7 +88,6 @@ double FaceEstimator::noiseAt(std::size_t face, double position, std::size_t n) 
 /** A face that shows by its outline only: it is where the lines end, with (8.8) and (8.9). */
 FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) const
 {
-  constexpr double kMaxCut = 0.3;             // share
   constexpr double kStrayLines = 0.04;        // share; flying pixels
   constexpr double kMaxMetresPerCell = 0.05;  // coarser outlines say nothing [m]
   FaceEstimate out;
@@ -119,6 +120,17 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   // A slanted cut leaves few lines their ends; nothing is known beyond them.
   if (isOpen) out.position = std::max(outermost, extreme(face));
   out.worth.sigma = outlineSigmaOf(face, perCell);
+  return out;
+}
+
+FaceEstimate FaceEstimator::endInBox() const
+{
+  std::vector<double> down;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (object_.inBox.contains(cells_[i].c, cells_[i].r)) down.push_back(along(kBottom, i));
+  FaceEstimate out;
+  out.position = down.empty() ? extreme(kBottom) : quantile(std::move(down), 1.0 - kStrayShare);
+  out.isCut = cutShare(outlineTowards(kBottom), kBottom, out.position - kEndWidth) > kMaxCut;
   return out;
 }
 

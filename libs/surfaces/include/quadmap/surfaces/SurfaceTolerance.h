@@ -39,6 +39,13 @@ inline double supportTolerance(
   return std::max(allowed, 2.5 * options.depthSigma(z));
 }
 
+/** The height from which on an object clears its support: it is more than the support's noise and
+ * what was cut away with it. */
+inline double clearOfSupport(double z, const LabelProperties& label, const SurfaceOptions& options)
+{
+  return 2.0 * supportTolerance(z, label, options);
+}
+
 /** The bound for the support when it is asked what hides an object. The support need not be even,
  * and does not hide what stands on it. \param noise What depth noise may add [m]. */
 inline double unevenSupportTolerance(double noise)

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "../../surfaces/SyntheticFrame.h"
+#include "quadmap/perception/FramePerception.h"
+
+// Where an object ends that something else holds up (doc/mathematics.md, 8, "Held up").
+
+namespace quadmap
+{
+namespace
+{
+constexpr double kDesk = 0.72, kLift = 0.08, kPanelHeight = 0.34;  // [m]
+constexpr std::size_t kPanel = 1, kFoot = 3;                       // boxes of the frame
+
+/** A monitor on a table: a panel before the neck of its stand, and the foot. */
+SyntheticFrame monitorOnTable()
+{
+  SyntheticFrame frame(1.25, 0.25);
+  frame.noise = 0.0012;
+  frame.add(1.8, 0.0, kDesk - 0.04, 0.0, {0.8, 1.6, 0.04});
+  frame.add(1.7, 0.1, kDesk + kLift, 0.15, {0.05, 0.5, kPanelHeight});
+  frame.add(1.76, 0.1, kDesk, 0.15, {0.03, 0.06, kLift + 0.1});
+  frame.add(1.74, 0.1, kDesk, 0.15, {0.2, 0.24, 0.02});
+  return frame;
+}
+
+struct LowerEnd
+{
+  std::string reason;
+  double height = 0;  // above the floor [m]
+  FaceKind kind = FaceKind::Unknown;
+};
+
+LowerEnd lowerEndOf(const SyntheticFrame& frame, const std::vector<DetectedObject>& objects)
+{
+  CObservationObjects boxes = frame.observation(objects);
+  FramePerception(PerceptionOptions(), LabelTable::installed())
+      .measure(frame.scan(), boxes, frame.up_sensor());
+  const ObjectMeasurement& m = boxes.objects.front().measurement;
+  LowerEnd out{m.reason};
+  if (!m.complete) return out;
+  const Ellipsoid world = m.complete->object_sensor.transformed(frame.T_world_sensor);
+  out.height = world.center().z() - world.semiAxes().z();
+  out.kind = m.complete->faces[kFaces - 1].kind;
+  return out;
+}
+
+/** The box of the panel, with its lower edge moved down. */
+DetectedObject panel(const SyntheticFrame& frame, const std::string& label, double down_px = 0)
+{
+  DetectedObject out = frame.detect(kPanel, label);
+  out.box.y2 += down_px;
+  return out;
+}
+
+}  // namespace
+
+TEST(HeldUp, AScreenEndsWhereItsPanelDoes)
+{
+  const SyntheticFrame frame = monitorOnTable();
+  for (const double loose_px : {-3.0, 0.0, 4.0})
+  {
+    const LowerEnd end = lowerEndOf(frame, {panel(frame, "tv", loose_px)});
+    EXPECT_NE(end.kind, FaceKind::Support) << loose_px << ": " << end.reason;
+    EXPECT_NEAR(end.height, kDesk + kLift, 0.02) << "the box is wrong by " << loose_px << " px";
+  }
+}
+
+TEST(HeldUp, ABoxDownToTheSupportMeansWhatStandsOnIt)
+{
+  const SyntheticFrame frame = monitorOnTable();
+  DetectedObject all = panel(frame, "tv");
+  all.box.y2 = frame.detect(kFoot, "tv").box.y2;
+  const LowerEnd end = lowerEndOf(frame, {all});
+  EXPECT_EQ(end.kind, FaceKind::Support) << end.reason;
+  EXPECT_NEAR(end.height, kDesk, 0.01);
+}
+
+TEST(HeldUp, WhatStandsOnFloorsIsNotHeldUp)
+{
+  // A weak detector's box around the upper part of a cabinet.
+  SyntheticFrame frame;
+  frame.noise = 0.0012;
+  frame.add(2.5, 0.0, 0.0, 0.2, {0.4, 0.8, 0.9});
+  DetectedObject box = frame.detect(0, "cabinet");
+  box.box.y2 -= 0.15 * box.box.height();
+  const LowerEnd end = lowerEndOf(frame, {box});
+  EXPECT_NE(end.kind, FaceKind::Measured) << end.reason;
+}
+
+TEST(HeldUp, WhatSomethingNearerHidesMayStandOnItsSupport)
+{
+  SyntheticFrame frame(1.25, 0.25);
+  frame.noise = 0.0012;
+  frame.add(1.8, 0.0, kDesk - 0.04, 0.0, {0.8, 1.6, 0.04});
+  frame.add(1.9, 0.0, kDesk, 0.1, {0.2, 0.4, 0.4});   // a box
+  frame.add(1.6, 0.0, kDesk, 0.0, {0.05, 0.9, 0.1});  // before its lower end
+  const LowerEnd end = lowerEndOf(frame, {frame.detect(1, "box")});
+  EXPECT_NE(end.kind, FaceKind::Measured) << end.reason;
+}
+
+}  // namespace quadmap
