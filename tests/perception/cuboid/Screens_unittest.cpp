@@ -117,6 +117,31 @@ TEST(Screens, TheWallBehindIsNoPartOfWhatHangsOnIt)
   EXPECT_NEAR(seen.width, 0.8, 0.03);
 }
 
+TEST(Screens, TheRimTellsNothingOfABackThatNobodySaw)
+{
+  // The rim of a real screen bleeds to the wall half a metre behind it.
+  SyntheticFrame frame = television(-0.4);
+  frame.boxes.front().cuboid = Ellipsoid({kFront + 0.55, 0, 1.3, 0, 0, 0}, {0.05, 2.5, 1.3});
+  auto scan = frame.scan();
+  constexpr int kRim = 4;            // [px]
+  constexpr double kPerPixel = 220;  // [0.1 mm]
+  const auto isPanel = [&](int u, int v)
+  { return frame.look(static_cast<unsigned>(u), static_cast<unsigned>(v)).first == 1; };
+  for (int v = 0; v < scan.rangeImage.rows(); ++v)
+    for (int u = kRim; u + kRim < scan.rangeImage.cols(); ++u)
+      for (int i = 1; isPanel(u, v) && i <= kRim; ++i)
+        if (!isPanel(u - i, v) || !isPanel(u + i, v))
+        {
+          const double bled = scan.rangeImage(v, u) + kPerPixel * (kRim + 1 - i);
+          scan.rangeImage(v, u) = static_cast<std::uint16_t>(bled);
+          break;
+        }
+  const Seen seen = look(frame, scan, boxOf(frame, 0));
+  ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
+  EXPECT_NE(seen.backKind, FaceKind::Measured);
+  EXPECT_LT(seen.back, kFront + kThick) << "what is said at least must be so";
+}
+
 TEST(Screens, EndWhereTheBoxDoesWhenDepthShowsAPartOfTheFrontOnly)
 {
   const SyntheticFrame frame = television(0.1);

@@ -141,6 +141,17 @@ void addHeadingSigma(Faces& faces, const HeadingEstimate& yaw)
   }
 }
 
+/** The back of a front that nobody saw from behind: what few points lie there tell nothing. */
+void openUnseenBacks(const FaceEstimator& estimator, Faces& faces)
+{
+  for (std::size_t side = 0; side < kSides; ++side)
+  {
+    FaceEstimate& face = faces[side];
+    if (face.worth.kind == FaceKind::AtLeast && face.source == FaceSource::FarEdge && !face.isCut)
+      face.position = estimator.reachOfFront(side).value_or(face.position);
+  }
+}
+
 }  // namespace
 
 Ellipsoid cuboidOf(const Faces& faces, const Eigen::Matrix3d& R_obj_optical)
@@ -203,6 +214,7 @@ CompleteMeasurement fitCuboid(
   if (stands || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
     placeHiddenPart(faces, estimator, label);
   if (stands) openThinSides(clearOfSupport(estimator.range(), label, options), faces);
+  openUnseenBacks(estimator, faces);
   if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
   if (object.onWall) endAtWall(*object.onWall, estimator, options, faces);
   if (label.dominantDirection)

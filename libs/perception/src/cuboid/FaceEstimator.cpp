@@ -14,6 +14,7 @@ namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
 constexpr double kFaceCosine = 0.85;  // of the normals of a face's own points
+constexpr double kMost = 0.95;        // share of a face's points
 
 }  // namespace
 
@@ -142,16 +143,21 @@ bool FaceEstimator::endsOutsideBox(std::size_t face) const
   return outside > kMaxOutside * end;
 }
 
+/** The shell of a face's own points: what lies deeper is another part, as the apron below a table's
+ * edge [m]. */
+double FaceEstimator::shellDepth() const
+{
+  return std::max(0.03, 4.0 * options_.depthSigma(range_));
+}
+
 /** A face that shows by its own points: it is at their median. */
 std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
 {
   constexpr double kStill = 1e-4;  // [m]
-  // What lies deeper is another part (the apron below a table's edge).
-  const double shellDepth = std::max(0.03, 4.0 * options_.depthSigma(range_));  // [m]
   const auto& across = acrossOf(face);
   FaceEstimate out;
   out.source = FaceSource::Surface;
-  out.position = extreme(face) - 0.5 * shellDepth;
+  out.position = extreme(face) - 0.5 * shellDepth();
   std::vector<double> shell;
   // The outermost points are those that err most: the shell moves inwards to where most are.
   for (double before = extreme(face); before - out.position > kStill;)
@@ -160,7 +166,7 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
     shell.clear();
     double shift = 0;
     for (std::size_t i = 0; i < size(); ++i)
-      if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - before) < 0.5 * shellDepth)
+      if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - before) < 0.5 * shellDepth())
       {
         shell.push_back(along(face, i));
         shift += across[i];
@@ -180,6 +186,18 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   return out;
 }
 
+std::optional<double> FaceEstimator::reachOfFront(std::size_t back) const
+{
+  const auto front = surface(back ^ 1U);
+  if (!front) return {};
+  std::vector<double> reach;
+  reach.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i) reach.push_back(along(back, i));
+  const double most = quantile(std::move(reach), kMost);
+  if (most > shellDepth() - front->position) return {};
+  return most;
+}
+
 /** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims and handles,
  * and what lies above the noise is their end. \param shell Heights of the points that face up [m].
  */
@@ -188,7 +206,6 @@ void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
   const double depthSigma = options_.depthSigma(range_);
   const double count = static_cast<double>(shell.size());
   const double noise = std::max(madSigma(shell), depthSigma);
-  constexpr double kMost = 0.95;
   const double high = quantile(std::move(shell), kMost) -
                       normalQuantile(kMost) * std::abs(facingAway(kTop)) * depthSigma;
   if (high > top.position)

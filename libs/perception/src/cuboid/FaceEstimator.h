@@ -72,6 +72,11 @@ class FaceEstimator
   /** The lower end of the object by its cloud within the detector's box; its sigma is left open. */
   FaceEstimate endInBox() const;
 
+  /** How far most of the points reach when they are the front's alone, as of a screen [m]. The
+   * others are the rim's way to what is behind, and tell nothing of a back that nobody saw. Nothing
+   * when something of the object lies behind the front. */
+  std::optional<double> reachOfFront(std::size_t back) const;
+
   const ImageBox& box() const { return object_.box; }  //!< Of the detector [px]
 
   /** The near side of something round with this radius [m]: each point knows by its normal how far
@@ -113,6 +118,7 @@ class FaceEstimator
   double noiseAt(std::size_t face, double position, std::size_t n) const;
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
+  double shellDepth() const;
   void raiseTop(std::vector<double> shell, FaceEstimate& top) const;
   FaceEstimate outline(std::size_t face, const Outline& lines) const;
   bool leadsUp(std::size_t face, double position) const;
