@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "cloud/HorizontalTop.h"
 #include "cloud/WallsBehind.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/HorizontalTop.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportEvidence.h"
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "cloud/Cluster.h"
-#include "cloud/HorizontalTop.h"
 #include "cloud/Precision.h"
 #include "quadmap/geometry/RobustStatistics.h"
+#include "quadmap/surfaces/HorizontalTop.h"
 #include "quadmap/surfaces/PointClusters.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/SupportRing.h"

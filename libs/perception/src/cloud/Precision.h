@@ -27,9 +27,6 @@ constexpr double kEndWidth = 0.03;
 /** By this share of their size boxes of a detector are wrong without anything being amiss. */
 constexpr double kBoxErrorShare = 0.05;
 
-/** Sizes of things are usual within so many spreads of their kind's typical size. */
-constexpr double kUsualSpreads = 2.0;
-
 /** From one point of a sample to the next. \param count Of all points. */
 inline std::size_t sampleStep(std::size_t count) { return 1 + count / kSample; }
 

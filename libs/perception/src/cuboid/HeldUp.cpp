@@ -12,8 +12,8 @@ namespace quadmap
 {
 namespace
 {
-/** How far an object ends from the edges of its box that its bottom looks out over [m], as equation
- * (3.5) has it for the label's shape; the largest counts. */
+/** How far an object ends from the edges of its box that its bottom looks out over [m], equation
+ * (8.12). */
 double distanceFromLowerEdges(
     const std::array<Plane, 4>& edges, const Ellipsoid& object, double shapeExponent)
 {

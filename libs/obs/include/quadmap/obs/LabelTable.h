@@ -33,6 +33,9 @@ struct LabelLimits
   static constexpr double kSmallestSpread = 0.01, kLargestSpread = 3;  //!< See sizeSpread [-]
 };
 
+/** Sizes of things are usual within so many spreads of their kind's typical size. */
+constexpr double kUsualSpreads = 2.0;
+
 /** What is known about the objects of a label before one is seen. */
 struct LabelProperties
 {

@@ -6,9 +6,9 @@
 
 #include "quadmap/geometry/Plane.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/perception/PerceptionOptions.h"
 #include "quadmap/surfaces/DepthCloud.h"
 #include "quadmap/surfaces/PlaneExtent.h"
+#include "quadmap/surfaces/SurfaceOptions.h"
 
 namespace quadmap
 {
@@ -27,11 +27,11 @@ std::optional<Plane> horizontalTop(
     const Plane* support,
     const Eigen::Vector3d& up,
     const LabelProperties& label,
-    const PerceptionOptions& options);
+    const SurfaceOptions& options);
 
 /** How far an object's horizontal top reaches; the other parts of the object are below it. Nothing
  * is returned when no point lies on the top. \param points Of the object, optical frame [m]. */
 std::optional<PlaneExtent> topExtent(
-    const Plane& top, std::vector<Eigen::Vector3d> points, const PerceptionOptions& options);
+    const Plane& top, std::vector<Eigen::Vector3d> points, const SurfaceOptions& options);
 
 }  // namespace quadmap

@@ -1,9 +1,8 @@
-#include "cloud/HorizontalTop.h"
+#include "quadmap/surfaces/HorizontalTop.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cloud/Precision.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -57,22 +56,22 @@ class AreaOfHeight
 };
 
 /** Where a level top may be, above the plane that its height is measured from [m]. */
-struct Heights
+struct TopHeights
 {
   double low, high;
 };
 
 /** Above the support the top is as high as such things are. */
-Heights heightsAboveSupport(const LabelProperties& label)
+TopHeights heightsAboveSupport(const LabelProperties& label)
 {
   const double spread = std::exp(kUsualSpreads * label.sizeSpread);
   return {label.typicalSize.z() / spread, label.typicalSize.z() * spread};
 }
 
 /** Where no support is known, the top may have any height below the camera. But a level surface
- * that most points are above is what the thing stands on. \param seen Heights of all points, from
- * the camera's; not empty. */
-Heights heightsBelowCamera(const std::vector<double>& seen, const PerceptionOptions& options)
+ * that most points are above is what the thing stands on. \param seen TopHeights of all points,
+ * from the camera's; not empty. */
+TopHeights heightsBelowCamera(const std::vector<double>& seen, const SurfaceOptions& options)
 {
   constexpr double kOnSurface = (kHalfWindow + 0.5) * kBin;
   const double high = *std::max_element(seen.begin(), seen.end());
@@ -125,13 +124,14 @@ std::optional<Plane> horizontalTop(
     const Plane* support,
     const Eigen::Vector3d& up,
     const LabelProperties& label,
-    const PerceptionOptions& options)
+    const SurfaceOptions& options)
 {
   if (points.empty()) return {};
   const Plane from = support ? *support : Plane{up, 0};  // else from the camera's own height
   std::vector<double> heights;
   for (const auto& p : points) heights.push_back(from.signedDistance(p));
-  const Heights range = support ? heightsAboveSupport(label) : heightsBelowCamera(heights, options);
+  const TopHeights range =
+      support ? heightsAboveSupport(label) : heightsBelowCamera(heights, options);
   if (range.low >= range.high) return {};
   const double cameraHeight = from.signedDistance(Eigen::Vector3d::Zero());
   AreaOfHeight areas(range.low, range.high);
@@ -156,7 +156,7 @@ std::optional<Plane> horizontalTop(
 }
 
 std::optional<PlaneExtent> topExtent(
-    const Plane& top, std::vector<Eigen::Vector3d> points, const PerceptionOptions& options)
+    const Plane& top, std::vector<Eigen::Vector3d> points, const SurfaceOptions& options)
 {
   points.erase(
       std::remove_if(
