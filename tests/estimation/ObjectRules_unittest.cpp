@@ -29,6 +29,8 @@ MapObject objectAt(const Eigen::Vector3d& place)
   return object;
 }
 
+const ImageBox kBox{100, 100, 200, 200}, kBeside{130, 100, 230, 200};  // IoU 0.54
+
 DetectedObject boxOf(const std::string& label, double score, const ImageBox& box)
 {
   DetectedObject detected;
@@ -38,10 +40,12 @@ DetectedObject boxOf(const std::string& label, double score, const ImageBox& box
   return detected;
 }
 
-bool isDropped(const std::vector<DetectedObject>& boxes, std::size_t k)
+std::vector<bool> staying(const std::vector<DetectedObject>& boxes)
 {
-  return hasBetterTwin(boxes, k, LabelTable::installed(), {});
+  return surestOfTwins(boxes, LabelTable::installed(), {});
 }
+
+using Stay = std::vector<bool>;
 
 double likelihoodAt(const Eigen::Vector3d& place, double wrongDepthShare)
 {
@@ -51,25 +55,39 @@ double likelihoodAt(const Eigen::Vector3d& place, double wrongDepthShare)
 }
 }  // namespace
 
-TEST(BetterTwin, OfTwoNamesForAThingTheSurerOneStays)
+TEST(SurestOfTwins, OfTwoNamesForAThingTheSurerOneStays)
 {
   // YOLOX on the first image of tum_fr2_desk: a monitor with its keyboard makes a laptop, too.
   const std::vector<DetectedObject> desk{
       boxOf("laptop", 0.54, {189, 95, 387, 270}), boxOf("tvmonitor", 0.72, {238, 95, 385, 227}),
       boxOf("keyboard", 0.83, {201, 259, 391, 315})};
-  EXPECT_TRUE(isDropped(desk, 0));
-  EXPECT_FALSE(isDropped(desk, 1));
-  EXPECT_FALSE(isDropped(desk, 2));
+  EXPECT_EQ(staying(desk), Stay({false, true, true}));
 }
 
-TEST(BetterTwin, NeighboursOfOneLabelAndThingsInFrontOfOthersStay)
+TEST(SurestOfTwins, NeighboursOfOneLabelAndThingsInFrontOfOthersStay)
 {
-  const ImageBox box{100, 100, 200, 200}, beside{130, 100, 230, 200};  // IoU 0.54
-  EXPECT_FALSE(isDropped({boxOf("chair", 0.5, box), boxOf("chair", 0.9, beside)}, 0));
-  EXPECT_FALSE(isDropped({boxOf("chair", 0.5, box), boxOf("cup", 0.9, beside)}, 0));
-  EXPECT_TRUE(isDropped({boxOf("chair", 0.5, box), boxOf("cup", 0.9, box)}, 0));
-  EXPECT_TRUE(isDropped({boxOf("cup", 0.5, box), boxOf("cup", 0.5, box)}, 1)) << "one of two stays";
-  EXPECT_FALSE(isDropped({boxOf("cup", 0.5, box), boxOf("cup", 0.5, box)}, 0));
+  EXPECT_EQ(staying({boxOf("chair", 0.5, kBox), boxOf("chair", 0.9, kBeside)}), Stay(2, true));
+  EXPECT_EQ(staying({boxOf("chair", 0.5, kBox), boxOf("cup", 0.9, kBeside)}), Stay(2, true));
+  EXPECT_EQ(staying({boxOf("chair", 0.5, kBox), boxOf("cup", 0.9, kBox)}), Stay({false, true}));
+}
+
+TEST(SurestOfTwins, WhatGoesTakesNothingWithIt)
+{
+  const ImageBox third{160, 100, 260, 200};
+  const std::vector<DetectedObject> row{
+      boxOf("chair", 0.5, kBox), boxOf("couch", 0.6, kBeside), boxOf("chair", 0.9, third)};
+  EXPECT_EQ(staying(row), Stay({true, false, true}));
+}
+
+TEST(SurestOfTwins, AsSureOnesAreTwinsOnlyAroundTheSamePixels)
+{
+  EXPECT_EQ(staying({boxOf("cup", 1, kBox), boxOf("cup", 1, kBox)}), Stay({true, false}));
+  std::vector<DetectedObject> truth{boxOf("chair", 1, kBox), boxOf("couch", 1, kBeside)};
+  EXPECT_EQ(staying(truth), Stay(2, true));
+  truth[1].box = kBox;
+  truth[0].instanceId = 1;
+  truth[1].instanceId = 2;
+  EXPECT_EQ(staying(truth), Stay(2, true)) << "two things, as whoever gave the numbers knows";
 }
 
 TEST(PartialPosition, IsADensity)

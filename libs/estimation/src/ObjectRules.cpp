@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "quadmap/estimation/Association.h"
 #include "quadmap/geometry/Overlap.h"
@@ -113,31 +114,41 @@ DepthHypotheses depthHypotheses(
       std::log(options.wrongDepthShare) + logGaussian(off, S_object + wrongDepthCovariance(view))};
 }
 
-/** Are they two names that a detector takes for each other? */
-bool areConfused(const std::string& a, const std::string& b, const LabelTable& labels)
+/** Do they show one thing? \param surer The detector's score of it is at least the other's. */
+bool areTwins(
+    const DetectedObject& surer,
+    const DetectedObject& other,
+    const LabelTable& labels,
+    const AgreementOptions& options)
 {
-  const std::string nameA = labels.canonical(a), nameB = labels.canonical(b);
-  return nameA != nameB && labels.compatible(nameA, nameB);
+  if (surer.instanceId && other.instanceId && *surer.instanceId != *other.instanceId) return false;
+  const double iou = imageBoxIoU(surer.box, other.box);
+  if (iou > options.duplicateIoU) return true;
+  if (iou <= options.confusedIoU || surer.score <= other.score) return false;
+  const std::string a = labels.canonical(surer.label), b = labels.canonical(other.label);
+  return a != b && labels.compatible(a, b);
 }
 
 }  // namespace
 
-bool hasBetterTwin(
+std::vector<bool> surestOfTwins(
     const std::vector<DetectedObject>& objects,
-    std::size_t k,
     const LabelTable& labels,
     const AgreementOptions& options)
 {
-  const DetectedObject& box = objects[k];
-  for (std::size_t j = 0; j < objects.size(); ++j)
-  {
-    const DetectedObject& other = objects[j];
-    const double iou = imageBoxIoU(other.box, box.box);
-    if (j == k || iou <= std::min(options.confusedIoU, options.duplicateIoU)) continue;
-    if (iou <= options.duplicateIoU && !areConfused(other.label, box.label, labels)) continue;
-    if (other.score > box.score || (other.score == box.score && j < k)) return true;
-  }
-  return false;
+  std::vector<std::size_t> bySureness(objects.size());
+  std::iota(bySureness.begin(), bySureness.end(), 0);
+  std::stable_sort(
+      bySureness.begin(), bySureness.end(),
+      [&](std::size_t a, std::size_t b) { return objects[a].score > objects[b].score; });
+  std::vector<bool> stays(objects.size(), false);
+  // What goes itself takes nothing with it: in a row each may overlap the next.
+  for (const std::size_t k : bySureness)
+    stays[k] = std::none_of(
+        bySureness.begin(), bySureness.end(),
+        [&](std::size_t j)
+        { return stays[j] && areTwins(objects[j], objects[k], labels, options); });
+  return stays;
 }
 
 double labelAgreement(const MapObject& object, const std::string& label, const LabelTable& labels)

@@ -50,14 +50,14 @@ CQuadricObjectMap::Frame CQuadricObjectMap::frameOf(
   frame.geometry = {
       pinholeFrom(obs.cameraParams), robotPose.mean + obs.sensorPose, &obs.coarseDepth};
   frame.time = obs.timestamp;
+  const auto stays = surestOfTwins(obs.objects, table, insertionOptions.agreement);
   for (std::size_t k = 0; k < obs.objects.size(); ++k)
   {
     const DetectedObject& detected = obs.objects[k];
     const bool sure = detected.score >= insertionOptions.minScore;
     frame.allBoxes.push_back(detected.box);
     frame.allLabels.push_back(sure ? table.canonical(detected.label) : "");
-    if (!sure) continue;
-    if (hasBetterTwin(obs.objects, k, table, insertionOptions.agreement)) continue;
+    if (!sure || !stays[k]) continue;
     auto view = viewOf(
         detected, frame.geometry.T_map_sensor, table.properties(table.canonical(detected.label)),
         noise);

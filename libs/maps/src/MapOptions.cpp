@@ -46,11 +46,13 @@ void describeAgreement(InsertionOptions& o, OptionList& list)
       "Share of partial measurements whose depth is that of another thing.");
   list.number(
       "duplicateIoU", o.agreement.duplicateIoU, {kSmall, 1}, "",
-      "Two boxes of one frame with at least this IoU show the same thing.");
+      "Two boxes of one frame with more than this IoU show the same thing.");
   list.number(
       "confusedIoU", o.agreement.confusedIoU, {kSmall, 1}, "",
-      "So do two with at least this IoU whose labels a detector takes for each other. Detectors "
-      "suppress copies label by label. In real images the surer box of such a pair is right.");
+      "So do two with more than this IoU whose labels a detector takes for each other, and the one "
+      "that it is surer of stays. Detectors suppress copies label by label. Of 20 such pairs of "
+      "two "
+      "real recordings the surer box was right each time.");
 }
 
 void describeEstimation(InsertionOptions& o, OptionList& list)

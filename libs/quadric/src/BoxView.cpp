@@ -70,12 +70,12 @@ std::vector<BoxView> boxViewsOf(
     const InsertionOptions& options)
 {
   const Eigen::Matrix3d R = boxes.sensorPose.getRotationMatrix().asEigen();
+  const auto stays = surestOfTwins(boxes.objects, labels, options.agreement);
   std::vector<BoxView> views;
   for (std::size_t k = 0; k < boxes.objects.size(); ++k)
   {
     const DetectedObject& detected = boxes.objects[k];
-    if (!detected.measurement.edges || detected.score < options.minScore) continue;
-    if (hasBetterTwin(boxes.objects, k, labels, options.agreement)) continue;
+    if (!detected.measurement.edges || detected.score < options.minScore || !stays[k]) continue;
     BoxView view;
     view.keyframe = keyframe;
     view.box = k;

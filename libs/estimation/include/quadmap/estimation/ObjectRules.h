@@ -21,7 +21,8 @@ struct AgreementOptions
   double labelPenalty = 5;    //!< Log-likelihood lost by labels never taken for each other, >= 0
   double wrongDepthShare = 0.05;  //!< Of partial measurements whose depth is another thing's [-]
   double duplicateIoU = 0.8;      //!< Two boxes of one frame this alike show the same thing, (0, 1]
-  /** ... or this alike, when their labels are two that a detector takes for each other, (0, 1] */
+  /** ... or this alike, when their labels are two that a detector takes for each other and it is
+   * surer of one, (0, 1]. More than duplicateIoU says nothing. */
   double confusedIoU = 0.5;
 };
 
@@ -33,12 +34,12 @@ struct MergeOptions
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
 };
 
-/** Is there another box of the same frame around the same thing, which the detector is surer of? A
- * detector leaves two where two names suit a thing: one suppresses its own copies label by label.
- * \param k Index of the box. */
-bool hasBetterTwin(
+/** Which boxes of a frame stay when each thing has one: of two that show the same thing the one
+ * that the detector is surer of. A detector leaves two where two names suit a thing, as it
+ * suppresses its own copies label by label (doc/mathematics.md, 12). Boxes whose instance ids
+ * differ show two things. */
+std::vector<bool> surestOfTwins(
     const std::vector<DetectedObject>& objects,
-    std::size_t k,
     const LabelTable& labels,
     const AgreementOptions& options);
 
