@@ -226,12 +226,15 @@ TEST(Doubles, ThatDoNotBecomeOneLeaveARunAsItWas)
   SlamResult& result = run.result();
   result.correction.emplace();
   EXPECT_EQ(result.loops.warning(), "");
+  const auto before = result.keyframes;
   JointBackEnd backEnd({}, result.map.insertionOptions, labels());
   backEnd.closeLoops([](std::size_t) { return nullptr; }, [] { return false; }, result);
   EXPECT_EQ(result.loops.closed, 0);
   ASSERT_TRUE(result.loops.open);
   EXPECT_EQ(result.loops.open->objects, 4U);
   EXPECT_EQ(result.map.objects().size(), 8U);
+  for (std::size_t k = 0; k < before.size(); ++k)
+    EXPECT_EQ(result.keyframes.at(k).T_map_robot, before[k].T_map_robot);
   EXPECT_EQ(
       result.loops.warning(),
       "4 objects may be twice in the map, up to 0.7 m apart, and could not be made one: poses and "

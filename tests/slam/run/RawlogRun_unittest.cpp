@@ -268,6 +268,7 @@ TEST_F(RawlogRun, IsInterruptedBehindTheLastImageAsWell)
   const auto summary = runOnRawlog(request);
   EXPECT_TRUE(summary.interrupted);
   EXPECT_TRUE(summary.result.loops.stopped);
+  EXPECT_NE(readFile(output("report.json")).find("stopped before it was known"), std::string::npos);
   EXPECT_EQ(readTumTrajectory(output("trajectory.tum")).size(), 6u);
 }
 

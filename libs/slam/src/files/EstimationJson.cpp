@@ -26,8 +26,9 @@ Json loopsJson(const LoopSummary& loops)
         { "distance_m", rounded(loops.open->distance,          3)}
     };
   return {
-      {"closed", loops.closed},
-      {  "open",         open}
+      { "closed",  loops.closed},
+      {   "open",          open},
+      {"stopped", loops.stopped}
   };
 }
 

@@ -89,9 +89,11 @@ struct LoopSummary
     double distance = 0;  //!< Largest distance between the two of one thing [m]
   };
   std::optional<Open> open = std::nullopt;
-  bool stopped = false;  //!< The run was told to stop before all such objects were found
+  /** The run was told to stop before all such objects were found, or in the moment when they were.
+   */
+  bool stopped = false;
 
-  /** Says so when there are some; empty otherwise. */
+  /** Says so when there are some, or may be; empty otherwise. */
   std::string warning() const;
 };
 
