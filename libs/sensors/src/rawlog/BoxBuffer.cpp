@@ -37,7 +37,7 @@ SidecarSurvey surveyOf(
 {
   SidecarSurvey survey;
   std::optional<double> latest;
-  RecordReader reader(file, limits);
+  RecordReader reader(file, limits, isStopped);
   try
   {
     while (!isStopped())
@@ -64,7 +64,7 @@ void BoxBuffer::openSidecar(const std::string& file, const RecordLimits& limits)
 {
   const SidecarSurvey survey = surveyOf(file, limits, isStopped_);
   if (isStopped_() || (!survey.hasBoxes && !survey.damaged)) return;
-  sidecar_ = std::make_unique<RecordReader>(file, limits);
+  sidecar_ = std::make_unique<RecordReader>(file, limits, isStopped_);
   stepBack_ = survey.stepBack;
 }
 

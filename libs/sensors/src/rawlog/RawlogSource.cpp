@@ -49,7 +49,7 @@ void check(const RawlogSourceOptions& options)
 }  // namespace
 
 RawlogSource::Impl::Impl(RawlogSource& owner, std::string file, RawlogSourceOptions o) :
-    reader(file, o.limits),
+    reader(file, o.limits, [this] { return isStopped(); }),
     options(std::move(o)),
     imageRules(imageRulesFor(file, options)),
     boxes(options.maxBoxDelay, [this] { return isStopped(); }),

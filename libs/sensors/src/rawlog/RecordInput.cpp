@@ -9,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "records/RecordCheck.h"
+
 namespace quadmap
 {
 namespace
@@ -16,12 +18,16 @@ namespace
 constexpr std::size_t kHeadBytes = 160;        // more than the longest class name MRPT can write
 constexpr std::size_t kPieceBytes = 1u << 16;  // read at a time while the next record is looked for
 
-bool isRecordClass(const std::string& name)
+/** Classes whose layout is not known here are none: see CheckedReader::tryNext(). */
+bool isRecordClass(const std::string& writtenName)
 {
-  const auto* found = mrpt::rtti::findRegisteredClass(name);
-  return found && (found->derivedFrom(CLASS_ID(mrpt::obs::CObservation)) ||
-                   found->derivedFrom(CLASS_ID(mrpt::obs::CSensoryFrame)) ||
-                   found->derivedFrom(CLASS_ID(mrpt::obs::CActionCollection)));
+  const auto* found = mrpt::rtti::findRegisteredClass(writtenName);
+  if (!found) return false;
+  const std::string name = found->className;
+  return (found->derivedFrom(CLASS_ID(mrpt::obs::CObservation)) ||
+          found->derivedFrom(CLASS_ID(mrpt::obs::CSensoryFrame)) ||
+          found->derivedFrom(CLASS_ID(mrpt::obs::CActionCollection))) &&
+         RecordCheck::mayTry(name.substr(name.rfind(':') + 1));
 }
 }  // namespace
 
@@ -95,7 +101,7 @@ bool RecordInput::isRecordAt(std::size_t at) const
 
 std::optional<std::uint64_t> RecordInput::skipToNextRecord()
 {
-  searched_ += next_ - begin_;
+  searched_ += next_ - begin_ + kTryBytes;
   if (wasForgotten_ || searched_ > kMostSearched) return std::nullopt;
   for (std::size_t at = begin_ + 1; at - begin_ <= kMostKept; ++at)
   {

@@ -43,8 +43,10 @@ class RecordInput : public mrpt::io::CStream
 
   /** Most bytes that are kept of a record. An image of 8 million pixels with depth has 40 MB. */
   static constexpr std::size_t kMostKept = std::size_t{1} << 26;
-  /** They are read again, and a file can be made of nothing but beginnings of long records. */
+  /** They are read again, and a file can be made of nothing but beginnings of long records. Each
+   * costs kTryBytes more, so that short ones cannot be too many. */
   static constexpr std::uint64_t kMostSearched = std::uint64_t{1} << 30;
+  static constexpr std::uint64_t kTryBytes = std::uint64_t{1} << 16;
 
  private:
   void fetch(std::size_t size);

@@ -45,8 +45,9 @@ std::uint64_t mostRecordsIn(std::uint64_t fileBytes)
 }
 }  // namespace
 
-RecordReader::RecordReader(const std::string& file, const RecordLimits& limits) :
-    file_(file), stream_(file), reader_(stream_, limits)
+RecordReader::RecordReader(
+    const std::string& file, const RecordLimits& limits, std::function<bool()> isStopped) :
+    file_(file), stream_(file), reader_(stream_, limits), isStopped_(std::move(isStopped))
 {
   stream_.setMostBytes(mostBytesIn(stream_.getTotalBytesCount()));
 }
@@ -121,12 +122,12 @@ std::optional<std::uint64_t> RecordReader::findNext()
     leftOut += *passed;
     try
     {
-      found_ = reader_.next();
+      found_ = reader_.tryNext();
       return leftOut;
     }
     catch (const std::exception&)
     {
-      continue;
+      if (isStopped_()) break;
     }
   }
   return std::nullopt;

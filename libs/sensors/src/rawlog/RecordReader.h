@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,8 +19,12 @@ namespace quadmap
 class RecordReader
 {
  public:
-  /** \exception std::runtime_error If the file cannot be opened. */
-  explicit RecordReader(const std::string& file, const RecordLimits& limits = {});
+  /** \param isStopped Asked while the next object is looked for, which then is not found.
+   *  \exception std::runtime_error If the file cannot be opened. */
+  explicit RecordReader(
+      const std::string& file,
+      const RecordLimits& limits = {},
+      std::function<bool()> isStopped = [] { return false; });
 
   /** The next object, or null at the end of the file. That may follow an exception.
    *  \exception InputError For an object that cannot be read: its image is damaged, its class is
@@ -42,6 +47,7 @@ class RecordReader
   std::string file_;
   RecordInput stream_;
   CheckedReader reader_;
+  std::function<bool()> isStopped_;
   mrpt::serialization::CSerializable::Ptr found_;  //!< By findNext()
   std::size_t recordsRead_ = 0;
   bool isLost_ = false;  //!< Where the next object begins is not known

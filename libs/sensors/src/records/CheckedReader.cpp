@@ -12,11 +12,16 @@ CheckedReader::CheckedReader(mrpt::io::CStream& from, const RecordLimits& limits
 {
 }
 
-mrpt::serialization::CSerializable::Ptr CheckedReader::next()
+mrpt::serialization::CSerializable::Ptr CheckedReader::next() { return read(false); }
+
+mrpt::serialization::CSerializable::Ptr CheckedReader::tryNext() { return read(true); }
+
+mrpt::serialization::CSerializable::Ptr CheckedReader::read(bool isTry)
 {
   RecordBytes bytes(from_, limits_.recordBytes);
   if (!bytes.begin()) return nullptr;
   RecordCheck check(bytes, limits_);
+  check.refusesUnknown = isTry;
   const auto head = check.headAfterFirstByte();
   // Callers would take the null pointer for the end of the file.
   RecordCheck::require(head.name != "nullptr", "holds an empty object");
@@ -27,7 +32,10 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::next()
     object = check.readByMrpt(head.begin);
   }
   else
+  {
+    check.refusesUnknown = isTry && !RecordCheck::mayTry(head.name);
     object = check.readUnknown(head.begin);
+  }
   if (check.damage.empty()) return object;
   DamagedImage error(check.damage);
   if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))

@@ -65,6 +65,11 @@ void RecordCheck::endOfObject()
 
 bool RecordCheck::knows(const std::string& className) { return layouts().count(className) != 0; }
 
+bool RecordCheck::mayTry(const std::string& className)
+{
+  return knows(className) || className == "CObservationObjects";
+}
+
 void RecordCheck::content(const Head& head)
 {
   const Layout& layout = layouts().at(head.name);
@@ -117,6 +122,7 @@ mrpt::serialization::CSerializable::Ptr RecordCheck::readByMrpt(std::size_t begi
 
 mrpt::serialization::CSerializable::Ptr RecordCheck::readUnknown(std::size_t begin)
 {
+  require(!refusesUnknown, "is of a class whose layout is not known");
   std::optional<MemoryGuard> guard;
   if (unknownDepth_++ == 0) guard.emplace();
   try

@@ -34,6 +34,9 @@ class RecordCheck
 
   /** Whether the layouts of the class are known here. */
   static bool knows(const std::string& className);
+  /** Whether an object of the class may be read where one only seems to begin, as no few bytes take
+   * much memory. quadmap's own reader of boxes checks their counts. */
+  static bool mayTry(const std::string& className);
 
   /** What follows the head of an object. \exception std::runtime_error If a size cannot be right,
    * or the version is not one of those that are known. */
@@ -78,6 +81,8 @@ class RecordCheck
   const RecordLimits& limits;
   /** Whether the pixels of the next images are needed. Else what a JPEG holds is left out. */
   bool needsPixels = false;
+  /** Whether objects of unknown layouts are refused, of which MRPT may take much memory. */
+  bool refusesUnknown = false;
   /** Why the first image that cannot be decoded cannot. An empty one was put in its place. */
   std::string damage;
 

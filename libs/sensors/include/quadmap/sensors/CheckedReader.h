@@ -57,7 +57,14 @@ class CheckedReader
    *  \exception std::exception If it cannot be read. Reading cannot go on afterwards. */
   mrpt::serialization::CSerializable::Ptr next();
 
+  /** The same where an object only seems to begin. What MRPT reads by itself is refused, as a few
+   * bytes can make it take all memory it may have, and a file can be made of nothing but them.
+   * Boxes are read: quadmap's own reader checks their counts. */
+  mrpt::serialization::CSerializable::Ptr tryNext();
+
  private:
+  mrpt::serialization::CSerializable::Ptr read(bool isTry);
+
   mrpt::io::CStream& from_;
   RecordLimits limits_;
 };
