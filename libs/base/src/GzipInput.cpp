@@ -100,7 +100,7 @@ void GzInput::fail(const std::string& why)
   throw std::runtime_error(why);
 }
 
-/** Less than `count` at the end of the file only. */
+/** Less than `count` at the end of the file, or where it breaks off: then the next call fails. */
 std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
 {
   std::size_t done = 0;
@@ -111,8 +111,9 @@ std::size_t GzInput::readAvailable(char* bytes, std::size_t count)
     int error = Z_OK;
     gzerror(file_, &error);
     const bool endsEarly = error == Z_BUF_ERROR;  // what came before the end is still delivered
-    if (endsEarly && got >= 0 && static_cast<unsigned>(got) < want)
-      fail("the file is truncated (its compressed data ends early)");
+    if (got > 0 && static_cast<unsigned>(got) < want) return done + static_cast<std::size_t>(got);
+    if (endsEarly && got == 0) fail("the file is truncated (its compressed data ends early)");
+    if (got < 0 && done > 0) return done;
     if (got < 0 || (error != Z_OK && error != Z_STREAM_END && !endsEarly))
       fail("the file is damaged (" + errorText(error) + ")");
     if (got == 0) break;
@@ -125,7 +126,8 @@ std::size_t GzInput::Read(void* buffer, std::size_t count)
 {
   if (!failure_.empty()) throw std::runtime_error(failure_);
   auto* bytes = static_cast<char*>(buffer);
-  const std::size_t done = readSome(bytes, count);
+  std::size_t done = readSome(bytes, count);
+  if (done > 0 && done < count) done += readSome(bytes + done, count - done);
   if (done < count && (done > 0 || recordBytes_ > 0))
     fail("the file is truncated (it ends within a record)");
   if (head_.size() < kHeadBytes) head_.append(bytes, std::min(done, kHeadBytes - head_.size()));
@@ -152,7 +154,7 @@ std::uint64_t GzInput::skipToEnd()
   const std::uint64_t start = position_;
   std::vector<char> bytes(kBufferBytes);
   std::size_t done = bytes.size();
-  while (done == bytes.size())
+  while (done > 0)
   {
     done = readAvailable(bytes.data(), bytes.size());
     requireRoomFor(done);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <zlib.h>
 
 #include <chrono>
 #include <cstring>
@@ -103,6 +104,32 @@ TEST(LostRecords, EndTheFileWhenNothingIsBehindThem)
   RawlogSource source(folder.path("x.rawlog"), keepGoing());
   readAll(source);
   EXPECT_EQ(source.problems().size(), 1u);
+}
+
+/** The file compressed, without its last bytes. */
+std::string cutGz(const TemporaryFolder& folder, const std::string& bytes, std::size_t lack)
+{
+  const auto whole = folder.path("whole.gz");
+  const gzFile gz = gzopen(whole.c_str(), "wb");
+  EXPECT_EQ(gzwrite(gz, bytes.data(), static_cast<unsigned>(bytes.size())), int(bytes.size()));
+  gzclose(gz);
+  const std::string packed = readFile(whole);
+  return folder.write("gz.rawlog", packed.substr(0, packed.size() - lack));
+}
+
+// The search reads ahead, and meets the cut while records are left before it.
+TEST(LostRecords, CostNoOthersBeforeTheCutOfACompressedFile)
+{
+  const TemporaryFolder folder;
+  const std::string bytes = readFile(withRays(folder, 3));
+  const auto plain = folder.write("x.rawlog", bytes.substr(0, bytes.size() - 1));
+  for (const std::size_t lack : {std::size_t{1}, std::size_t{8}, std::size_t{20}})
+  {
+    RawlogSource cut(plain, keepGoing()), cutPacked(cutGz(folder, bytes, lack), keepGoing());
+    EXPECT_EQ(readAll(cut).size(), 2u);
+    EXPECT_EQ(readAll(cutPacked).size(), 2u) << lack;
+    EXPECT_NE(cutPacked.problems().back().what.find("truncated"), std::string::npos) << lack;
+  }
 }
 
 TEST(LostRecords, OfTheSidecarCostNoOthers)

@@ -55,16 +55,17 @@ void RecordInput::fetch(std::size_t size)
   const std::size_t before = bytes_.size();
   if (size <= before) return;
   bytes_.resize(size);
-  std::size_t got = 0;
+  std::size_t end = before;
   try
   {
-    got = file_.readSome(bytes_.data() + before, size - before);
+    for (std::size_t got = 1; got > 0 && end < size; end += got)
+      got = file_.readSome(bytes_.data() + end, size - end);
   }
   catch (const std::runtime_error& e)
   {
     failure_ = e.what();
   }
-  bytes_.resize(before + got);
+  bytes_.resize(end);
 }
 
 std::size_t RecordInput::Read(void* buffer, std::size_t count)

@@ -38,10 +38,10 @@ class GzInput : public mrpt::io::CStream
   /** \exception std::runtime_error If the file ends within a record, is damaged, or holds more than
    *  setMostBytes() allows. */
   std::size_t Read(void* buffer, std::size_t count) override;
-  /** Reads as much as there is, less than `count` at the end of the file only. Records do not
-   * matter. \exception std::runtime_error If the file is damaged, or holds more than setMostBytes()
-   * allows.
-   */
+  /** Reads as much as there is, less than `count` at the end of the file, or where it breaks off.
+   * Then the next call tells which: it returns 0, or throws. Records do not matter.
+   *  \exception std::runtime_error If the file is damaged, or holds more than setMostBytes()
+   *  allows. */
   std::size_t readSome(char* bytes, std::size_t count);
   /** Reads to the end, whatever is there. \return How many bytes that were.
    *  \exception std::runtime_error If the file is damaged. */
