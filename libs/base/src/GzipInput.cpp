@@ -16,7 +16,6 @@ namespace quadmap
 namespace
 {
 constexpr unsigned kBufferBytes = 1u << 17;
-constexpr std::size_t kHeadBytes = 160;        // more than the longest class name MRPT can write
 constexpr std::size_t kChunkBytes = 1u << 30;  // zlib counts in unsigned int
 
 gzFile openOrThrow(const std::string& path)

@@ -217,3 +217,19 @@ TEST(LostRecords, HoldTheSearchUpNoMoreThanSoManyTimes)
   EXPECT_TRUE(stopped.wasStopped());
   EXPECT_EQ(asked, 100);
 }
+
+// Their bytes are not kept, but their name is said.
+TEST(LostRecords, AreNamedWhenTheyAreLong)
+{
+  const TemporaryFolder folder;
+  constexpr std::uint32_t kPoints = 12345, kMany = 7000000;
+  const auto scan = sampleScan(kStart);
+  scan->hasPoints3D = true;
+  scan->resizePoints3DVectors(kPoints);
+  const std::string whole = readFile(writeObjects(folder.path("s"), {scan}, false));
+  std::string bytes = whole.substr(0, whole.find(bytesOf(kPoints))) + bytesOf(kMany);
+  bytes.resize(bytes.size() + (70u << 20));
+  expectProblem(
+      cutGz(folder, bytes, 0),
+      {"record 0: mrpt::obs::CObservation3DRangeScan: the file is truncated"}, 0);
+}

@@ -15,7 +15,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::size_t kHeadBytes = 160;        // more than the longest class name MRPT can write
 constexpr std::size_t kPieceBytes = 1u << 16;  // read at a time while the next record is looked for
 
 /** Classes whose layout is not known here are none: see CheckedReader::tryNext(). */
@@ -31,22 +30,23 @@ bool isRecordClass(const std::string& writtenName)
 }
 }  // namespace
 
+bool isClassName(std::string_view name)
+{
+  const auto isLegal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), isLegal);
+}
+
 RecordInput::RecordInput(const std::string& file) : file_(file) {}
 
 void RecordInput::startRecord()
 {
   begin_ = next_;
   wasForgotten_ = false;
+  head_.clear();
   failure_.clear();
   if (begin_ <= bytes_.size() / 2) return;  // what is ahead is moved seldom
   bytes_.erase(0, begin_);
   begin_ = next_ = 0;
-}
-
-std::string RecordInput::recordHead() const
-{
-  if (wasForgotten_) return {};
-  return bytes_.substr(begin_, std::min(kHeadBytes, next_ - begin_));
 }
 
 /** Reads the file until there are so many bytes, as far as it has them. */
@@ -79,6 +79,8 @@ std::size_t RecordInput::Read(void* buffer, std::size_t count)
   fetch(next_ + count);
   const std::size_t done = std::min(count, bytes_.size() - next_);
   std::memcpy(buffer, bytes_.data() + next_, done);
+  if (head_.size() < GzInput::kHeadBytes)
+    head_.append(bytes_, next_, std::min(done, GzInput::kHeadBytes - head_.size()));
   next_ += done;
   if (done < count && failure_.empty() && (next_ > begin_ || wasForgotten_))
     failure_ = "the file is truncated (it ends within a record)";
@@ -94,10 +96,8 @@ bool RecordInput::isRecordAt(std::size_t at) const
   const auto first = static_cast<unsigned char>(bytes_[at]);
   const std::size_t length = first & ~kMark;
   if ((first & kMark) == 0 || length == 0 || length >= bytes_.size() - at) return false;
-  const auto name = bytes_.begin() + static_cast<std::ptrdiff_t>(at) + 1;
-  const auto end = name + static_cast<std::ptrdiff_t>(length);
-  const auto legal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
-  return std::all_of(name, end, legal) && isRecordClass(std::string(name, end));
+  const std::string_view name(bytes_.data() + at + 1, length);
+  return isClassName(name) && isRecordClass(std::string(name));
 }
 
 std::optional<std::uint64_t> RecordInput::skipToNextRecord()
@@ -106,7 +106,7 @@ std::optional<std::uint64_t> RecordInput::skipToNextRecord()
   if (wasForgotten_ || searched_ > kMostSearched) return std::nullopt;
   for (std::size_t at = begin_ + 1; at - begin_ <= kMostKept; ++at)
   {
-    if (at + kHeadBytes > bytes_.size()) fetch(at + kPieceBytes);
+    if (at + GzInput::kHeadBytes > bytes_.size()) fetch(at + kPieceBytes);
     if (at >= bytes_.size()) break;
     if (!isRecordAt(at)) continue;
     const std::uint64_t passed = at - begin_;

@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "quadmap/base/GzipInput.h"
 
 namespace quadmap
 {
+/** Whether MRPT may have written this as the name of a class. */
+bool isClassName(std::string_view name);
+
 /** The bytes of a rawlog, record by record. Those of the present record are kept, so that behind a
  * record which cannot be read the next one can be found: it begins with the name of a class. */
 class RecordInput : public mrpt::io::CStream
@@ -23,7 +27,7 @@ class RecordInput : public mrpt::io::CStream
   /** What is read from here on is one record: only before its first byte may the file end. */
   void startRecord();
   /** The first bytes of the record, as far as they have been read. */
-  std::string recordHead() const;
+  const std::string& recordHead() const { return head_; }
   /** Why reading failed; empty while nothing did. */
   const std::string& failure() const { return failure_; }
   double progress() const { return file_.progress(); }
@@ -58,7 +62,7 @@ class RecordInput : public mrpt::io::CStream
   std::size_t next_ = 0;        //!< The next byte to be read
   std::uint64_t searched_ = 0;  //!< Bytes of records that could not be read, altogether
   bool wasForgotten_ = false;   //!< The record is longer than what is kept
-  std::string failure_;
+  std::string head_, failure_;
 };
 
 }  // namespace quadmap

@@ -3,8 +3,6 @@
 #include <mrpt/core/exceptions.h>
 #include <mrpt/rtti/CObject.h>
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "InputError.h"
@@ -25,8 +23,7 @@ std::string classNameIn(const std::string& head)
   const std::size_t length = isNew ? first & 0x7Fu : first, start = isNew ? kNew : kOld;
   if (length == 0 || head.size() < start + length) return {};
   const std::string name = head.substr(start, length);
-  const auto legal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
-  return std::all_of(name.begin(), name.end(), legal) ? name : std::string();
+  return isClassName(name) ? name : std::string();
 }
 
 /** What a rawlog may hold [bytes], and in how many records. Recordings of images compress to a

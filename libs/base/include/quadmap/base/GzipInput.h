@@ -3,6 +3,7 @@
 #include <mrpt/io/CStream.h>
 #include <zlib.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -53,6 +54,8 @@ class GzInput : public mrpt::io::CStream
   std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
   std::uint64_t getTotalBytesCount() const override { return fileBytes_; }
   std::uint64_t getPosition() const override { return position_; }
+
+  static constexpr std::size_t kHeadBytes = 160;  //!< More than a class name of MRPT can have
 
  private:
   [[noreturn]] void fail(const std::string& why);
