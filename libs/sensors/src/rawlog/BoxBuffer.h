@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
@@ -37,6 +38,8 @@ class BoxBuffer
    *  \exception std::runtime_error If the file cannot be opened. */
   void openSidecar(const std::string& file, const RecordLimits& limits);
   bool hasSidecar() const { return sidecar_ != nullptr; }
+  /** See RecordReader; of the sidecar, as far as it was read. */
+  std::uint64_t bytesLeftOut() const { return sidecar_ ? sidecar_->bytesLeftOut() : 0; }
 
   /** Reads the sidecar as far as it may contain boxes up to a time [s].
    *  \exception InputError If it is broken. */

@@ -231,6 +231,14 @@ void RawlogSource::Impl::tellUnknownPixelLabels()
         reader.file() + ": pixel labels that are not in the label table are no objects: " + names);
 }
 
+void RawlogSource::Impl::tellLeftOut(const std::string& file, std::uint64_t bytes)
+{
+  if (bytes > 0)
+    warnOnce(
+        file + ": " + std::to_string(bytes) +
+        " bytes were left out, of records that cannot be read or behind them");
+}
+
 /** Reports boxes of which none found its scan. Such an input is wrong, but would look like an empty
  * room. */
 void RawlogSource::Impl::finish()
@@ -239,6 +247,8 @@ void RawlogSource::Impl::finish()
   finished_ = true;
   tellUnknownPixelLabels();
   readSidecar(1e300);
+  tellLeftOut(reader.file(), reader.bytesLeftOut());
+  tellLeftOut(sidecarFor(reader.file(), options), boxes.bytesLeftOut());
   if (stopped) return;
   const std::size_t lost = boxes.unpaired(options.sensorLabel);
   if (framesRead == 0 || lost == 0) return;

@@ -62,6 +62,7 @@ struct RawlogSource::Impl
   void addBoxes(RgbdFrame& frame);
   void addPixelLabels(RgbdFrame& frame);
   void tellUnknownPixelLabels();
+  void tellLeftOut(const std::string& file, std::uint64_t bytes);
   void readSidecar(double time);
   void finish();
   void warnOnce(const std::string& text);

@@ -117,6 +117,14 @@ std::optional<std::uint64_t> RecordInput::skipToNextRecord()
   return std::nullopt;
 }
 
+void RecordInput::passEndMark()
+{
+  constexpr char kEndMark = '\x88';  // it is also the head of a name of eight letters
+  fetch(next_ + 2);
+  const std::string_view two = std::string_view(bytes_).substr(next_, 2);
+  if (!two.empty() && two[0] == kEndMark && !isClassName(two.substr(1))) ++next_;
+}
+
 std::size_t RecordInput::Write(const void*, std::size_t)
 {
   throw std::logic_error("RecordInput: is read only");

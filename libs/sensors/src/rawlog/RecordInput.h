@@ -37,6 +37,9 @@ class RecordInput : public mrpt::io::CStream
    *  when the file has had kMostSearched bytes of records that could not be read. */
   std::optional<std::uint64_t> skipToNextRecord();
 
+  /** Passes over the mark that ends an object, if it is next where a record should begin. */
+  void passEndMark();
+
   /** \exception std::runtime_error If the file ends within a record, is damaged, or holds more than
    *  it may. */
   std::size_t Read(void* buffer, std::size_t count) override;

@@ -72,15 +72,7 @@ mrpt::serialization::CSerializable::Ptr RecordReader::next()
     ended_ = true;
     throw InputError({file_, recordsRead_, "", "the file has too many records for its size"});
   }
-  if (std::exchange(isLost_, false))
-  {
-    if (const auto leftOut = findNext())
-      throw InputError(
-          {file_, recordsRead_, "", std::to_string(*leftOut) + " bytes before it were left out"});
-    ended_ = true;
-    return nullptr;
-  }
-  const auto object = found_ ? std::exchange(found_, nullptr) : read();
+  const auto object = std::exchange(isLost_, false) ? findNext() : read();
   if (object)
     ++recordsRead_;
   else
@@ -90,6 +82,8 @@ mrpt::serialization::CSerializable::Ptr RecordReader::next()
 
 mrpt::serialization::CSerializable::Ptr RecordReader::read()
 {
+  // The objects in one that is lost are found, and behind the last of them it ends.
+  if (bytesLeftOut_ > 0) stream_.passEndMark();
   stream_.startRecord();
   try
   {
@@ -97,8 +91,7 @@ mrpt::serialization::CSerializable::Ptr RecordReader::read()
   }
   catch (const DamagedImage& e)
   {
-    const std::string why = explain(e);
-    throw InputError({file_, recordsRead_++, e.sensor, why});
+    throwDamaged(e);
   }
   catch (const std::exception& e)
   {
@@ -108,26 +101,38 @@ mrpt::serialization::CSerializable::Ptr RecordReader::read()
   }
 }
 
+void RecordReader::throwDamaged(const DamagedImage& e)
+{
+  const std::string why = explain(e);
+  throw InputError({file_, recordsRead_++, e.sensor, why});
+}
+
 /** Finds the next object behind one that could not be read. Bytes that only look like the beginning
  * of one, as in an image, are tried and left out with the others.
- * \return How many bytes lie in between; nothing when there is no further object. */
-std::optional<std::uint64_t> RecordReader::findNext()
+ * \return Null when there is no further object. */
+mrpt::serialization::CSerializable::Ptr RecordReader::findNext()
 {
-  std::uint64_t leftOut = 0;
+  std::uint64_t passedInAll = 0;
   while (const auto passed = stream_.skipToNextRecord())
   {
-    leftOut += *passed;
+    passedInAll += *passed;
     try
     {
-      found_ = reader_.tryNext();
-      return leftOut;
+      const auto object = reader_.tryNext();
+      bytesLeftOut_ += passedInAll;
+      return object;
+    }
+    catch (const DamagedImage& e)
+    {
+      bytesLeftOut_ += passedInAll;
+      throwDamaged(e);
     }
     catch (const std::exception&)
     {
       if (isStopped_()) break;
     }
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 }  // namespace quadmap
