@@ -29,33 +29,34 @@ double secondsOf(const BoxBuffer::Entry& e) { return mrpt::Clock::toDouble(e.box
 struct SidecarSurvey
 {
   bool hasBoxes = false, damaged = false;
-  double stepBack = 0;  // most time by which a record is earlier than one before it [s]
+  double stepBack = 0;           // most time by which a record is earlier than one before it [s]
+  std::optional<double> latest;  // of the times so far [s]
 };
 
+void addTo(SidecarSurvey& survey, const CObservationObjects& boxes)
+{
+  survey.hasBoxes = true;
+  if (boxes.timestamp == INVALID_TIMESTAMP) return;
+  const double time = mrpt::Clock::toDouble(boxes.timestamp);
+  survey.latest = std::max(time, survey.latest.value_or(time));
+  survey.stepBack = std::max(survey.stepBack, *survey.latest - time);
+}
+
+/** Goes on behind a broken record, as reading may do. */
 SidecarSurvey surveyOf(
     const std::string& file, const RecordLimits& limits, const std::function<bool()>& isStopped)
 {
   SidecarSurvey survey;
-  std::optional<double> latest;
   RecordReader reader(file, limits, isStopped);
-  try
-  {
-    while (!isStopped())
+  while (!reader.hasEnded() && !isStopped()) try
     {
-      const auto object = reader.next();
-      if (!object) break;
-      const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(object);
-      survey.hasBoxes = survey.hasBoxes || boxes;
-      if (!boxes || boxes->timestamp == INVALID_TIMESTAMP) continue;
-      const double time = secondsOf({0, boxes});
-      latest = std::max(time, latest.value_or(time));
-      survey.stepBack = std::max(survey.stepBack, *latest - time);
+      const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(reader.next());
+      if (boxes) addTo(survey, *boxes);
     }
-  }
-  catch (const InputError&)  // it is reported when the file is read
-  {
-    survey.damaged = true;
-  }
+    catch (const InputError&)  // it is reported when the file is read
+    {
+      survey.damaged = true;
+    }
   return survey;
 }
 }  // namespace
