@@ -185,7 +185,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   const ImageBox& box = task.detection->box;
   const auto visible = insideImage(cloud, box);
   if (!visible) return rejected(box.isValid() ? "box outside the image" : "box without area");
-  // 8 The cuboid: heading (8.1) - (8.5), faces (8.6) - (8.11), held up
+  // 8 The cuboid: heading (8.1) - (8.5), faces (8.6) - (8.12)
   std::optional<CompleteMeasurement> cuboid;
   if (!object.empty()) cuboid = fitCuboid(cloud, planes, object, task.label, options);
   // 10 Choice: fit of the cuboid (10.1)

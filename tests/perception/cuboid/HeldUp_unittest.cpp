@@ -61,7 +61,8 @@ TEST(HeldUp, AScreenEndsWhereItsPanelDoes)
   for (const double loose_px : {-3.0, 0.0, 4.0})
   {
     const LowerEnd end = lowerEndOf(frame, {panel(frame, "tv", loose_px)});
-    EXPECT_NE(end.kind, FaceKind::Support) << loose_px << ": " << end.reason;
+    // A panel that goes on outside its box ends there at least.
+    EXPECT_EQ(end.kind, loose_px < 0 ? FaceKind::AtLeast : FaceKind::Measured) << end.reason;
     EXPECT_NEAR(end.height, kDesk + kLift, 0.02) << "the box is wrong by " << loose_px << " px";
   }
 }
@@ -96,7 +97,19 @@ TEST(HeldUp, WhatSomethingNearerHidesMayStandOnItsSupport)
   frame.add(1.9, 0.0, kDesk, 0.1, {0.2, 0.4, 0.4});   // a box
   frame.add(1.6, 0.0, kDesk, 0.0, {0.05, 0.9, 0.1});  // before its lower end
   const LowerEnd end = lowerEndOf(frame, {frame.detect(1, "box")});
-  EXPECT_NE(end.kind, FaceKind::Measured) << end.reason;
+  EXPECT_EQ(end.kind, FaceKind::Support) << end.reason;
+  EXPECT_NEAR(end.height, kDesk, 0.01);
+}
+
+TEST(HeldUp, NothingIsSeenToBeFromStraightAbove)
+{
+  SyntheticFrame frame(2.3, M_PI_2 - 0.02);
+  frame.noise = 0.0012;
+  frame.add(0.0, 0.0, kDesk - 0.04, 0.0, {1.6, 1.6, 0.04});
+  frame.add(0.05, 0.1, kDesk, 0.3, {0.3, 0.4, 0.3});
+  const LowerEnd end = lowerEndOf(frame, {frame.detect(1, "box")});
+  EXPECT_EQ(end.kind, FaceKind::Support) << end.reason;
+  EXPECT_NEAR(end.height, kDesk, 0.01);
 }
 
 }  // namespace quadmap

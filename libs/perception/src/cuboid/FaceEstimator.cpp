@@ -14,7 +14,8 @@ namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
 constexpr double kFaceCosine = 0.85;  // of the normals of a face's own points
-constexpr double kMost = 0.95;        // share of a face's points
+constexpr double kMost = 0.95;        // share of a top's points
+constexpr double kOfFront = 0.95;     // share of a screen's points; its rim has up to one in twenty
 
 }  // namespace
 
@@ -193,7 +194,7 @@ std::optional<double> FaceEstimator::reachOfFront(std::size_t back) const
   std::vector<double> reach;
   reach.reserve(size());
   for (std::size_t i = 0; i < size(); ++i) reach.push_back(along(back, i));
-  const double most = quantile(std::move(reach), kMost);
+  const double most = quantile(std::move(reach), kOfFront);
   if (most > shellDepth() - front->position) return {};
   return most;
 }

@@ -52,10 +52,12 @@ std::optional<FaceEstimate> heldUpBottom(
     return distanceFromLowerEdges(
         edges, cuboidOf(faces, estimator.R_obj_optical()), label.shapeExponent);
   };
-  if (away(held) > away(standing)) return {};
+  const double disagreement = away(held);
+  if (disagreement >= away(standing)) return {};  // from straight above no edge tells
   // What shows at the lower edge of the box may be what holds the object up.
   const double sigma_px = options.edgeSigmaIn(camera.width, box.height());
-  held[kBottom].worth = {FaceKind::Measured, estimator.range() * sigma_px / std::abs(camera.fy)};
+  const double ofEdge = estimator.range() * sigma_px / std::abs(camera.fy);
+  held[kBottom].worth = {FaceKind::Measured, std::hypot(ofEdge, disagreement)};
   return held[kBottom];
 }
 
