@@ -8,8 +8,9 @@ using namespace quadmap;
 using nlohmann::json;
 
 // A change that costs accuracy is seen at once: two scenes with few frames, on drifting odometry,
-// through all programs. The bounds leave this seed's errors at most 30 % (the heading in the home half
-// a degree), IoUs 0.02 to 0.04, and one object: more than compilers make of it, less than a fault.
+// through all programs. The bounds leave this seed's errors at most 30 % (the heading in the home
+// half a degree), IoUs 0.02 to 0.04, and one object: more than compilers make of it, less than a
+// fault.
 namespace
 {
 struct Guard
