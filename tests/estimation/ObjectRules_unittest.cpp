@@ -79,6 +79,13 @@ TEST(SurestOfTwins, WhatGoesTakesNothingWithIt)
   EXPECT_EQ(staying(row), Stay({true, false, true}));
 }
 
+TEST(SurestOfTwins, AScoreThatIsNoNumberIsTheLeast)
+{
+  EXPECT_EQ(
+      staying({boxOf("cup", NAN, kBox), boxOf("cup", 0.1, kBox), boxOf("cup", NAN, kBox)}),
+      Stay({false, true, false}));
+}
+
 TEST(SurestOfTwins, AsSureOnesAreTwinsOnlyAroundTheSamePixels)
 {
   EXPECT_EQ(staying({boxOf("cup", 1, kBox), boxOf("cup", 1, kBox)}), Stay({true, false}));

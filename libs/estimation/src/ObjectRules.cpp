@@ -138,9 +138,11 @@ std::vector<bool> surestOfTwins(
 {
   std::vector<std::size_t> bySureness(objects.size());
   std::iota(bySureness.begin(), bySureness.end(), 0);
+  const auto sureness = [&](std::size_t k)  // files may hold scores that are no numbers
+  { return std::isnan(objects[k].score) ? -1.0 : objects[k].score; };
   std::stable_sort(
       bySureness.begin(), bySureness.end(),
-      [&](std::size_t a, std::size_t b) { return objects[a].score > objects[b].score; });
+      [&](std::size_t a, std::size_t b) { return sureness(a) > sureness(b); });
   std::vector<bool> stays(objects.size(), false);
   // What goes itself takes nothing with it: in a row each may overlap the next.
   for (const std::size_t k : bySureness)

@@ -20,8 +20,7 @@ std::string LoopSummary::warning() const
 {
   if (stopped)
     return "the run was stopped before it was known what is in the map twice: poses and objects "
-           "may "
-           "be doubtful";
+           "may be doubtful";
   if (!open) return {};
   return mrpt::format(
       "%zu objects may be twice in the map, up to %.1f m apart, and could not be made one: poses "

@@ -69,7 +69,7 @@ TopHeights heightsAboveSupport(const LabelProperties& label)
 }
 
 /** Where no support is known, the top may have any height below the camera. But a level surface
- * that most points are above is what the thing stands on. \param seen TopHeights of all points,
+ * that most points are above is what the thing stands on. \param seen Heights of all points,
  * from the camera's; not empty. */
 TopHeights heightsBelowCamera(const std::vector<double>& seen, const SurfaceOptions& options)
 {
