@@ -115,14 +115,25 @@ TEST_F(MappedWorld, IsLostBeforeAnythingWasSeen)
 
 TEST_F(MappedWorld, NeedsWhatIsSeenToBeFoundAmongFewParticles)
 {
-  // Without poses that are drawn from what is seen, 100 poses miss the place in 40 m^2.
+  // Without poses that are drawn from what is seen, 100 poses miss the place in 40 m^2. One draw
+  // of so few may do well or badly by its last digits, so many draws are counted.
+  constexpr int kDraws = 40;
+  const auto found = [](LocalizationOptions options)
+  {
+    int n = 0;
+    for (int seed = 1; seed <= kDraws; ++seed)
+    {
+      options.seed = seed;
+      const CPose3D T = localised(options, 8, 1, [](int, const auto&) {}).estimate().T_map_robot;
+      if ((positionOf(T) - positionOf(robotAt(7))).norm() < 0.5) ++n;
+    }
+    return n;
+  };
   LocalizationOptions options;
   options.particles = 100;
-  const auto filter = localised(options, 8, 1, [](int, const auto&) {});
-  expectNear(filter.estimate().T_map_robot, robotAt(7));
+  EXPECT_GT(found(options), 0.7 * kDraws);
   options.searchShare = options.doubtShare = 0;
-  const auto blind = localised(options, 8, 1, [](int, const auto&) {}).estimate();
-  EXPECT_GT((positionOf(blind.T_map_robot) - positionOf(robotAt(7))).norm(), 0.15) << "[m]";
+  EXPECT_LT(found(options), 0.4 * kDraws);
 }
 
 TEST_F(MappedWorld, IsFoundAgainAfterItWasCarriedAway)
