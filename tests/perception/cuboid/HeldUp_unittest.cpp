@@ -24,23 +24,26 @@ SyntheticFrame monitorOnTable()
   return frame;
 }
 
-struct LowerEnd
+/** Where an object ends by its complete measurement. */
+struct Ends
 {
   std::string reason;
-  double height = 0;  // above the floor [m]
-  FaceKind kind = FaceKind::Unknown;
+  double height = 0;                  // of the bottom above the floor [m]
+  double thickness = 0;               // the least horizontal size [m]
+  FaceKind kind = FaceKind::Unknown;  // of the bottom
 };
 
-LowerEnd lowerEndOf(const SyntheticFrame& frame, const std::vector<DetectedObject>& objects)
+Ends endsOf(const SyntheticFrame& frame, const std::vector<DetectedObject>& objects)
 {
   CObservationObjects boxes = frame.observation(objects);
   FramePerception(PerceptionOptions(), LabelTable::installed())
       .measure(frame.scan(), boxes, frame.up_sensor());
   const ObjectMeasurement& m = boxes.objects.front().measurement;
-  LowerEnd out{m.reason};
+  Ends out{m.reason};
   if (!m.complete) return out;
   const Ellipsoid world = m.complete->object_sensor.transformed(frame.T_world_sensor);
   out.height = world.center().z() - world.semiAxes().z();
+  out.thickness = 2 * world.semiAxes().head<2>().minCoeff();
   out.kind = m.complete->faces[kFaces - 1].kind;
   return out;
 }
@@ -60,7 +63,7 @@ TEST(HeldUp, AScreenEndsWhereItsPanelDoes)
   const SyntheticFrame frame = monitorOnTable();
   for (const double loose_px : {-3.0, 0.0, 4.0})
   {
-    const LowerEnd end = lowerEndOf(frame, {panel(frame, "tv", loose_px)});
+    const Ends end = endsOf(frame, {panel(frame, "tv", loose_px)});
     // A panel that goes on outside its box ends there at least.
     EXPECT_EQ(end.kind, loose_px < 0 ? FaceKind::AtLeast : FaceKind::Measured) << end.reason;
     EXPECT_NEAR(end.height, kDesk + kLift, 0.02) << "the box is wrong by " << loose_px << " px";
@@ -72,9 +75,42 @@ TEST(HeldUp, ABoxDownToTheSupportMeansWhatStandsOnIt)
   const SyntheticFrame frame = monitorOnTable();
   DetectedObject all = panel(frame, "tv");
   all.box.y2 = frame.detect(kFoot, "tv").box.y2;
-  const LowerEnd end = lowerEndOf(frame, {all});
+  const Ends end = endsOf(frame, {all});
   EXPECT_EQ(end.kind, FaceKind::Support) << end.reason;
   EXPECT_NEAR(end.height, kDesk, 0.01);
+}
+
+TEST(HeldUp, TheLowFootOfAScreenIsNoPartOfItAlthoughItsBoxShowsIt)
+{
+  // Seen at an angle, the rectangle of the box has the foot in it, which meets the table.
+  SyntheticFrame frame(1.25, 0.2);
+  frame.noise = 0.003;
+  const double lift = 0.06, thick = 0.05, turn = 0.6;
+  frame.add(1.9, 0.0, kDesk - 0.04, 0.0, {1.0, 2.0, 0.04});
+  frame.add(1.8, 0.1, kDesk + lift, turn, {thick, 1.05, 0.62});
+  frame.add(1.8, 0.1, kDesk, turn, {0.22, 0.5, 0.02});
+  frame.add(1.8, 0.1, kDesk, turn, {thick, 0.16, lift});
+  for (const double loose_px : {-2.0, 0.0, 2.0})
+  {
+    const Ends ends = endsOf(frame, {panel(frame, "tv", loose_px)});
+    EXPECT_EQ(ends.kind, FaceKind::Measured) << ends.reason;
+    EXPECT_NEAR(ends.height, kDesk + lift, 0.03) << "the box is wrong by " << loose_px << " px";
+    // Nobody sees its back, so that it says "at least".
+    EXPECT_LT(ends.thickness, thick + 0.02) << "the box is wrong by " << loose_px << " px";
+  }
+}
+
+TEST(HeldUp, ABoxThatEndsALittleTooSoonIsNoReasonToFloat)
+{
+  SyntheticFrame frame(1.25, 0.25);
+  frame.noise = 0.003;
+  frame.add(1.8, 0.0, kDesk - 0.04, 0.0, {0.8, 1.6, 0.04});
+  frame.add(1.7, 0.1, kDesk, 0.4, {0.2, 0.3, 0.3});
+  for (const double loose_px : {-6.0, -3.0, 0.0, 3.0})
+  {
+    const Ends ends = endsOf(frame, {panel(frame, "box", loose_px)});
+    EXPECT_EQ(ends.kind, FaceKind::Support) << ends.reason << ", " << loose_px << " px";
+  }
 }
 
 TEST(HeldUp, WhatStandsOnFloorsIsNotHeldUp)
@@ -85,7 +121,7 @@ TEST(HeldUp, WhatStandsOnFloorsIsNotHeldUp)
   frame.add(2.5, 0.0, 0.0, 0.2, {0.4, 0.8, 0.9});
   DetectedObject box = frame.detect(0, "cabinet");
   box.box.y2 -= 0.15 * box.box.height();
-  const LowerEnd end = lowerEndOf(frame, {box});
+  const Ends end = endsOf(frame, {box});
   EXPECT_NE(end.kind, FaceKind::Measured) << end.reason;
 }
 
@@ -96,7 +132,7 @@ TEST(HeldUp, WhatSomethingNearerHidesMayStandOnItsSupport)
   frame.add(1.8, 0.0, kDesk - 0.04, 0.0, {0.8, 1.6, 0.04});
   frame.add(1.9, 0.0, kDesk, 0.1, {0.2, 0.4, 0.4});   // a box
   frame.add(1.6, 0.0, kDesk, 0.0, {0.05, 0.9, 0.1});  // before its lower end
-  const LowerEnd end = lowerEndOf(frame, {frame.detect(1, "box")});
+  const Ends end = endsOf(frame, {frame.detect(1, "box")});
   EXPECT_EQ(end.kind, FaceKind::Support) << end.reason;
   EXPECT_NEAR(end.height, kDesk, 0.01);
 }
@@ -107,7 +143,7 @@ TEST(HeldUp, NothingIsSeenToBeFromStraightAbove)
   frame.noise = 0.0012;
   frame.add(0.0, 0.0, kDesk - 0.04, 0.0, {1.6, 1.6, 0.04});
   frame.add(0.05, 0.1, kDesk, 0.3, {0.3, 0.4, 0.3});
-  const LowerEnd end = lowerEndOf(frame, {frame.detect(1, "box")});
+  const Ends end = endsOf(frame, {frame.detect(1, "box")});
   EXPECT_EQ(end.kind, FaceKind::Support) << end.reason;
   EXPECT_NEAR(end.height, kDesk, 0.01);
 }

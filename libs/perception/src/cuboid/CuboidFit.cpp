@@ -152,6 +152,115 @@ void openUnseenBacks(const FaceEstimator& estimator, Faces& faces)
   }
 }
 
+/** The faces as the cloud shows them, the support and the level top where the object has them. */
+Faces facesAsSeen(
+    const FaceEstimator& estimator,
+    const ScenePlanes& planes,
+    const ObjectCloud& object,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  Faces faces;
+  const auto isKnown = [&](std::size_t face)
+  { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
+  for (std::size_t face = 0; face < kFaces; ++face)
+    if (!isKnown(face)) faces[face] = estimator.face(face);
+  // Things stand on something. A lower end that is not the support's is where the view of it ends.
+  if (!object.support && label.support != UsualSupport::Wall &&
+      faces[kBottom].worth.kind == FaceKind::Measured)
+    faces[kBottom].worth.kind = FaceKind::AtLeast;
+  if (object.top)
+  {
+    faces[kTop].position = -object.top->d;
+    faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options)};
+  }
+  if (object.support)
+  {
+    // Distance of the supporting plane below the camera, along the object's -z.
+    faces[kBottom].position = planes.plane(*object.support).plane.d;
+    faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
+  }
+  return faces;
+}
+
+/** Decides what the parts of the object that are not seen leave of its faces, by its kind and by
+ * what is around it. */
+void completeFaces(
+    const FaceEstimator& estimator,
+    const ObjectCloud& object,
+    const std::optional<TopRim>& rim,
+    const HeadingEstimate& yaw,
+    const LabelProperties& label,
+    const PerceptionOptions& options,
+    Faces& faces)
+{
+  const bool stands = faces[kBottom].worth.kind == FaceKind::Support;
+  if (stands || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
+    placeHiddenPart(faces, estimator, label);
+  if (stands) openThinSides(clearOfSupport(estimator.range(), label, options), faces);
+  openUnseenBacks(estimator, faces);
+  if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
+  if (object.onWall) endAtWall(*object.onWall, estimator, options, faces);
+  if (label.dominantDirection)
+    addHeadingSigma(faces, yaw);
+  else
+    completeRound(faces, estimator);
+}
+
+/** The part of an object above its bottom. \param bottom Along -up, from the camera [m]. */
+ObjectCloud partAbove(double bottom, const Eigen::Vector3d& up, const ObjectCloud& object)
+{
+  ObjectCloud part = object;
+  part.cells.clear();
+  part.points.clear();
+  for (std::size_t i = 0; i < object.points.size(); ++i)
+    if (-up.dot(object.points[i]) <= bottom)
+    {
+      part.cells.push_back(object.cells[i]);
+      part.points.push_back(object.points[i]);
+    }
+  return part;
+}
+
+/** \param heldUp The bottom, when the object is a part that something else holds up. */
+CompleteMeasurement fitCuboidTo(
+    const ObjectCloud& object,
+    const std::optional<FaceEstimate>& heldUp,
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const LabelProperties& label,
+    const PerceptionOptions& options)
+{
+  const Eigen::Vector3d up = object.support ? planes.plane(*object.support).plane.n : planes.up;
+  const UprightCloud upright = uprightCloud(cloud, object, up);
+  std::optional<TopRim> rim;
+  if (object.top && label.dominantDirection)
+    rim.emplace(cloud, object, *object.top, upright.R_upright_optical, options);
+  HeadingEstimate yaw;
+  if (label.dominantDirection) yaw = headingOf(upright, rim, options);
+
+  const FaceEstimator estimator(cloud, planes, object, upright, yaw.yaw, options);
+  Faces faces = facesAsSeen(estimator, planes, object, label, options);
+  if (heldUp)
+    faces[kBottom] = *heldUp;
+  else if (const auto held = heldUpBottom(cloud.camera(), estimator, faces, label, options))
+  {
+    // What is below is the stand's, and would tell of the object's sides.
+    const ObjectCloud part = partAbove(held->position, up, object);
+    if (2 * part.points.size() > object.points.size())
+      return fitCuboidTo(part, held, cloud, planes, label, options);
+  }
+  completeFaces(estimator, object, rim, yaw, label, options, faces);
+
+  CompleteMeasurement out;
+  out.object_sensor = cuboidOf(faces, estimator.R_obj_optical());
+  for (std::size_t face = 0; face < kFaces; ++face) out.faces[face] = faces[face].worth;
+  out.yawDefined = yaw.defined;
+  out.yawSigma = yaw.sigma;
+  out.yawDominance = yaw.dominance;
+  return out;
+}
+
 }  // namespace
 
 Ellipsoid cuboidOf(const Faces& faces, const Eigen::Matrix3d& R_obj_optical)
@@ -179,56 +288,7 @@ CompleteMeasurement fitCuboid(
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
-  const Eigen::Vector3d up = object.support ? planes.plane(*object.support).plane.n : planes.up;
-  const UprightCloud upright = uprightCloud(cloud, object, up);
-  std::optional<TopRim> rim;
-  if (object.top && label.dominantDirection)
-    rim.emplace(cloud, object, *object.top, upright.R_upright_optical, options);
-  HeadingEstimate yaw;
-  if (label.dominantDirection) yaw = headingOf(upright, rim, options);
-
-  const FaceEstimator estimator(cloud, planes, object, upright, yaw.yaw, options);
-  Faces faces;
-  const auto isKnown = [&](std::size_t face)
-  { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
-  for (std::size_t face = 0; face < kFaces; ++face)
-    if (!isKnown(face)) faces[face] = estimator.face(face);
-  // Things stand on something. A lower end that is not the support's is where the view of it ends.
-  if (!object.support && label.support != UsualSupport::Wall &&
-      faces[kBottom].worth.kind == FaceKind::Measured)
-    faces[kBottom].worth.kind = FaceKind::AtLeast;
-  if (object.top)
-  {
-    faces[kTop].position = -object.top->d;
-    faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options)};
-  }
-  if (object.support)
-  {
-    // Distance of the supporting plane below the camera, along the object's -z.
-    faces[kBottom].position = planes.plane(*object.support).plane.d;
-    faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
-    if (const auto held = heldUpBottom(cloud.camera(), estimator, faces, label, options))
-      faces[kBottom] = *held;
-  }
-  const bool stands = faces[kBottom].worth.kind == FaceKind::Support;
-  if (stands || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
-    placeHiddenPart(faces, estimator, label);
-  if (stands) openThinSides(clearOfSupport(estimator.range(), label, options), faces);
-  openUnseenBacks(estimator, faces);
-  if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
-  if (object.onWall) endAtWall(*object.onWall, estimator, options, faces);
-  if (label.dominantDirection)
-    addHeadingSigma(faces, yaw);
-  else
-    completeRound(faces, estimator);
-
-  CompleteMeasurement out;
-  out.object_sensor = cuboidOf(faces, estimator.R_obj_optical());
-  for (std::size_t face = 0; face < kFaces; ++face) out.faces[face] = faces[face].worth;
-  out.yawDefined = yaw.defined;
-  out.yawSigma = yaw.sigma;
-  out.yawDominance = yaw.dominance;
-  return out;
+  return fitCuboidTo(object, {}, cloud, planes, label, options);
 }
 
 }  // namespace quadmap

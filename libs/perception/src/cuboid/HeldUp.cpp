@@ -1,33 +1,83 @@
 #include "cuboid/HeldUp.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "cuboid/CuboidFit.h"
-#include "quadmap/geometry/Projection.h"
+#include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/geometry/Support.h"
+#include "quadmap/perception/BoxEdges.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
 namespace quadmap
 {
 namespace
 {
-/** How far an object ends from the edges of its box that its bottom looks out over [m], equation
- * (8.12). */
-double distanceFromLowerEdges(
-    const std::array<Plane, 4>& edges, const Ellipsoid& object, double shapeExponent)
+/** How far an object reaches out of its box below, equation (8.12), and how well the edge of the
+ * box is known there [m]. */
+struct Overhang
 {
-  const Eigen::Matrix3d R = object.rotation();
-  double distance = 0;
-  for (const Plane& edge : edges)
-    if (looksOver(edge, -R.col(2)))
+  double reach = 0, sigma = 0;
+};
+
+/** The overhang of an object over the edges of its box that its bottom looks out over. */
+class LowerEdges
+{
+ public:
+  LowerEdges(
+      const PinholeCamera& camera,
+      const FaceEstimator& estimator,
+      const Faces& faces,
+      double shapeExponent,
+      const PerceptionOptions& options) :
+      edges_(edgesWithoutDepth(camera, estimator.box(), options)),
+      estimator_(estimator),
+      faces_(faces),
+      shapeExponent_(shapeExponent)
+  {
+  }
+
+  /** Over the edge that contradicts the object most; nothing when no edge tells of its bottom. */
+  std::optional<Overhang> overhang(double bottom) const
+  {
+    Faces faces = faces_;
+    faces[kBottom].position = bottom;
+    const Ellipsoid object =
+        cuboidOf(faces, estimator_.R_obj_optical()).transformed(T_sensor_optical());
+    const Eigen::Matrix3d R = object.rotation();
+    std::optional<Overhang> most;
+    for (const EdgeMeasurement& edge : edges_)
     {
-      const Eigen::Vector3d n_obj = R.transpose() * edge.n;
-      const double h = supportFunction<double>(n_obj, object.semiAxes(), shapeExponent);
-      distance = std::max(distance, std::abs(edge.signedDistance(object.center()) - h));
+      const Plane& plane = edge.plane_sensor;
+      if (edge.state != EdgeState::Usable || !looksOver(plane, -R.col(2))) continue;
+      const Eigen::Vector3d n_obj = R.transpose() * plane.n;
+      const double h = supportFunction<double>(n_obj, object.semiAxes(), shapeExponent_);
+      const Overhang here{
+          h - plane.signedDistance(object.center()), estimator_.range() * edge.sigmaAngle};
+      if (!most || here.reach / here.sigma > most->reach / most->sigma) most = here;
     }
-  return distance;
-}
+    return most;
+  }
+
+  /** The bottom with which the object ends where its box does, in its lower half. */
+  std::optional<double> bottomInBox() const
+  {
+    constexpr int kHalvings = 20;  // of the height: to a millionth
+    double low = faces_[kBottom].position, high = 0.5 * (low - faces_[kTop].position);
+    if (overhang(high)->reach > 0) return {};
+    for (int i = 0; i < kHalvings; ++i)
+    {
+      const double middle = 0.5 * (low + high);
+      (overhang(middle)->reach > 0 ? low : high) = middle;
+    }
+    return high;
+  }
+
+ private:
+  std::array<EdgeMeasurement, 4> edges_;  // their planes in the sensor's frame
+  const FaceEstimator& estimator_;
+  const Faces& faces_;
+  double shapeExponent_;
+};
 
 }  // namespace
 
@@ -38,27 +88,29 @@ std::optional<FaceEstimate> heldUpBottom(
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
-  const FaceEstimate end = estimator.endInBox();
-  const double gap = standing[kBottom].position - end.position;
-  if (label.support == UsualSupport::Floor || end.isCut ||
-      gap < clearOfSupport(estimator.range(), label, options))
+  constexpr double kContradicts = 3.0;  // standard deviations
+  if (standing[kBottom].worth.kind != FaceKind::Support || label.support == UsualSupport::Floor)
     return {};
-  Faces held = standing;
-  held[kBottom] = end;
-  const ImageBox& box = estimator.box();
-  const auto edges = boxEdgePlanes(camera, box);
-  const auto away = [&](const Faces& faces)
+  const LowerEdges edges(camera, estimator, standing, label.shapeExponent, options);
+  const double support = standing[kBottom].position;
+  const auto below = edges.overhang(support);
+  FaceEstimate end = estimator.endInBox();
+  if (!below || end.isCut) return {};  // from straight above no edge tells
+  if (support - end.position >= clearOfSupport(estimator.range(), label, options))
   {
-    return distanceFromLowerEdges(
-        edges, cuboidOf(faces, estimator.R_obj_optical()), label.shapeExponent);
-  };
-  const double disagreement = away(held);
-  if (disagreement >= away(standing)) return {};  // from straight above no edge tells
-  // What shows at the lower edge of the box may be what holds the object up.
-  const double sigma_px = options.edgeSigmaIn(camera.width, box.height());
-  const double ofEdge = estimator.range() * sigma_px / std::abs(camera.fy);
-  held[kBottom].worth = {FaceKind::Measured, std::hypot(ofEdge, disagreement)};
-  return held[kBottom];
+    const double disagreement = std::abs(edges.overhang(end.position)->reach);
+    if (disagreement >= std::abs(below->reach)) return {};
+    // What shows at the lower edge of the box may be what holds the object up.
+    end.worth = {FaceKind::Measured, std::hypot(below->sigma, disagreement)};
+    return end;
+  }
+  // The box is a rectangle, and of a screen seen at an angle it holds some of the stand as well.
+  if (below->reach <= kContradicts * below->sigma) return {};
+  const auto bottom = edges.bottomInBox();
+  if (!bottom) return {};
+  end.position = *bottom;
+  end.worth = {FaceKind::Measured, below->sigma};
+  return end;
 }
 
 }  // namespace quadmap

@@ -5,10 +5,12 @@
 namespace quadmap
 {
 /** The bottom of an object that something else holds up above its support: detectors draw their box
- * around the panel of a screen, without the stand. It is where the cloud in the box ends, if the
- * box ends there as well and not where the object would meet its support, and nothing hides it.
- * What usually stands on floors is not held up (doc/mathematics.md, 8, "Held up").
- * \param standing All faces; the bottom is the support. \return Nothing of what stands on it. */
+ * around the panel of a screen, without the stand. It is where the cloud in the box ends clear of
+ * the support, if the box ends there as well. Where the cloud reaches the support, as it does when
+ * the box shows a foot, it is where the box ends, if that is too soon for what stands. What usually
+ * stands on floors, and what something hides, is not held up (doc/mathematics.md, (8.12)).
+ * \param standing All faces, with the support at the bottom where one is known. \return Nothing of
+ * what stands. */
 std::optional<FaceEstimate> heldUpBottom(
     const PinholeCamera& camera,
     const FaceEstimator& estimator,
