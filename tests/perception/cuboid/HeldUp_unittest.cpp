@@ -115,14 +115,19 @@ TEST(HeldUp, ABoxThatEndsALittleTooSoonIsNoReasonToFloat)
 
 TEST(HeldUp, WhatStandsOnFloorsIsNotHeldUp)
 {
-  // A weak detector's box around the upper part of a cabinet.
+  // The legs of a chair give no depth, and a weak detector's box ends at the seat.
   SyntheticFrame frame;
   frame.noise = 0.0012;
-  frame.add(2.5, 0.0, 0.0, 0.2, {0.4, 0.8, 0.9});
-  DetectedObject box = frame.detect(0, "cabinet");
-  box.box.y2 -= 0.15 * box.box.height();
-  const Ends end = endsOf(frame, {box});
-  EXPECT_NE(end.kind, FaceKind::Measured) << end.reason;
+  frame.add(2.2, 0.0, 0.42, 0.2, {0.45, 0.45, 0.05});
+  frame.add(2.4, 0.04, 0.47, 0.2, {0.04, 0.45, 0.4});
+  for (const std::string label : {"chair", "box"})
+  {
+    DetectedObject seat = frame.detect(0, label);
+    seat.box.y1 = frame.detect(1, label).box.y1;
+    const Ends end = endsOf(frame, {seat});
+    EXPECT_EQ(end.kind == FaceKind::Support, label == "chair") << end.reason;
+    EXPECT_NEAR(end.height, label == "chair" ? 0 : 0.42, 0.02);
+  }
 }
 
 TEST(HeldUp, WhatSomethingNearerHidesMayStandOnItsSupport)
