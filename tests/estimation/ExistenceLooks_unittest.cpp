@@ -110,6 +110,25 @@ TEST(ExistenceLooks, WhatWasAlwaysSeenAndThenIsSeenEveryThirdTimeIsStillThere)
   EXPECT_LT(looks(seen, 0.1).logOdds(kOfGoodDetector, kOptions), -kOptions.confirmLogOdds);
 }
 
+TEST(ExistenceLooks, TellWhatAReturnSaid)
+{
+  const auto after = [](const ExistenceLooks& looks)
+  { return looks.afterReturn(kOptions.detectionProbability, kOptions); };
+  const std::vector<bool> often(10, true);
+  ExistenceLooks twice = looks(often, 0.2);
+  EXPECT_FALSE(after(twice)) << "nobody came back";
+  twice.add({placeAt(0), 8, false}, kObject, kOptions);
+  EXPECT_FALSE(after(twice)) << "nobody was away for long enough";
+  for (int i = 0; i < 3; ++i) twice.add({placeAt(0.3 * i), 30.0 + i, i == 1}, kObject, kOptions);
+  ASSERT_TRUE(after(twice));
+  EXPECT_NEAR(after(twice)->seen, 1, 1e-9);
+  EXPECT_NEAR(after(twice)->missed, 2, 1e-9);
+
+  ExistenceLooks doubtful = looks({true, false}, 0.2);
+  doubtful.add({placeAt(0), 30, false}, kObject, kOptions);
+  EXPECT_FALSE(after(doubtful)) << "it may never have been there";
+}
+
 TEST(ExistenceLooks, ForgottenVisitsLeaveWhatTheySaid)
 {
   ExistenceLooks walk;

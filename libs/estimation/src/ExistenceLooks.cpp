@@ -90,6 +90,23 @@ void ExistenceLooks::take(
   known.recent = {share * known.recent.seen, share * known.recent.missed};
 }
 
+std::optional<LookCounts> ExistenceLooks::afterReturn(
+    double labelProbability, const ExistenceOptions& options) const
+{
+  Known known = before_;
+  double last = visits_.empty() ? 0 : visits_.front().last;
+  auto visit = visits_.begin();
+  for (; visit != visits_.end() && visit->first <= last + options.independentViewTime; ++visit)
+  {
+    last = std::max(last, visit->last);
+    take(*visit, labelProbability, options, known);
+  }
+  if (visit == visits_.end() || known.logOdds <= options.confirmLogOdds) return std::nullopt;
+  LookCounts after;
+  for (; visit != visits_.end(); ++visit) after += independent(*visit, options);
+  return after;
+}
+
 double ExistenceLooks::logOdds(double labelProbability, const ExistenceOptions& options) const
 {
   Known known = before_;

@@ -45,6 +45,17 @@ std::map<std::string, LookCounts> CQuadricObjectMap::likelyLooksByLabel() const
   return counts;
 }
 
+/** The detection probability that the others of its kind tell, (13.3): its own looks count in
+ * ExistenceLooks already. */
+double CQuadricObjectMap::ofOthers(
+    const Entry& object, const std::map<std::string, LookCounts>& ofLabels) const
+{
+  const auto& existence = insertionOptions.existence;
+  LookCounts others = ofLabels.at(object.label());
+  others -= likelyLooks(object);
+  return detectionProbability(others, existence.detectionProbability, existence);
+}
+
 /** Takes stock of the objects that a frame looked at. */
 void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
 {
@@ -53,13 +64,20 @@ void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
   for (const ObjectId id : looked)
   {
     Entry& object = require(id);
-    // What the others of its kind tell, (13.3): its own looks count in logOdds() already.
-    LookCounts others = ofLabels.at(object.label());
-    others -= likelyLooks(object);
-    object.existenceLogOdds = object.looks.logOdds(
-        detectionProbability(others, existence.detectionProbability, existence), existence);
+    object.existenceLogOdds = object.looks.logOdds(ofOthers(object, ofLabels), existence);
     object.confirmed = isConfirmed(object);
   }
+}
+
+CQuadricObjectMap::Revisits CQuadricObjectMap::revisits() const
+{
+  Revisits revisits;
+  const auto ofLabels = likelyLooksByLabel();
+  for (const auto& [id, object] : objects_)
+    if (const auto after =
+            object.looks.afterReturn(ofOthers(object, ofLabels), insertionOptions.existence))
+      ++(after->missed > after->seen ? revisits.missed : revisits.found);
+  return revisits;
 }
 
 bool CQuadricObjectMap::isShownByAFreeBox(const MapObject& object, const Frame& frame) const

@@ -170,6 +170,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bo
   }
   warnOfNoisyOdometry();
   warnOfOpenLoop();
+  warnOfThingsNotFoundAgain();
   if (earlier) continueFrom(*earlier);
   result_.map.claimContradictions();
 }

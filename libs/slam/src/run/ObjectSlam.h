@@ -121,6 +121,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   void warnOfDroppedFloors();
   void warnOfNoisyOdometry();
   void warnOfOpenLoop();
+  void warnOfThingsNotFoundAgain();
   void warnOfDoubtfulPoses();
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;

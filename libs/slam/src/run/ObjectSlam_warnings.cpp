@@ -44,6 +44,18 @@ void ObjectSlam::warnOfOpenLoop()
   if (const auto text = result_.loops.warning(); !text.empty()) warnOfInput(text);
 }
 
+void ObjectSlam::warnOfThingsNotFoundAgain()
+{
+  constexpr std::size_t kFewest = 3;  // fewer may have been taken away
+  const auto [found, missed] = result_.map.revisits();
+  MRPT_LOG_DEBUG_FMT("objects come back to: %zu found, %zu missed", found, missed);
+  if (missed >= kFewest && missed > found)
+    warnOfInput(mrpt::format(
+        "%zu of %zu objects that the robot came back to were gone: unless they were taken away, "
+        "poses and objects are doubtful (is the odometry late?)",
+        missed, found + missed));
+}
+
 void ObjectSlam::warnOfDoubtfulPoses()
 {
   for (const auto& text : {odometry_.warningOfJumps(), contradictions_.warning()})

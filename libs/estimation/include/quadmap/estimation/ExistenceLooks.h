@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <deque>
+#include <optional>
 
 #include "quadmap/estimation/Visibility.h"
 
@@ -52,6 +53,12 @@ class ExistenceLooks
   void add(const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options);
 
   LookCounts independent(const ExistenceOptions& options) const;
+
+  /** What the looks said after the first time that the object was not looked at for
+   * independentViewTime, when it was known before: its log-odds were above confirmLogOdds. Nothing
+   * when it was not, or nobody came back. */
+  std::optional<LookCounts> afterReturn(
+      double labelProbability, const ExistenceOptions& options) const;
 
   /** Log-odds that the object exists, (13.2). \param labelProbability p_D of its label. */
   double logOdds(double labelProbability, const ExistenceOptions& options) const;

@@ -165,6 +165,14 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   /** The objects worth reporting, by id. For the pointers see the class. */
   std::vector<const MapObject*> confirmedObjects() const;
 
+  /** Objects that were certain when the camera turned away from them, and that it came back to. */
+  struct Revisits
+  {
+    std::size_t found = 0;
+    std::size_t missed = 0;  //!< Those that most independent looks after that did not see
+  };
+  Revisits revisits() const;
+
   /** The object with this id, confirmed or not; null when there is none. For the pointer see the
    *  class. */
   const MapObject* find(ObjectId id) const;
@@ -328,6 +336,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::set<ObjectId> countMisses(const Frame& frame, const std::set<ObjectId>& touched);
   LookCounts likelyLooks(const Entry& object) const;
   std::map<std::string, LookCounts> likelyLooksByLabel() const;
+  double ofOthers(const Entry& object, const std::map<std::string, LookCounts>& ofLabels) const;
   void judge(const std::set<ObjectId>& looked);
   /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
   bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;
