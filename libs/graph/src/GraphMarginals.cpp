@@ -136,6 +136,30 @@ std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
   return marginals;
 }
 
+std::optional<Eigen::MatrixXd> GraphProblem::jointMarginal(const std::vector<std::size_t>& poses)
+{
+  const auto at = [](std::size_t i) { return 6 * static_cast<Eigen::Index>(i); };
+  const NormalMatrix normal = normalMatrix(kLooseSigma, kLooseSigma);
+  if (normal.poseAt.size() + 1 < graph_.poses_.size()) return std::nullopt;
+  Eigen::MatrixXd joint = Eigen::MatrixXd::Zero(at(poses.size()), at(poses.size()));
+  if (normal.poseAt.empty()) return joint;
+  const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
+  if (factorised.info() != Eigen::Success || factorised.vectorD().minCoeff() <= 0)
+    return std::nullopt;
+  for (std::size_t c = 0; c < poses.size(); ++c)
+  {
+    const auto column = normal.poseAt.find(poses[c]);
+    if (column == normal.poseAt.end()) continue;
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(normal.H.rows(), 6);
+    unit.middleRows(column->second, 6).setIdentity();
+    const Eigen::MatrixXd solved = factorised.solve(unit);
+    for (std::size_t r = 0; r < poses.size(); ++r)
+      if (const auto row = normal.poseAt.find(poses[r]); row != normal.poseAt.end())
+        joint.block<6, 6>(at(r), at(c)) = solved.middleRows(row->second, 6);
+  }
+  return joint;
+}
+
 FactorGraph::Marginals FactorGraph::marginals(std::size_t firstFree, bool withObjects)
 {
   return GraphProblem(*this, firstFree, firstFree > 0).marginals(withObjects);
@@ -144,6 +168,11 @@ FactorGraph::Marginals FactorGraph::marginals(std::size_t firstFree, bool withOb
 std::vector<Eigen::Matrix<double, 6, 6>> FactorGraph::poseMarginals()
 {
   return GraphProblem(*this, 1, false).poseMarginals();
+}
+
+std::optional<Eigen::MatrixXd> FactorGraph::jointMarginal(const std::vector<std::size_t>& poses)
+{
+  return GraphProblem(*this, 1, false).jointMarginal(poses);
 }
 
 std::map<ObjectId, Eigen::MatrixXd> FactorGraph::objectMarginals()

@@ -31,6 +31,7 @@ class GraphProblem
   FactorGraph::Summary solve();
   FactorGraph::Marginals marginals(bool withObjects);
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
+  std::optional<Eigen::MatrixXd> jointMarginal(const std::vector<std::size_t>& poses);
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
   FactorGraph::WindowFit windowFit(std::pair<std::size_t, std::size_t> steps);
   StepFit stepFit();

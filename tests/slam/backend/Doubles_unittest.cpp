@@ -8,6 +8,7 @@
 
 #include "backend/JointBackEnd.h"
 #include "backend/LoopClosure.h"
+#include "backend/OdometryDrift.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;
@@ -94,7 +95,9 @@ class ThereAndBack
   std::optional<Doubles> doubles(
       double noise = 1, const std::function<bool()>& shouldStop = [] { return false; }) const
   {
-    return findDoubles(result_, {noise, noise}, labels(), ConstellationOptions(), shouldStop);
+    return findDoubles(
+        result_, OdometryDrift(result_.keyframes, {noise, noise}), labels(), ConstellationOptions(),
+        shouldStop);
   }
 
   SlamResult& result() { return result_; }

@@ -4,28 +4,13 @@
 
 #include <random>
 
+#include "BentDrive.h"
+
 using namespace quadmap;
 using mrpt::poses::CPose3D;
-using mrpt::poses::CPose3DPDFGaussian;
 
 namespace
 {
-/** A bend, with steps that err by different amounts in all directions. */
-std::vector<Keyframe> bend()
-{
-  std::vector<Keyframe> keyframes(9);
-  const CPose3D step(0.4, 0.05, 0.01, 0.3, 0.2, -0.1);
-  keyframes[0].T_map_robot = CPose3D(2, -1, 0.3, 1.0, 0.05, 0.02);
-  for (std::size_t k = 1; k < keyframes.size(); ++k)
-  {
-    keyframes[k].T_map_robot = keyframes[k - 1].T_map_robot + step;
-    CPose3DPDFGaussian measured(step);
-    for (int i = 0; i < 6; ++i) measured.cov(i, i) = 1e-6 * (i + 1) * (i + 1);
-    keyframes[k].odometryStep = measured;
-  }
-  return keyframes;
-}
-
 /** Where a thing at p that keyframe `again` sees is, when it is followed from keyframe `before`
  * along steps with these errors. */
 Eigen::Vector3d seenAlong(
@@ -45,7 +30,7 @@ Eigen::Vector3d seenAlong(
 // The oracle draws errors of the steps and follows them.
 TEST(OdometryDrift, IsThatOfDrawnSteps)
 {
-  const auto keyframes = bend();
+  const auto keyframes = bentDrive();
   const OdometryDrift drift(keyframes, {2, 3});
   const OdometryDrift::Moved a{
       {3, 1, 0.5},
@@ -81,7 +66,7 @@ TEST(OdometryDrift, IsThatOfDrawnSteps)
 
 TEST(OdometryDrift, OfThingsWithoutCommonStepsIsIndependent)
 {
-  const OdometryDrift drift(bend(), {});
+  const OdometryDrift drift(bentDrive(), {});
   EXPECT_EQ(
       drift
           .covariance(

@@ -217,6 +217,17 @@ TEST_P(PoseMarginalsOfADrive, AgreeWithTheDenseInverse)
     const Matrix6 oracle = expected.block<6, 6>(at, at);
     EXPECT_LT((marginals[k] - oracle).norm(), 0.002 * oracle.norm()) << k;
   }
+
+  const std::vector<std::size_t> some = {3, 0, 1};
+  const auto joint = graph.jointMarginal(some);
+  ASSERT_TRUE(joint);
+  Eigen::MatrixXd oracle = Eigen::MatrixXd::Zero(18, 18);
+  for (const int r : {0, 2})
+    for (const int c : {0, 2})
+      oracle.block<6, 6>(6 * r, 6 * c) = expected.block<6, 6>(
+          6 * (static_cast<Eigen::Index>(some[r]) - 1),
+          6 * (static_cast<Eigen::Index>(some[c]) - 1));
+  EXPECT_LT((*joint - oracle).norm(), 0.002 * oracle.norm());
 }
 
 // With loose steps the poses are as unsure as a room is wide: nothing else may hold them.
@@ -253,6 +264,7 @@ TEST(PoseMarginals, NothingIsSaidOfPosesThatNothingHolds)
   EXPECT_EQ(graph.poseMarginals().size(), 1u);
   graph.addPose(CPose3D(1, 0, 0, 0, 0, 0));
   EXPECT_TRUE(graph.poseMarginals().empty());
+  EXPECT_FALSE(graph.jointMarginal({0, 1}));
 }
 
 TEST(PoseMarginals, BecomeThoseOfYawPitchAndRoll)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "../SyntheticRoom.h"
 #include "quadmap/evaluation/EvaluationReport.h"
 #include "quadmap/simulator/Simulator.h"
@@ -7,26 +9,22 @@
 
 namespace quadmap
 {
-/** A run along a corridor and back, and how far it is from the truth. */
-struct DriftingCorridor
+/** A run through a scene, and how far it is from the truth. */
+struct DriftingRun
 {
   SlamResult result;
   EvaluationReport report;
 };
 
-/** \param width,height Of the images [px].
- *  \param drift How many times as much as it claims the odometry drifts.
+/** \param drift How many times as much as it claims the odometry drifts.
  *  \param earlier Map of an earlier run that goes on in this one; null: there is none. */
-inline DriftingCorridor driftingCorridor(
-    unsigned width,
-    unsigned height,
+inline DriftingRun driftingRun(
+    simulator::Scene scene,
     double drift,
     std::uint64_t seed,
     const CQuadricObjectMap::ConstPtr& earlier = nullptr)
 {
   const TemporaryFolder folder;
-  auto scene = simulator::readScene(simulator::findScene("corridor"));
-  scene.options.resize(width, height);
   simulator::NoiseFactors factors;
   factors.odometry = drift;
   scene.options.scaleNoise(factors);
@@ -37,7 +35,7 @@ inline DriftingCorridor driftingCorridor(
   request.rawlog = folder.path("a.rawlog");
   request.outputDirectory = folder.path("out");
   request.map = earlier;
-  DriftingCorridor run;
+  DriftingRun run;
   run.result = runOnRawlog(request).result;
 
   EvaluationInput input;
@@ -46,5 +44,18 @@ inline DriftingCorridor driftingCorridor(
   input.trueTrajectoryPath = folder.path("a.groundtruth.tum");
   run.report = evaluateRun(input);
   return run;
+}
+
+/** Along a corridor and back. \param width,height Of the images [px]. For the others see above. */
+inline DriftingRun driftingCorridor(
+    unsigned width,
+    unsigned height,
+    double drift,
+    std::uint64_t seed,
+    const CQuadricObjectMap::ConstPtr& earlier = nullptr)
+{
+  auto scene = simulator::readScene(simulator::findScene("corridor"));
+  scene.options.resize(width, height);
+  return driftingRun(std::move(scene), drift, seed, earlier);
 }
 }  // namespace quadmap

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "DoublesHypothesis.h"
-#include "OdometryDrift.h"
+#include "Drift.h"
 #include "SightedObjects.h"
 #include "quadmap/estimation/ObjectRules.h"
 
@@ -46,13 +46,10 @@ class DoublesFinder
  public:
   DoublesFinder(
       const SlamResult& result,
-      const StepNoise& noise,
+      const Drift& drift,
       const LabelTable& labels,
       const ConstellationOptions& options) :
-      labels_(labels),
-      options_(options),
-      sighted_(sightedObjects(result)),
-      drift_(result.keyframes, noise)
+      labels_(labels), options_(options), sighted_(sightedObjects(result)), drift_(drift)
   {
     for (const auto& object : sighted_)
       for (const double margin : {-kMargin, kMargin})
@@ -230,7 +227,7 @@ class DoublesFinder
   const LabelTable& labels_;
   const ConstellationOptions& options_;
   std::vector<SightedObject> sighted_;
-  OdometryDrift drift_;
+  const Drift& drift_;
   Eigen::AlignedBox2d bounds_;  //!< Of the map [m]
   std::vector<Candidate> candidates_;
 };
@@ -244,12 +241,12 @@ Eigen::Vector3d comparedPoint(const MapObject& object)
 
 std::optional<Doubles> findDoubles(
     const SlamResult& result,
-    const StepNoise& noise,
+    const Drift& drift,
     const LabelTable& labels,
     const ConstellationOptions& options,
     const std::function<bool()>& shouldStop)
 {
-  return DoublesFinder(result, noise, labels, options).find(shouldStop);
+  return DoublesFinder(result, drift, labels, options).find(shouldStop);
 }
 
 }  // namespace quadmap

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "Drift.h"
 #include "quadmap/constellation/ConstellationOptions.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/slam/SlamResult.h"
@@ -32,14 +33,13 @@ struct Doubles
 Eigen::Vector3d comparedPoint(const MapObject& object);
 
 /** Finds those objects of a run that are most certainly one thing each, as far as the drift of the
- * odometry explains where they are: doc/mathematics.md, "Loops". Nothing when there are none, or
- * when they could as well be others. Deterministic.
+ * poses explains where they are: doc/mathematics.md, "Loops". Nothing when there are none, or when
+ * they could as well be others. Deterministic.
  * \param result With map, decisions and keyframes.
- * \param noise How many times as much as it claims the odometry errs by.
  * \param shouldStop Asked often; after a yes nothing is found. */
 std::optional<Doubles> findDoubles(
     const SlamResult& result,
-    const StepNoise& noise,
+    const Drift& drift,
     const LabelTable& labels,
     const ConstellationOptions& options,
     const std::function<bool()>& shouldStop);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "Doubles.h"
-#include "OdometryDrift.h"
+#include "Drift.h"
 #include "SightedObjects.h"
 
 namespace quadmap::doubles
@@ -20,7 +20,7 @@ struct Candidate
   {
     return comparedPoint(*again->object) - comparedPoint(*before->object);
   }
-  OdometryDrift::Moved moved() const
+  Drift::Moved moved() const
   {
     return {comparedPoint(*again->object), before->nearest, again->nearest};
   }

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "GraphOptions.h"
-#include "LoopClosure.h"
 #include "MergedObjects.h"
 #include "PoseMarginals.h"
 #include "quadmap/estimation/ObjectRules.h"
@@ -146,7 +145,8 @@ FactorGraph JointBackEnd::globalGraph(
     const BoxesOf& boxesOf,
     const SlamResult& result,
     const Priors& priors,
-    FirstPose firstPose) const
+    FirstPose firstPose,
+    Returns returns) const
 {
   struct Seen
   {
@@ -161,7 +161,8 @@ FactorGraph JointBackEnd::globalGraph(
   if (!priors.empty()) graph.addPose(CPose3D());
   if (mayTilt) graph.addPose(result.keyframes.front().T_map_robot);
   const std::size_t first = graph.poses();
-  std::map<ObjectId, Seen> seenOf;
+  std::map<ObjectId, std::vector<Seen>> seenOf;
+  const auto window = static_cast<std::size_t>(options_.window);
   for (std::size_t k = 0; k < result.keyframes.size(); ++k)
   {
     const Keyframe& keyframe = result.keyframes[k];
@@ -176,23 +177,31 @@ FactorGraph JointBackEnd::globalGraph(
       if (const MapObject* object = decision.object ? result.map.find(*decision.object) : nullptr)
         if (auto view = viewFor(*boxes, decision.box, keyframe.T_map_robot, *object))
         {
-          Seen& seen = seenOf[object->id];
+          auto& visits = seenOf[object->id];
+          if (visits.empty() ||
+              (returns == Returns::FindOtherObjects && visits.back().poses.back() + window < pose))
+            visits.emplace_back();
+          Seen& seen = visits.back();
           seen.poses.push_back(pose);
           seen.cameras.push_back(positionOf(keyframe.T_map_robot + boxes->sensorPose));
           seen.views.push_back(std::move(*view));
         }
   }
-  for (auto& [id, seen] : seenOf)
-  {
-    const MapObject& object = *result.map.find(id);
-    graph.setObject(id, object.object, labels_.properties(object.label()));
-    if (const auto prior = priors.find(id); prior != priors.end())
-      graph.setObjectPrior(id, prior->second);
-    const auto shares = independentShares(seen.cameras, object.object.center(), existence_);
-    for (std::size_t i = 0; i < shares.size(); ++i) seen.views[i].weight *= shares[i];
-    shareEdgeErrors(seen.views);
-    for (std::size_t i = 0; i < shares.size(); ++i) graph.addView(seen.poses[i], id, seen.views[i]);
-  }
+  ObjectId other = seenOf.empty() ? 0 : seenOf.rbegin()->first + 1;
+  for (auto& [id, visits] : seenOf)
+    for (Seen& seen : visits)
+    {
+      const MapObject& object = *result.map.find(id);
+      const ObjectId inGraph = &seen == &visits.front() ? id : other++;
+      graph.setObject(inGraph, object.object, labels_.properties(object.label()));
+      if (const auto prior = priors.find(id); prior != priors.end())
+        graph.setObjectPrior(inGraph, prior->second);
+      const auto shares = independentShares(seen.cameras, object.object.center(), existence_);
+      for (std::size_t i = 0; i < shares.size(); ++i) seen.views[i].weight *= shares[i];
+      shareEdgeErrors(seen.views);
+      for (std::size_t i = 0; i < shares.size(); ++i)
+        graph.addView(seen.poses[i], inGraph, seen.views[i]);
+    }
   return graph;
 }
 
@@ -243,49 +252,6 @@ void JointBackEnd::finish(const BoxesOf& boxesOf, SlamResult& result)
     result.keyframes[k].T_map_robot = graph_.pose(k);
   consolidateMap(result);
   estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, result);
-}
-
-void JointBackEnd::closeLoops(
-    const BoxesOf& boxesOf, const std::function<bool()>& shouldStop, SlamResult& result)
-{
-  constexpr int kMost = 5;
-  LoopSummary loops;
-  while (loops.closed < kMost && !loops.open)
-  {
-    const StepNoise noise = result.correction->stepNoise.atLeastClaimed();
-    const auto doubles = findDoubles(result, noise, labels_, places_, shouldStop);
-    loops.stopped = shouldStop();
-    if (loops.stopped || !doubles) break;
-    if (auto closed = closedLoop(*doubles, noise, boxesOf, result))
-    {
-      result = std::move(*closed);
-      ++loops.closed;
-    }
-    else
-      loops.open = LoopSummary::Open{doubles->pairs.size(), doubles->distance};
-  }
-  result.loops = loops;
-}
-
-std::optional<SlamResult> JointBackEnd::closedLoop(
-    const Doubles& doubles,
-    const StepNoise& noise,
-    const BoxesOf& boxesOf,
-    const SlamResult& result) const
-{
-  SlamResult closed = result;
-  try
-  {
-    bringTogether(doubles, result.map, places_.positionSigma, noise, closed.keyframes);
-    rebuildMap(boxesOf, closed);
-    estimate([](const CQuadricObjectMap&) { return Priors(); }, boxesOf, closed);
-  }
-  catch (const std::runtime_error&)  // poses so bent that nothing can be estimated
-  {
-    return std::nullopt;
-  }
-  if (!becameOne(doubles, result, closed)) return std::nullopt;
-  return closed;
 }
 
 void JointBackEnd::correctWith(

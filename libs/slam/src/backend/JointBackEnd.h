@@ -69,13 +69,25 @@ class JointBackEnd : public BackEnd
     Fixed,
     FreeToTilt  // by upSigma, on visual odometry
   };
+  enum class Returns
+  {
+    FindTheSameObjects,
+    FindOtherObjects  // whatever was not seen for as long as the window
+  };
   /** All poses and objects. With priors pose 0 is the map, and when the first pose is not fixed
    * where that was so far; either makes pose k + 1 that of keyframe k. */
   FactorGraph globalGraph(
       const BoxesOf& boxesOf,
       const SlamResult& result,
       const Priors& priors,
-      FirstPose firstPose) const;
+      FirstPose firstPose,
+      Returns returns = Returns::FindTheSameObjects) const;
+  /** Those that are explained by what may have moved the poses. */
+  std::optional<Doubles> doublesOf(
+      const StepNoise& noise,
+      const BoxesOf& boxesOf,
+      const std::function<bool()>& shouldStop,
+      const SlamResult& result) const;
   /** Moves the keyframes to where a graph has them. \return The longest move [m]. */
   static double takePoses(const FactorGraph& graph, const Priors& priors, SlamResult& result);
   /** Rounds of association and estimation. */

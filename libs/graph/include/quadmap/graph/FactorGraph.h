@@ -105,6 +105,10 @@ class FactorGraph
    * \return Nothing when something is not determined at all: a pose that nothing joins to others.
    */
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
+  /** Joint covariance of the increments of some poses, six rows each in the order given; those of
+   * pose 0 are zero.
+   * \return Nothing when something is not determined at all. */
+  std::optional<Eigen::MatrixXd> jointMarginal(const std::vector<std::size_t>& poses);
   /** Covariances of the objects' increments, given all poses. */
   std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
 
