@@ -152,114 +152,107 @@ void openUnseenBacks(const FaceEstimator& estimator, Faces& faces)
   }
 }
 
-/** The faces as the cloud shows them, the support and the level top where the object has them. */
-Faces facesAsSeen(
-    const FaceEstimator& estimator,
-    const ScenePlanes& planes,
-    const ObjectCloud& object,
-    const LabelProperties& label,
-    const PerceptionOptions& options)
+/** Fits cuboids to clouds of one frame. */
+class CuboidFitter
 {
-  Faces faces;
-  const auto isKnown = [&](std::size_t face)
-  { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
-  for (std::size_t face = 0; face < kFaces; ++face)
-    if (!isKnown(face)) faces[face] = estimator.face(face);
-  // Things stand on something. A lower end that is not the support's is where the view of it ends.
-  if (!object.support && label.support != UsualSupport::Wall &&
-      faces[kBottom].worth.kind == FaceKind::Measured)
-    faces[kBottom].worth.kind = FaceKind::AtLeast;
-  if (object.top)
+ public:
+  CuboidFitter(
+      const DepthCloud& cloud,
+      const ScenePlanes& planes,
+      const LabelProperties& label,
+      const PerceptionOptions& options) :
+      cloud_(cloud), planes_(planes), label_(label), options_(options)
   {
-    faces[kTop].position = -object.top->d;
-    faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options)};
   }
-  if (object.support)
+
+  /** \param heldUp The bottom, when the object is a part that something else holds up. */
+  CompleteMeasurement fit(const ObjectCloud& object, const std::optional<double>& heldUp) const
   {
-    // Distance of the supporting plane below the camera, along the object's -z.
-    faces[kBottom].position = planes.plane(*object.support).plane.d;
-    faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options)};
-  }
-  return faces;
-}
+    const Eigen::Vector3d up = object.support ? planes_.plane(*object.support).plane.n : planes_.up;
+    const UprightCloud upright = uprightCloud(cloud_, object, up);
+    std::optional<TopRim> rim;
+    if (object.top && label_.dominantDirection)
+      rim.emplace(cloud_, object, *object.top, upright.R_upright_optical, options_);
+    HeadingEstimate yaw;
+    if (label_.dominantDirection) yaw = headingOf(upright, rim, options_);
 
-/** Decides what the parts of the object that are not seen leave of its faces, by its kind and by
- * what is around it. */
-void completeFaces(
-    const FaceEstimator& estimator,
-    const ObjectCloud& object,
-    const std::optional<TopRim>& rim,
-    const HeadingEstimate& yaw,
-    const LabelProperties& label,
-    const PerceptionOptions& options,
-    Faces& faces)
-{
-  const bool stands = faces[kBottom].worth.kind == FaceKind::Support;
-  if (stands || isFootOutOfSight(object, label, spreadsTooLow(faces, estimator, label)))
-    placeHiddenPart(faces, estimator, label);
-  if (stands) openThinSides(clearOfSupport(estimator.range(), label, options), faces);
-  openUnseenBacks(estimator, faces);
-  if (rim) endAtRim(*rim, yaw.yaw, estimator, options, faces);
-  if (object.onWall) endAtWall(*object.onWall, estimator, options, faces);
-  if (label.dominantDirection)
-    addHeadingSigma(faces, yaw);
-  else
-    completeRound(faces, estimator);
-}
-
-/** The part of an object above its bottom. \param bottom Along -up, from the camera [m]. */
-ObjectCloud partAbove(double bottom, const Eigen::Vector3d& up, const ObjectCloud& object)
-{
-  ObjectCloud part = object;
-  part.cells.clear();
-  part.points.clear();
-  for (std::size_t i = 0; i < object.points.size(); ++i)
-    if (-up.dot(object.points[i]) <= bottom)
+    const FaceEstimator estimator(cloud_, planes_, object, upright, yaw.yaw, options_);
+    const HeldUp hold(cloud_.camera(), estimator, label_, options_);
+    Faces faces = facesAsSeen(estimator, object);
+    if (heldUp)
+      faces[kBottom] = hold.bottomAt(*heldUp, faces);
+    else if (const auto bottom = hold.bottomOf(faces))
     {
-      part.cells.push_back(object.cells[i]);
-      part.points.push_back(object.points[i]);
+      // What is below is the stand's, and would tell of the object's sides.
+      const ObjectCloud part = partAbove(*bottom, up, object);
+      if (2 * part.points.size() > object.points.size()) return fit(part, bottom);
     }
-  return part;
-}
+    complete(estimator, object, rim, yaw, faces);
 
-/** \param heldUp The bottom, when the object is a part that something else holds up. */
-CompleteMeasurement fitCuboidTo(
-    const ObjectCloud& object,
-    const std::optional<FaceEstimate>& heldUp,
-    const DepthCloud& cloud,
-    const ScenePlanes& planes,
-    const LabelProperties& label,
-    const PerceptionOptions& options)
-{
-  const Eigen::Vector3d up = object.support ? planes.plane(*object.support).plane.n : planes.up;
-  const UprightCloud upright = uprightCloud(cloud, object, up);
-  std::optional<TopRim> rim;
-  if (object.top && label.dominantDirection)
-    rim.emplace(cloud, object, *object.top, upright.R_upright_optical, options);
-  HeadingEstimate yaw;
-  if (label.dominantDirection) yaw = headingOf(upright, rim, options);
-
-  const FaceEstimator estimator(cloud, planes, object, upright, yaw.yaw, options);
-  Faces faces = facesAsSeen(estimator, planes, object, label, options);
-  if (heldUp)
-    faces[kBottom] = *heldUp;
-  else if (const auto held = heldUpBottom(cloud.camera(), estimator, faces, label, options))
-  {
-    // What is below is the stand's, and would tell of the object's sides.
-    const ObjectCloud part = partAbove(held->position, up, object);
-    if (2 * part.points.size() > object.points.size())
-      return fitCuboidTo(part, held, cloud, planes, label, options);
+    CompleteMeasurement out;
+    out.object_sensor = cuboidOf(faces, estimator.R_obj_optical());
+    for (std::size_t face = 0; face < kFaces; ++face) out.faces[face] = faces[face].worth;
+    out.yawDefined = yaw.defined;
+    out.yawSigma = yaw.sigma;
+    out.yawDominance = yaw.dominance;
+    return out;
   }
-  completeFaces(estimator, object, rim, yaw, label, options, faces);
 
-  CompleteMeasurement out;
-  out.object_sensor = cuboidOf(faces, estimator.R_obj_optical());
-  for (std::size_t face = 0; face < kFaces; ++face) out.faces[face] = faces[face].worth;
-  out.yawDefined = yaw.defined;
-  out.yawSigma = yaw.sigma;
-  out.yawDominance = yaw.dominance;
-  return out;
-}
+ private:
+  /** The faces as the cloud shows them, the support and the level top where there are. */
+  Faces facesAsSeen(const FaceEstimator& estimator, const ObjectCloud& object) const
+  {
+    Faces faces;
+    const auto isKnown = [&](std::size_t face)
+    { return face == kBottom ? object.support.has_value() : face == kTop && object.top; };
+    for (std::size_t face = 0; face < kFaces; ++face)
+      if (!isKnown(face)) faces[face] = estimator.face(face);
+    // Things stand on something. A lower end that is not the support's is where the view of it
+    // ends.
+    if (!object.support && label_.support != UsualSupport::Wall &&
+        faces[kBottom].worth.kind == FaceKind::Measured)
+      faces[kBottom].worth.kind = FaceKind::AtLeast;
+    if (object.top)
+    {
+      faces[kTop].position = -object.top->d;
+      faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options_)};
+    }
+    if (object.support)
+    {
+      // Distance of the supporting plane below the camera, along the object's -z.
+      faces[kBottom].position = planes_.plane(*object.support).plane.d;
+      faces[kBottom].worth = {FaceKind::Support, supportSigma(estimator.range(), options_)};
+    }
+    return faces;
+  }
+
+  /** Decides what the parts of the object that are not seen leave of its faces, by its kind and by
+   * what is around it. */
+  void complete(
+      const FaceEstimator& estimator,
+      const ObjectCloud& object,
+      const std::optional<TopRim>& rim,
+      const HeadingEstimate& yaw,
+      Faces& faces) const
+  {
+    const bool stands = faces[kBottom].worth.kind == FaceKind::Support;
+    if (stands || isFootOutOfSight(object, label_, spreadsTooLow(faces, estimator, label_)))
+      placeHiddenPart(faces, estimator, label_);
+    if (stands) openThinSides(clearOfSupport(estimator.range(), label_, options_), faces);
+    openUnseenBacks(estimator, faces);
+    if (rim) endAtRim(*rim, yaw.yaw, estimator, options_, faces);
+    if (object.onWall) endAtWall(*object.onWall, estimator, options_, faces);
+    if (label_.dominantDirection)
+      addHeadingSigma(faces, yaw);
+    else
+      completeRound(faces, estimator);
+  }
+
+  const DepthCloud& cloud_;
+  const ScenePlanes& planes_;
+  const LabelProperties& label_;
+  const PerceptionOptions& options_;
+};
 
 }  // namespace
 
@@ -288,7 +281,7 @@ CompleteMeasurement fitCuboid(
     const LabelProperties& label,
     const PerceptionOptions& options)
 {
-  return fitCuboidTo(object, {}, cloud, planes, label, options);
+  return CuboidFitter(cloud, planes, label, options).fit(object, {});
 }
 
 }  // namespace quadmap

@@ -72,6 +72,9 @@ class FaceEstimator
   /** The lower end of the object by its cloud within the detector's box; its sigma is left open. */
   FaceEstimate endInBox() const;
 
+  /** Share of the lines down through the object that go on below a height along -z [m]. */
+  double shareOfLinesBelow(double position) const;
+
   /** How far most of the points reach when they are the front's alone, as of a screen [m]. The
    * others are the rim's way to what is behind, and tell nothing of a back that nobody saw. Nothing
    * when something of the object lies behind the front. */

@@ -134,6 +134,16 @@ FaceEstimate FaceEstimator::endInBox() const
   return out;
 }
 
+double FaceEstimator::shareOfLinesBelow(double position) const
+{
+  const Outline down = outlineTowards(kBottom);
+  const auto below = std::count_if(
+      down.lines.begin(), down.lines.end(),
+      [&](const Line& line) { return line.along > position; });
+  return down.lines.empty() ? 0
+                            : static_cast<double>(below) / static_cast<double>(down.lines.size());
+}
+
 double FaceEstimator::outlineSigmaOf(std::size_t face, double perCell) const
 {
   const double away = facingAway(face);

@@ -1,21 +1,46 @@
 #pragma once
 
 #include "cuboid/FaceEstimator.h"
+#include "quadmap/perception/BoxEdges.h"
 
 namespace quadmap
 {
-/** The bottom of an object that something else holds up above its support: detectors draw their box
- * around the panel of a screen, without the stand. It is where the cloud in the box ends clear of
- * the support, if the box ends there as well. Where the cloud reaches the support, as it does when
- * the box shows a foot, it is where the box ends, if that is too soon for what stands. What usually
- * stands on floors, and what something hides, is not held up (doc/mathematics.md, (8.12)).
- * \param standing All faces, with the support at the bottom where one is known. \return Nothing of
- * what stands. */
-std::optional<FaceEstimate> heldUpBottom(
-    const PinholeCamera& camera,
-    const FaceEstimator& estimator,
-    const Faces& standing,
-    const LabelProperties& label,
-    const PerceptionOptions& options);
+/** Tells whether something that is no part of an object holds it up above its support: detectors
+ * draw their box around the panel of a screen, without the stand (doc/mathematics.md, (8.12)). All
+ * references must outlive it. */
+class HeldUp
+{
+ public:
+  HeldUp(
+      const PinholeCamera& camera,
+      const FaceEstimator& estimator,
+      const LabelProperties& label,
+      const PerceptionOptions& options);
+
+  /** Where the object ends, along its -z from the camera [m]. It is where the cloud ends clear of
+   * the support, if the box ends there as well; and where the box ends, if that is too soon for
+   * this end and most of the cloud goes no farther. What usually stands on floors is not held up,
+   * nor is what something hides. \param faces With the support at the bottom where one is known.
+   * \return Nothing of what stands. */
+  std::optional<double> bottomOf(const Faces& faces) const;
+
+  /** The bottom of the part above it. \param faces Of this part alone. */
+  FaceEstimate bottomAt(double position, const Faces& faces) const;
+
+ private:
+  struct Overhang;
+
+  std::optional<Overhang> overhang(double bottom, const Faces& faces) const;
+  std::optional<double> bottomInBox(double from, const Faces& faces) const;
+
+  const FaceEstimator& estimator_;
+  const LabelProperties& label_;
+  const PerceptionOptions& options_;
+  std::array<EdgeMeasurement, 4> edges_;  // their planes in the sensor's frame
+};
+
+/** The part of an object above a bottom, as HeldUp::bottomOf() gives it. Its mask, its box and what
+ * is known around it stay those of the whole. \param up Unit, optical frame. */
+ObjectCloud partAbove(double bottom, const Eigen::Vector3d& up, const ObjectCloud& object);
 
 }  // namespace quadmap

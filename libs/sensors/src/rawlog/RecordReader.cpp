@@ -27,9 +27,9 @@ std::string classNameIn(const std::string& head)
 }
 
 /** What a rawlog may hold [bytes], and in how many records. Recordings of images compress to a
- * third, their boxes to a fourteenth; those of a robot that stands still to a hundredth, but in
- * small records, of which as many as may be fit as well. A file that holds more was made to keep
- * its reader busy: 13 MB can hold 13 GB, or 60 million records. */
+ * third, boxes to a fourteenth, and the poses of a robot that stands still to a hundredth, with a
+ * record in four bytes: these stay within the first gigabyte. A file that holds more was made to
+ * keep its reader busy: 13 MB can hold 13 GB, or 60 million records. */
 std::uint64_t mostBytesIn(std::uint64_t fileBytes)
 {
   constexpr std::uint64_t kAlways = std::uint64_t{1} << 30, kMostPerByte = 20;
