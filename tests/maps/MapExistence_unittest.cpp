@@ -44,6 +44,21 @@ TEST(CQuadricObjectMap, WhatIsNotSeenAgainIsNotReported)
   EXPECT_EQ(map.objects().begin()->second.missCount, 30u);
 }
 
+TEST(CQuadricObjectMap, ASmallThingThatWasTakenAwayIsGoneAsFarAsItWasSeen)
+{
+  // 21 px in the image, fewer than a detector is trusted to find of what it never saw.
+  const std::vector<TrueObject> cup = {cuboid("cup", {0, 0, 0.8}, {0.1, 0.1, 0.1}, 0)};
+  for (const double rangeAfter : {2.4, 3.4})
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(8);
+    walkAround(map, camera, cup, 30, {0, 0, 0.8}, 2.5);
+    ASSERT_EQ(map.confirmedObjects().size(), 1u);
+    walkAround(map, camera, {}, 60, {0, 0, 0.8}, rangeAfter);
+    EXPECT_EQ(map.confirmedObjects().empty(), rangeAfter < 2.5) << rangeAfter;
+  }
+}
+
 TEST(CQuadricObjectMap, WhatIsFoundInHalfOfTheImagesFromOnePlaceIsThere)
 {
   const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};

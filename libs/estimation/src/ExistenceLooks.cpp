@@ -35,6 +35,11 @@ double ExistenceLooks::correlation(
 void ExistenceLooks::add(
     const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options)
 {
+  if (look.seen)
+  {
+    sumOfRanges_ += (look.camera - center).norm();
+    ++hits_;
+  }
   const double reach = independentReach(look.camera, center, options);
   const auto isOf = [&](const Visit& v)
   {

@@ -37,7 +37,10 @@ Ellipsoid FrameGeometry::toOptical(const Ellipsoid& object_map) const
 }
 
 bool shouldBeVisible(
-    const Ellipsoid& object, const FrameGeometry& frame, const ExistenceOptions& options)
+    const Ellipsoid& object,
+    const FrameGeometry& frame,
+    const ExistenceOptions& options,
+    double usualRange)
 {
   if (!frame.depth || frame.depth->empty()) return false;
   const Ellipsoid object_optical = frame.toOptical(object);
@@ -50,7 +53,8 @@ bool shouldBeVisible(
   if (!box || !box->isValid()) return false;
   const ImageBox inside = box->clipped(frame.camera.width, frame.camera.height);
   if (inside.area() < options.visibleShare * box->area()) return false;
-  if (inside.width() < options.minBoxSize || inside.height() < options.minBoxSize) return false;
+  if (range > usualRange && std::min(inside.width(), inside.height()) < options.minBoxSize)
+    return false;
 
   return hiddenShare(*frame.depth, frame.camera, inside, nearestDepth - options.occluderMargin) <=
          options.maxHiddenShare;

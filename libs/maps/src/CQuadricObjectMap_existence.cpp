@@ -19,7 +19,8 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
   for (auto& [id, object] : objects_)
   {
     if (touched.count(id) != 0) continue;
-    if (!shouldBeVisible(object.object, frame.geometry, existence)) continue;
+    const double usualRange = object.looks.usualRange();
+    if (!shouldBeVisible(object.object, frame.geometry, existence, usualRange)) continue;
     if (isShownByAFreeBox(object, frame)) continue;
     ++object.missCount;
     object.looks.add(

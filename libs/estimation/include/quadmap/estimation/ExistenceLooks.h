@@ -59,6 +59,9 @@ class ExistenceLooks
    * when it was not, or nobody came back. */
   std::optional<LookCounts> afterReturn(
       double labelProbability, const ExistenceOptions& options) const;
+  /** Mean distance from which the object was seen [m]; 0 before that. Where the camera is nearer, a
+   * detector can find it, however small it is in the image. */
+  double usualRange() const { return hits_ > 0 ? sumOfRanges_ / hits_ : 0; }
 
   /** Log-odds that the object exists, (13.2). \param labelProbability p_D of its label. */
   double logOdds(double labelProbability, const ExistenceOptions& options) const;
@@ -88,6 +91,8 @@ class ExistenceLooks
 
   std::deque<Visit> visits_;  // in the order of their beginning
   Known before_;              // of visits that are not kept any more
+  double sumOfRanges_ = 0;    // of the looks that saw it [m]
+  unsigned hits_ = 0;
 };
 
 }  // namespace quadmap

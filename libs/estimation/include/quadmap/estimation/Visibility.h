@@ -57,9 +57,13 @@ struct FrameGeometry
 };
 
 /** Should a detector have been able to see the object in this frame? False when in doubt: nothing
- * is known of what hides it without depth. */
+ * is known of what hides it without depth. \param usualRange Up to this distance of the camera it
+ * is large enough, as it was seen from there [m]; 0 when it was not seen before. */
 bool shouldBeVisible(
-    const Ellipsoid& object, const FrameGeometry& frame, const ExistenceOptions& options);
+    const Ellipsoid& object,
+    const FrameGeometry& frame,
+    const ExistenceOptions& options,
+    double usualRange);
 
 /** Box of the object's outline in the image: of the cuboid or the ellipsoid, whichever the shape
  * exponent is nearer to; not clipped. */
