@@ -1,4 +1,4 @@
-#include "backend/Doubles.h"
+#include "quadmap/constellation/Doubles.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "backend/JointBackEnd.h"
 #include "backend/LoopClosure.h"
 #include "backend/OdometryDrift.h"
+#include "backend/SightedObjects.h"
 
 using namespace quadmap;
 using mrpt::poses::CPose3D;
@@ -96,8 +97,8 @@ class ThereAndBack
       double noise = 1, const std::function<bool()>& shouldStop = [] { return false; }) const
   {
     return findDoubles(
-        result_, OdometryDrift(result_.keyframes, {noise, noise}), labels(), ConstellationOptions(),
-        shouldStop);
+        sightedObjects(result_), OdometryDrift(result_.keyframes, {noise, noise}), labels(),
+        ConstellationOptions(), shouldStop);
   }
 
   SlamResult& result() { return result_; }

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "BackEnd.h"
-#include "Doubles.h"
 #include "MergedObjects.h"
 #include "OdometryChain.h"
 #include "quadmap/constellation/ConstellationOptions.h"
+#include "quadmap/constellation/Doubles.h"
 #include "quadmap/graph/FactorGraph.h"
 
 namespace quadmap

@@ -40,15 +40,16 @@ std::optional<Doubles> JointBackEnd::doublesOf(
 {
   // Odometry alone drifts more. What it does not explain needs no graph to be refused.
   const OdometryDrift odometry(result.keyframes, noise);
-  const auto doubles = findDoubles(result, odometry, labels_, places_, shouldStop);
+  const auto sighted = sightedObjects(result);
+  const auto doubles = findDoubles(sighted, odometry, labels_, places_, shouldStop);
   if (!doubles) return std::nullopt;
   FactorGraph graph =
       globalGraph(boxesOf, result, Priors(), FirstPose::Fixed, Returns::FindOtherObjects);
   graph.setStepNoise(noise);
   std::set<std::size_t> nearest;
-  for (const auto& object : sightedObjects(result)) nearest.insert(object.nearest);
+  for (const auto& object : sighted) nearest.insert(object.nearest);
   const auto drift = ViewedDrift::of(graph, {nearest.begin(), nearest.end()}, odometry);
-  return drift ? findDoubles(result, *drift, labels_, places_, shouldStop) : doubles;
+  return drift ? findDoubles(sighted, *drift, labels_, places_, shouldStop) : doubles;
 }
 
 std::optional<SlamResult> JointBackEnd::closedLoop(

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "Doubles.h"
+#include "quadmap/constellation/Doubles.h"
 #include "quadmap/slam/SlamResult.h"
 
 namespace quadmap

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "Drift.h"
+#include "quadmap/constellation/Drift.h"
 #include "quadmap/graph/StepNoise.h"
 #include "quadmap/slam/SlamResult.h"
 

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "Doubles.h"
-#include "Drift.h"
-#include "SightedObjects.h"
+#include "quadmap/constellation/Doubles.h"
 
 namespace quadmap::doubles
 {
@@ -36,7 +34,7 @@ struct Candidate
 };
 
 /** Candidates that are taken for true together. */
-struct Hypothesis
+struct DoublesHypothesis
 {
   std::vector<Candidate> pairs;
   double logOdds = 0;
@@ -53,7 +51,7 @@ struct Hypothesis
         pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.isSame(candidate); });
   }
   /** Takes a thing of the other one for something else. */
-  bool contradicts(const Hypothesis& other) const
+  bool contradicts(const DoublesHypothesis& other) const
   {
     return std::any_of(
         pairs.begin(), pairs.end(),

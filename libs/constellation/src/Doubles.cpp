@@ -1,21 +1,19 @@
-#include "Doubles.h"
+#include "quadmap/constellation/Doubles.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "DoublesHypothesis.h"
-#include "Drift.h"
-#include "SightedObjects.h"
 #include "quadmap/estimation/ObjectRules.h"
 
 namespace quadmap
 {
 namespace
 {
-using doubles::Candidate, doubles::Hypothesis;
+using doubles::Candidate, doubles::DoublesHypothesis;
 
-constexpr double kGate = 11.34;  // chi^2 of three degrees of freedom, 99 %
-constexpr double kMargin = 1.0;  // around the objects, of the area of the map [m]
+constexpr double kGate = 11.34;        // chi^2 of three degrees of freedom, 99 %
+constexpr double kBoundsMargin = 1.0;  // around the objects, of the area of the map [m]
 /** Candidates that are compared with each other, and pairs that are found, at most: the time grows
  * with powers of both. Association finds the other doubles when the poses are right. */
 constexpr std::size_t kMostCandidates = 100, kMostPairs = 10;
@@ -45,21 +43,21 @@ class DoublesFinder
 {
  public:
   DoublesFinder(
-      const SlamResult& result,
+      const std::vector<SightedObject>& sighted,
       const Drift& drift,
       const LabelTable& labels,
       const ConstellationOptions& options) :
-      labels_(labels), options_(options), sighted_(sightedObjects(result)), drift_(drift)
+      labels_(labels), options_(options), sighted_(sighted), drift_(drift)
   {
     for (const auto& object : sighted_)
-      for (const double margin : {-kMargin, kMargin})
+      for (const double margin : {-kBoundsMargin, kBoundsMargin})
         bounds_.extend((placeOf(object).array() + margin).matrix());
     addCandidates();
   }
 
   std::optional<Doubles> find(const std::function<bool()>& shouldStop) const
   {
-    std::vector<Hypothesis> found;
+    std::vector<DoublesHypothesis> found;
     for (const Candidate& seed : candidates_)
     {
       if (shouldStop()) return std::nullopt;
@@ -72,17 +70,27 @@ class DoublesFinder
     if (best == found.end()) return std::nullopt;
     if (best->pairs.size() < static_cast<std::size_t>(options_.minPairs)) return std::nullopt;
     double second = 0;
-    for (const Hypothesis& other : found)
-      if (other.contradicts(*best)) second = std::max(second, other.logOdds);
+    for (const DoublesHypothesis& other : found)
+      if (other.contradicts(*best) && !leadToOnePlace(other, *best))
+        second = std::max(second, other.logOdds);
     if (best->logOdds - second < options_.minLogOdds) return std::nullopt;
     return doublesOf(*best);
   }
 
  private:
+  /** Do both have enough pairs in common to correct the poses alike? What else they take for one
+   * another is a matter of a neighbouring thing. */
+  bool leadToOnePlace(const DoublesHypothesis& a, const DoublesHypothesis& b) const
+  {
+    const auto common = std::count_if(
+        a.pairs.begin(), a.pairs.end(), [&](const Candidate& pair) { return b.has(pair); });
+    return common >= options_.minPairs;
+  }
+
   /** Those that the drift explains each for itself, the most likely ones first. */
   void addCandidates()
   {
-    std::vector<Hypothesis> single;
+    std::vector<DoublesHypothesis> single;
     for (const auto& before : sighted_)
     {
       std::optional<double> density;
@@ -102,7 +110,8 @@ class DoublesFinder
         [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
     if (single.size() > kMostCandidates)
       single.erase(single.begin() + kMostCandidates, single.end());
-    for (const Hypothesis& hypothesis : single) candidates_.push_back(hypothesis.pairs.front());
+    for (const DoublesHypothesis& hypothesis : single)
+      candidates_.push_back(hypothesis.pairs.front());
   }
 
   bool mayBeOne(const SightedObject& before, const SightedObject& again) const
@@ -124,9 +133,9 @@ class DoublesFinder
   }
 
   /** The candidate, and those that agree with it, the most telling one first. */
-  Hypothesis grownFrom(const Candidate& seed) const
+  DoublesHypothesis grownFrom(const Candidate& seed) const
   {
-    Hypothesis hypothesis = evaluated({seed});
+    DoublesHypothesis hypothesis = evaluated({seed});
     while (hypothesis.pairs.size() < kMostPairs)
     {
       auto more = withOneMore(hypothesis);
@@ -136,15 +145,15 @@ class DoublesFinder
     return hypothesis;
   }
 
-  std::optional<Hypothesis> withOneMore(const Hypothesis& hypothesis) const
+  std::optional<DoublesHypothesis> withOneMore(const DoublesHypothesis& hypothesis) const
   {
-    std::optional<Hypothesis> best;
+    std::optional<DoublesHypothesis> best;
     for (const Candidate& candidate : candidates_)
     {
       if (hypothesis.shares(candidate)) continue;
       auto pairs = hypothesis.pairs;
       pairs.push_back(candidate);
-      Hypothesis more = evaluated(std::move(pairs));
+      DoublesHypothesis more = evaluated(std::move(pairs));
       if (more.distance2 - hypothesis.distance2 <= kGate &&
           more.logOdds > (best ? *best : hypothesis).logOdds)
         best = std::move(more);
@@ -153,7 +162,7 @@ class DoublesFinder
   }
 
   /** doc/mathematics.md, (16.24) and (16.25). */
-  Hypothesis evaluated(std::vector<Candidate> pairs) const
+  DoublesHypothesis evaluated(std::vector<Candidate> pairs) const
   {
     const auto n = static_cast<Eigen::Index>(pairs.size());
     Eigen::MatrixXd S(3 * n, 3 * n), horizontal(2 * n, 2 * n);
@@ -211,7 +220,7 @@ class DoublesFinder
         }));
   }
 
-  static Doubles doublesOf(const Hypothesis& hypothesis)
+  static Doubles doublesOf(const DoublesHypothesis& hypothesis)
   {
     Doubles doubles;
     doubles.logOdds = hypothesis.logOdds;
@@ -226,7 +235,7 @@ class DoublesFinder
 
   const LabelTable& labels_;
   const ConstellationOptions& options_;
-  std::vector<SightedObject> sighted_;
+  const std::vector<SightedObject>& sighted_;
   const Drift& drift_;
   Eigen::AlignedBox2d bounds_;  //!< Of the map [m]
   std::vector<Candidate> candidates_;
@@ -240,13 +249,13 @@ Eigen::Vector3d comparedPoint(const MapObject& object)
 }
 
 std::optional<Doubles> findDoubles(
-    const SlamResult& result,
+    const std::vector<SightedObject>& sighted,
     const Drift& drift,
     const LabelTable& labels,
     const ConstellationOptions& options,
     const std::function<bool()>& shouldStop)
 {
-  return DoublesFinder(result, drift, labels, options).find(shouldStop);
+  return DoublesFinder(sighted, drift, labels, options).find(shouldStop);
 }
 
 }  // namespace quadmap

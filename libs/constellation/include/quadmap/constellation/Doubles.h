@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "Drift.h"
 #include "quadmap/constellation/ConstellationOptions.h"
+#include "quadmap/constellation/Drift.h"
+#include "quadmap/constellation/SightedObject.h"
 #include "quadmap/obs/LabelTable.h"
-#include "quadmap/slam/SlamResult.h"
 
 namespace quadmap
 {
@@ -35,10 +35,10 @@ Eigen::Vector3d comparedPoint(const MapObject& object);
 /** Finds those objects of a run that are most certainly one thing each, as far as the drift of the
  * poses explains where they are: doc/mathematics.md, "Loops". Nothing when there are none, or when
  * they could as well be others. Deterministic.
- * \param result With map, decisions and keyframes.
+ * \param sighted All that count, each once.
  * \param shouldStop Asked often; after a yes nothing is found. */
 std::optional<Doubles> findDoubles(
-    const SlamResult& result,
+    const std::vector<SightedObject>& sighted,
     const Drift& drift,
     const LabelTable& labels,
     const ConstellationOptions& options,
