@@ -119,10 +119,18 @@ TEST(ExistenceLooks, TellWhatAReturnSaid)
   EXPECT_FALSE(after(twice)) << "nobody came back";
   twice.add({placeAt(0), 8, false}, kObject, kOptions);
   EXPECT_FALSE(after(twice)) << "nobody was away for long enough";
-  for (int i = 0; i < 3; ++i) twice.add({placeAt(0.3 * i), 30.0 + i, i == 1}, kObject, kOptions);
-  ASSERT_TRUE(after(twice));
-  EXPECT_NEAR(after(twice)->seen, 1, 1e-9);
-  EXPECT_NEAR(after(twice)->missed, 2, 1e-9);
+
+  ExistenceLooks again = looks(often, 0.2);
+  for (int i = 0; i < 3; ++i) again.add({placeAt(0.3 * i), 30.0 + i, i == 1}, kObject, kOptions);
+  const double p = (0.5 * 10 + 10) / (10 + 10);  // (13.3) of the first ten
+  ASSERT_TRUE(after(again));
+  EXPECT_NEAR(*after(again), std::log(p / 0.1) + 2 * std::log((1 - p) / 0.9), 1e-9);
+
+  // What is seen in two looks of five is there, although most looks miss it.
+  ExistenceLooks seldom;
+  for (int i = 0; i < 50; ++i)
+    seldom.add({placeAt(0.2 * i), i + (i < 25 ? 0.0 : 30.0), i % 5 < 2}, kObject, kOptions);
+  EXPECT_GT(after(seldom).value_or(-1), 0);
 
   ExistenceLooks doubtful = looks({true, false}, 0.2);
   doubtful.add({placeAt(0), 30, false}, kObject, kOptions);

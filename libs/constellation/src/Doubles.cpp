@@ -78,13 +78,14 @@ class DoublesFinder
   }
 
  private:
-  /** Do both have enough pairs in common to correct the poses alike? What else they take for one
-   * another is a matter of a neighbouring thing. */
+  /** Do both have enough pairs in common, and most of them, to correct the poses alike? What else
+   * they take for one another is a matter of a neighbouring thing. */
   bool leadToOnePlace(const DoublesHypothesis& a, const DoublesHypothesis& b) const
   {
     const auto common = std::count_if(
         a.pairs.begin(), a.pairs.end(), [&](const Candidate& pair) { return b.has(pair); });
-    return common >= options_.minPairs;
+    const auto most = static_cast<std::ptrdiff_t>(std::max(a.pairs.size(), b.pairs.size()));
+    return common >= options_.minPairs && 2 * common > most;
   }
 
   /** Those that the drift explains each for itself, the most likely ones first. */

@@ -95,7 +95,7 @@ void ExistenceLooks::take(
   known.recent = {share * known.recent.seen, share * known.recent.missed};
 }
 
-std::optional<LookCounts> ExistenceLooks::afterReturn(
+std::optional<double> ExistenceLooks::afterReturn(
     double labelProbability, const ExistenceOptions& options) const
 {
   Known known = before_;
@@ -109,7 +109,9 @@ std::optional<LookCounts> ExistenceLooks::afterReturn(
   if (visit == visits_.end() || known.logOdds <= options.confirmLogOdds) return std::nullopt;
   LookCounts after;
   for (; visit != visits_.end(); ++visit) after += independent(*visit, options);
-  return after;
+  const ExistenceEvidence evidence(
+      detectionProbability(known.recent, labelProbability, options), options.falseAlarmProbability);
+  return after.seen * evidence.detection() + after.missed * evidence.miss();
 }
 
 double ExistenceLooks::logOdds(double labelProbability, const ExistenceOptions& options) const

@@ -77,7 +77,7 @@ CQuadricObjectMap::Revisits CQuadricObjectMap::revisits() const
   for (const auto& [id, object] : objects_)
     if (const auto after =
             object.looks.afterReturn(ofOthers(object, ofLabels), insertionOptions.existence))
-      ++(after->missed > after->seen ? revisits.missed : revisits.found);
+      ++(*after < 0 ? revisits.missed : revisits.found);
   return revisits;
 }
 

@@ -49,7 +49,7 @@ std::ptrdiff_t doubtsWhenLateBy(double seconds)
   return std::count_if(
       warnings.begin(), warnings.end(),
       [](const auto& text)
-      { return text.find("poses and objects are doubtful") != std::string::npos; });
+      { return text.find("that the robot came back to were gone") != std::string::npos; });
 }
 }  // namespace
 

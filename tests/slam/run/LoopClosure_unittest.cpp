@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "DriftingCorridor.h"
+#include "backend/OdometryDrift.h"
+#include "backend/SightedObjects.h"
+#include "quadmap/constellation/Doubles.h"
 
 using namespace quadmap;
 
@@ -24,6 +27,11 @@ TEST(LoopClosure, LeavesRoomsFurnishedAlikeTwo)
   const auto [result, report] = driftingRun(std::move(scene), 10, 3);
   EXPECT_EQ(result.loops.closed, 0);
   EXPECT_LT(report.trajectory->ateRmse, 0.3) << "[m]; 0.67 with one room for both";
+  const OdometryDrift odometry(result.keyframes, result.correction->stepNoise.atLeastClaimed());
+  EXPECT_TRUE(findDoubles(
+      sightedObjects(result), odometry, LabelTable::installed(), ConstellationOptions(),
+      [] { return false; }))
+      << "the odometry alone would allow it";
 }
 
 TEST(LoopClosure, LeavesARunThatCanGoOnInAMap)

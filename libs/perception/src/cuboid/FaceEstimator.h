@@ -72,7 +72,7 @@ class FaceEstimator
   /** The lower end of the object by its cloud within the detector's box; its sigma is left open. */
   FaceEstimate endInBox() const;
 
-  /** Share of the lines down through the object that go on below a height along -z [m]. */
+  /** Share of the lines down through the object that go on beyond a position along -z [m]. */
   double shareOfLinesBelow(double position) const;
 
   /** How far most of the points reach when they are the front's alone, as of a screen [m]. The

@@ -79,8 +79,9 @@ std::optional<double> HeldUp::bottomOf(const Faces& faces) const
   const auto ofSupport = overhang(support, faces);
   const FaceEstimate end = estimator_.endInBox();
   if (!ofSupport || end.isCut) return {};
+  const double clear = clearOfSupport(estimator_.range(), label_, options_);
   std::optional<double> bottom;
-  if (support - end.position >= clearOfSupport(estimator_.range(), label_, options_))
+  if (support - end.position >= clear)
   {
     if (std::abs(overhang(end.position, faces)->reach) >= std::abs(ofSupport->reach)) return {};
     bottom = end.position;
@@ -90,9 +91,8 @@ std::optional<double> HeldUp::bottomOf(const Faces& faces) const
   if (overhang(from, faces)->reach > kContradicts * ofSupport->sigma)
     if (const auto inBox = bottomInBox(from, faces)) bottom = inBox;
   if (!bottom) return {};
-  // What mostly goes on below its box stands, and the box is wrong.
-  const double between = 0.5 * (*bottom - estimator_.lowestSeen());
-  return estimator_.shareOfLinesBelow(between) < 0.5 ? bottom : std::nullopt;
+  // What mostly goes on below its box, and is not clear of the support, stands: the box is wrong.
+  return estimator_.shareOfLinesBelow(support - clear) < 0.5 ? bottom : std::nullopt;
 }
 
 FaceEstimate HeldUp::bottomAt(double position, const Faces& faces) const

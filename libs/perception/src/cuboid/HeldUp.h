@@ -19,9 +19,9 @@ class HeldUp
 
   /** Where the object ends, along its -z from the camera [m]. It is where the cloud ends clear of
    * the support, if the box ends there as well; and where the box ends, if that is too soon for
-   * this end and most of the cloud goes no farther. What usually stands on floors is not held up,
-   * nor is what something hides. \param faces With the support at the bottom where one is known.
-   * \return Nothing of what stands. */
+   * this end; unless most of the cloud goes on down to the support. What usually stands on floors
+   * is not held up, nor is what something hides. \param faces With the support at the bottom where
+   * one is known. \return Nothing of what stands. */
   std::optional<double> bottomOf(const Faces& faces) const;
 
   /** The bottom of the part above it. \param faces Of this part alone. */

@@ -38,7 +38,7 @@ std::optional<Doubles> JointBackEnd::doublesOf(
     const std::function<bool()>& shouldStop,
     const SlamResult& result) const
 {
-  // Odometry alone drifts more. What it does not explain needs no graph to be refused.
+  // Most runs have nothing that odometry alone explains, and need no graph.
   const OdometryDrift odometry(result.keyframes, noise);
   const auto sighted = sightedObjects(result);
   const auto doubles = findDoubles(sighted, odometry, labels_, places_, shouldStop);
@@ -49,7 +49,8 @@ std::optional<Doubles> JointBackEnd::doublesOf(
   std::set<std::size_t> nearest;
   for (const auto& object : sighted) nearest.insert(object.nearest);
   const auto drift = ViewedDrift::of(graph, {nearest.begin(), nearest.end()}, odometry);
-  return drift ? findDoubles(sighted, *drift, labels_, places_, shouldStop) : doubles;
+  if (!drift) return std::nullopt;
+  return findDoubles(sighted, *drift, labels_, places_, shouldStop);
 }
 
 std::optional<SlamResult> JointBackEnd::closedLoop(

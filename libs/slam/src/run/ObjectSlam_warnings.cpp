@@ -52,7 +52,7 @@ void ObjectSlam::warnOfThingsNotFoundAgain()
   if (missed >= kFewest && missed > found)
     warnOfInput(mrpt::format(
         "%zu of %zu objects that the robot came back to were gone: unless they were taken away, "
-        "poses and objects are doubtful (is the odometry late?)",
+        "poses and objects are doubtful",
         missed, found + missed));
 }
 

@@ -54,11 +54,11 @@ class ExistenceLooks
 
   LookCounts independent(const ExistenceOptions& options) const;
 
-  /** What the looks said after the first time that the object was not looked at for
+  /** What the looks say after the first time that the object was not looked at for
    * independentViewTime, when it was known before: its log-odds were above confirmLogOdds. Nothing
-   * when it was not, or nobody came back. */
-  std::optional<LookCounts> afterReturn(
-      double labelProbability, const ExistenceOptions& options) const;
+   * when it was not, or nobody came back. \return Log-odds, with p_D as the looks before tell it.
+   */
+  std::optional<double> afterReturn(double labelProbability, const ExistenceOptions& options) const;
   /** Mean distance from which the object was seen [m]; 0 before that. Where the camera is nearer, a
    * detector can find it, however small it is in the image. */
   double usualRange() const { return hits_ > 0 ? sumOfRanges_ / hits_ : 0; }

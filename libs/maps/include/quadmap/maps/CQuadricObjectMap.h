@@ -169,7 +169,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   struct Revisits
   {
     std::size_t found = 0;
-    std::size_t missed = 0;  //!< Those that most independent looks after that did not see
+    std::size_t missed = 0;  //!< Those of which later looks say that they are not there
   };
   Revisits revisits() const;
 
