@@ -34,12 +34,12 @@ double f1OfRoom(int seed, double noise)
 }
 
 // Perception must not count on the noise of one camera: with twice the noise of the room's sensor
-// it loses things that are far or thin, but not the room. Wanted is to lose none. Over rooms 2, 5,
-// 9 and 12 F1 falls from .96 to .91.
+// it loses things that are far or thin, but not the room. Wanted is to lose none. Over these rooms
+// F1 falls from .98 to .90.
 TEST(RandomRoom, TwiceTheNoiseOfDepthCostsFewObjects)
 {
   double usual = 0, twice = 0;
-  const std::vector<int> seeds = {2, 5};
+  const std::vector<int> seeds = {2, 5, 9, 12};
   for (const int seed : seeds)
   {
     usual += f1OfRoom(seed, 1) / static_cast<double>(seeds.size());
