@@ -11,11 +11,11 @@ using namespace quadmap;
 // on the way back do not overlap those on the way there, and are other ones until all are compared.
 TEST(LoopClosure, MakesDoublesOne)
 {
-  const auto [result, report] = driftingCorridor(320, 240, 10, 3);
+  const auto [result, report] = driftingCorridor(320, 240, 10, 9);
   EXPECT_GE(result.loops.closed, 1);
   EXPECT_FALSE(result.loops.open);
-  EXPECT_GE(report.objects->f1().value_or(0), 0.8) << "0.33 with the doubles";
-  EXPECT_LT(report.trajectory->ateRmse, 0.2) << "[m]; 0.92 with the doubles";
+  EXPECT_GE(report.objects->f1().value_or(0), 0.9) << "0.40 with the doubles";
+  EXPECT_LT(report.trajectory->ateRmse, 0.15) << "[m]; 0.45 with the doubles";
 }
 
 // The odometry drifts as far as from one room to the other. What the robot passes in between tells
