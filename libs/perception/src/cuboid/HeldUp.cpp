@@ -11,12 +11,6 @@
 
 namespace quadmap
 {
-namespace
-{
-constexpr double kContradicts = 3.0;  // standard deviations of the edge of a box
-
-}  // namespace
-
 /** How far an object reaches out of its box below, equation (8.12), and how well the edge of the
  * box is known there [m]. */
 struct HeldUp::Overhang
@@ -73,6 +67,7 @@ std::optional<double> HeldUp::bottomInBox(double from, const Faces& faces) const
 
 std::optional<double> HeldUp::bottomOf(const Faces& faces) const
 {
+  constexpr double kContradicts = 3.0;  // standard deviations: by chance one edge in 700
   if (faces[kBottom].worth.kind != FaceKind::Support || label_.support == UsualSupport::Floor)
     return {};
   const double support = faces[kBottom].position;

@@ -59,6 +59,7 @@ class ExistenceLooks
    * when it was not, or nobody came back. \return Log-odds, with p_D as the looks before tell it.
    */
   std::optional<double> afterReturn(double labelProbability, const ExistenceOptions& options) const;
+
   /** Mean distance from which the object was seen [m]; 0 before that. Where the camera is nearer, a
    * detector can find it, however small it is in the image. */
   double usualRange() const { return hits_ > 0 ? sumOfRanges_ / hits_ : 0; }
