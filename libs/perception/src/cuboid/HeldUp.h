@@ -1,7 +1,8 @@
 #pragma once
 
+#include <optional>
+
 #include "cuboid/FaceEstimator.h"
-#include "quadmap/perception/BoxEdges.h"
 
 namespace quadmap
 {
@@ -24,19 +25,21 @@ class HeldUp
    * one is known. \return Nothing of what stands. */
   std::optional<double> bottomOf(const Faces& faces) const;
 
-  /** The bottom of the part above it. \param faces Of this part alone. */
+  /** The bottom of the part above it, as bottomOf() gave it. \param faces Of this part alone. */
   FaceEstimate bottomAt(double position, const Faces& faces) const;
 
  private:
-  struct Overhang;
-
-  std::optional<Overhang> overhang(double bottom, const Faces& faces) const;
+  double overhang(double bottom, const Faces& faces) const;
   std::optional<double> bottomInBox(double from, const Faces& faces) const;
 
   const FaceEstimator& estimator_;
   const LabelProperties& label_;
   const PerceptionOptions& options_;
-  std::array<EdgeMeasurement, 4> edges_;  // their planes in the sensor's frame
+  /** The edge of the box that the bottom looks out over most, about the camera along the axes of
+   * the object. Nothing when it tells nothing of the bottom, as from straight above. Over another
+   * edge a side may reach out. */
+  std::optional<Plane> edge_obj_;
+  double edgeSigma_ = 0;  // [m]
 };
 
 /** The part of an object above a bottom, as HeldUp::bottomOf() gives it. Its mask, its box and what
