@@ -122,9 +122,14 @@ TEST(ExistenceLooks, TellWhatAReturnSaid)
 
   ExistenceLooks again = looks(often, 0.2);
   for (int i = 0; i < 3; ++i) again.add({placeAt(0.3 * i), 30.0 + i, i == 1}, kObject, kOptions);
-  const double p = (0.5 * 10 + 10) / (10 + 10);  // (13.3) of the first ten
+  // (13.3), of all looks before each, of which ten count.
+  const double seen1 = 10, seen2 = 10 * seen1 / 11, seen3 = 10 * (seen2 + 1) / 11;
+  const auto p = [](double seen) { return (0.5 * 10 + seen) / (10 + 10); };
   ASSERT_TRUE(after(again));
-  EXPECT_NEAR(*after(again), std::log(p / 0.1) + 2 * std::log((1 - p) / 0.9), 1e-9);
+  EXPECT_NEAR(
+      *after(again),
+      std::log((1 - p(seen1)) / 0.9) + std::log(p(seen2) / 0.1) + std::log((1 - p(seen3)) / 0.9),
+      1e-9);
 
   // What is seen in two looks of five is there, although most looks miss it.
   ExistenceLooks seldom;
@@ -135,6 +140,28 @@ TEST(ExistenceLooks, TellWhatAReturnSaid)
   ExistenceLooks doubtful = looks({true, false}, 0.2);
   doubtful.add({placeAt(0), 30, false}, kObject, kOptions);
   EXPECT_FALSE(after(doubtful)) << "it may never have been there";
+  for (int i = 0; i < 10; ++i) doubtful.add({placeAt(0.2 * i), 31.0 + i, true}, kObject, kOptions);
+  EXPECT_FALSE(after(doubtful)) << "nobody came back since it is known";
+  doubtful.add({placeAt(0), 90, false}, kObject, kOptions);
+  EXPECT_LT(after(doubtful).value_or(0), 0);
+}
+
+TEST(ExistenceLooks, TellWhatAReturnSaidLongAgo)
+{
+  ExistenceLooks walk = looks(std::vector<bool>(10, true), 0.2);
+  for (int i = 0; i < 1000; ++i)
+    walk.add({placeAt(0.2 * i), 30 + 0.1 * i, i % 4 == 0}, kObject, kOptions);
+  EXPECT_GT(walk.afterReturn(kOptions.detectionProbability, kOptions).value_or(-1), 0);
+}
+
+TEST(ExistenceLooks, KnowTheSizeThatAThingIsSeenWith)
+{
+  ExistenceLooks seen;
+  EXPECT_FALSE(seen.usualSize());
+  seen.add({placeAt(0), 0, true, 40}, kObject, kOptions);
+  seen.add({placeAt(1), 1, false}, kObject, kOptions);
+  seen.add({placeAt(2), 2, true, 10}, kObject, kOptions);
+  EXPECT_NEAR(seen.usualSize().value_or(0), 16, 1e-9);
 }
 
 TEST(ExistenceLooks, ForgottenVisitsLeaveWhatTheySaid)

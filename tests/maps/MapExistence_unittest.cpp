@@ -44,18 +44,47 @@ TEST(CQuadricObjectMap, WhatIsNotSeenAgainIsNotReported)
   EXPECT_EQ(map.objects().begin()->second.missCount, 30u);
 }
 
-TEST(CQuadricObjectMap, ASmallThingThatWasTakenAwayIsGoneAsFarAsItWasSeen)
+TEST(CQuadricObjectMap, ASmallThingThatWasTakenAwayIsGoneWhereItWouldBeAsLargeAsItWas)
 {
   // 21 px in the image, fewer than a detector is trusted to find of what it never saw.
   const std::vector<TrueObject> cup = {cuboid("cup", {0, 0, 0.8}, {0.1, 0.1, 0.1}, 0)};
-  for (const double rangeAfter : {2.4, 3.4})
+  struct
+  {
+    double range, focal;
+    bool isGone;
+  } const after[] = {
+      {2.4, 525,  true},
+      {3.4, 525, false},
+      {2.4, 262, false},
+      {1.2, 262,  true}
+  };
+  for (const auto& look : after)
   {
     CQuadricObjectMap map;
     SyntheticCamera camera(8);
     walkAround(map, camera, cup, 30, {0, 0, 0.8}, 2.5);
     ASSERT_EQ(map.confirmedObjects().size(), 1u);
-    walkAround(map, camera, {}, 60, {0, 0, 0.8}, rangeAfter);
-    EXPECT_EQ(map.confirmedObjects().empty(), rangeAfter < 2.5) << rangeAfter;
+    camera.camera.fx = camera.camera.fy = look.focal;  // another camera of the rig
+    walkAround(map, camera, {}, 60, {0, 0, 0.8}, look.range);
+    EXPECT_EQ(map.confirmedObjects().empty(), look.isGone) << look.range << ", " << look.focal;
+  }
+}
+
+TEST(CQuadricObjectMap, OneImageThatShowsNothingDoesNotMakeThingsMissing)
+{
+  const std::vector<TrueObject> chairs = {
+      cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0),
+      cuboid("chair", {0.9, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  for (const int blank : {1, 10})
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(8);
+    walkAround(map, camera, chairs, 20);
+    EXPECT_EQ(map.revisits().found + map.revisits().missed, 0u) << "nobody came back";
+    camera.wait(600);
+    walkAround(map, camera, {}, blank);
+    EXPECT_EQ(map.revisits().missed, blank == 1 ? 0u : 2u);
+    EXPECT_EQ(map.revisits().found, blank == 1 ? 2u : 0u);
   }
 }
 

@@ -68,6 +68,9 @@ class SyntheticCamera
         0};
   }
 
+  /** Takes no image where it would take so many, at ten a second. */
+  void wait(int images) { frame_ += images; }
+
   /** The pose with the noise of a motion-capture system or an odometry. */
   mrpt::poses::CPose3D disturbed(const mrpt::poses::CPose3D& T_map_sensor)
   {

@@ -46,7 +46,7 @@ void GoneObjects::look(
       pinholeFrom(boxes.cameraParams), T_map_robot + boxes.sensorPose, &boxes.coarseDepth};
   const double time = mrpt::Clock::toDouble(boxes.timestamp);
   for (const MapObject* object : missing_)
-    if (shouldBeVisible(object->object, frame, rules_.existence, 0))
+    if (shouldBeVisible(object->object, frame, rules_.existence, rules_.existence.minBoxSize))
       looks_[object->id].add(
           {positionOf(frame.T_map_sensor), time, isShown(*object, boxes, frame, objectOfBox)},
           object->object.center(), rules_.existence);

@@ -35,10 +35,10 @@ double ExistenceLooks::correlation(
 void ExistenceLooks::add(
     const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options)
 {
-  if (look.seen)
+  if (look.boxSize > 0)
   {
-    sumOfRanges_ += (look.camera - center).norm();
-    ++hits_;
+    sumOfInverseSizes_ += 1 / look.boxSize;
+    ++boxes_;
   }
   const double reach = independentReach(look.camera, center, options);
   const auto isOf = [&](const Visit& v)
@@ -84,9 +84,14 @@ void ExistenceLooks::take(
   const LookCounts counts = independent(visit, options);
   const ExistenceEvidence evidence(
       detectionProbability(known.recent, labelProbability, options), options.falseAlarmProbability);
-  known.logOdds = std::clamp(
-      known.logOdds + counts.seen * evidence.detection() + counts.missed * evidence.miss(),
-      -options.maxLogOdds, options.maxLogOdds);
+  const double said = counts.seen * evidence.detection() + counts.missed * evidence.miss();
+  const bool isBack = known.last && visit.first > *known.last + options.independentViewTime;
+  if (known.afterReturn)
+    *known.afterReturn += said;
+  else if (isBack && known.logOdds > options.confirmLogOdds)
+    known.afterReturn = said;
+  known.last = std::max(known.last.value_or(visit.last), visit.last);
+  known.logOdds = std::clamp(known.logOdds + said, -options.maxLogOdds, options.maxLogOdds);
   known.counts += counts;
   known.recent += counts;
   // How well it is seen changes with the place and the light, so that old looks are forgotten.
@@ -95,30 +100,29 @@ void ExistenceLooks::take(
   known.recent = {share * known.recent.seen, share * known.recent.missed};
 }
 
-std::optional<double> ExistenceLooks::afterReturn(
+ExistenceLooks::Known ExistenceLooks::known(
     double labelProbability, const ExistenceOptions& options) const
 {
   Known known = before_;
-  double last = visits_.empty() ? 0 : visits_.front().last;
-  auto visit = visits_.begin();
-  for (; visit != visits_.end() && visit->first <= last + options.independentViewTime; ++visit)
-  {
-    last = std::max(last, visit->last);
-    take(*visit, labelProbability, options, known);
-  }
-  if (visit == visits_.end() || known.logOdds <= options.confirmLogOdds) return std::nullopt;
-  LookCounts after;
-  for (; visit != visits_.end(); ++visit) after += independent(*visit, options);
-  const ExistenceEvidence evidence(
-      detectionProbability(known.recent, labelProbability, options), options.falseAlarmProbability);
-  return after.seen * evidence.detection() + after.missed * evidence.miss();
+  for (const Visit& visit : visits_) take(visit, labelProbability, options, known);
+  return known;
+}
+
+std::optional<double> ExistenceLooks::afterReturn(
+    double labelProbability, const ExistenceOptions& options) const
+{
+  return known(labelProbability, options).afterReturn;
+}
+
+std::optional<double> ExistenceLooks::usualSize() const
+{
+  if (boxes_ == 0) return std::nullopt;
+  return boxes_ / sumOfInverseSizes_;
 }
 
 double ExistenceLooks::logOdds(double labelProbability, const ExistenceOptions& options) const
 {
-  Known known = before_;
-  for (const Visit& visit : visits_) take(visit, labelProbability, options, known);
-  return known.logOdds;
+  return known(labelProbability, options).logOdds;
 }
 
 }  // namespace quadmap

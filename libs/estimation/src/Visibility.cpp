@@ -40,7 +40,7 @@ bool shouldBeVisible(
     const Ellipsoid& object,
     const FrameGeometry& frame,
     const ExistenceOptions& options,
-    double usualRange)
+    double minBoxSize)
 {
   if (!frame.depth || frame.depth->empty()) return false;
   const Ellipsoid object_optical = frame.toOptical(object);
@@ -53,8 +53,7 @@ bool shouldBeVisible(
   if (!box || !box->isValid()) return false;
   const ImageBox inside = box->clipped(frame.camera.width, frame.camera.height);
   if (inside.area() < options.visibleShare * box->area()) return false;
-  if (range > usualRange && std::min(inside.width(), inside.height()) < options.minBoxSize)
-    return false;
+  if (std::min(inside.width(), inside.height()) < minBoxSize) return false;
 
   return hiddenShare(*frame.depth, frame.camera, inside, nearestDepth - options.occluderMargin) <=
          options.maxHiddenShare;

@@ -19,8 +19,10 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
   for (auto& [id, object] : objects_)
   {
     if (touched.count(id) != 0) continue;
-    const double usualRange = object.looks.usualRange();
-    if (!shouldBeVisible(object.object, frame.geometry, existence, usualRange)) continue;
+    const double usualSize = object.looks.usualSize().value_or(existence.minBoxSize);
+    if (!shouldBeVisible(
+            object.object, frame.geometry, existence, std::min(existence.minBoxSize, usualSize)))
+      continue;
     if (isShownByAFreeBox(object, frame)) continue;
     ++object.missCount;
     object.looks.add(
@@ -48,7 +50,7 @@ std::map<std::string, LookCounts> CQuadricObjectMap::likelyLooksByLabel() const
 
 /** The detection probability that the others of its kind tell, (13.3): its own looks count in
  * ExistenceLooks already. */
-double CQuadricObjectMap::ofOthers(
+double CQuadricObjectMap::detectionProbabilityByOthers(
     const Entry& object, const std::map<std::string, LookCounts>& ofLabels) const
 {
   const auto& existence = insertionOptions.existence;
@@ -65,19 +67,24 @@ void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
   for (const ObjectId id : looked)
   {
     Entry& object = require(id);
-    object.existenceLogOdds = object.looks.logOdds(ofOthers(object, ofLabels), existence);
+    object.existenceLogOdds =
+        object.looks.logOdds(detectionProbabilityByOthers(object, ofLabels), existence);
     object.confirmed = isConfirmed(object);
   }
 }
 
 CQuadricObjectMap::Revisits CQuadricObjectMap::revisits() const
 {
+  const auto& existence = insertionOptions.existence;
+  // A hundred to one. It takes two looks, each of which says up to 90 to one, (13.3): all that one
+  // image should have shown is missing when it is blurred.
+  constexpr double kSurelyGone = 4.6;
   Revisits revisits;
   const auto ofLabels = likelyLooksByLabel();
   for (const auto& [id, object] : objects_)
     if (const auto after =
-            object.looks.afterReturn(ofOthers(object, ofLabels), insertionOptions.existence))
-      ++(*after < 0 ? revisits.missed : revisits.found);
+            object.looks.afterReturn(detectionProbabilityByOthers(object, ofLabels), existence))
+      ++(*after < -kSurelyGone ? revisits.missed : revisits.found);
   return revisits;
 }
 

@@ -92,7 +92,8 @@ void CQuadricObjectMap::joinOrStart(const Frame& frame, std::set<ObjectId>& touc
   for (std::size_t k = 0; k < frame.views.size(); ++k)
   {
     Decision& decision = lastDecisions_[k];
-    const WaitingList::Entry entry{frame.views[k], frame.time};
+    const ImageBox& box = frame.allBoxes[frame.boxes[k]];
+    const WaitingList::Entry entry{frame.views[k], frame.time, std::min(box.width(), box.height())};
     if (decision.object)
       addView(require(*decision.object), entry);
     else if (decision.startedObject)
@@ -132,8 +133,8 @@ void CQuadricObjectMap::addView(Entry& object, const WaitingList::Entry& entry)
   object.firstSeen = std::min(object.firstSeen, entry.time);
   object.lastSeen = std::max(object.lastSeen, entry.time);
   object.looks.add(
-      {entry.view.camera, mrpt::Clock::toDouble(entry.time), true}, entry.view.center,
-      insertionOptions.existence);
+      {entry.view.camera, mrpt::Clock::toDouble(entry.time), true, entry.boxSize},
+      entry.view.center, insertionOptions.existence);
   if (auto view = measurementOf(object, entry.view, labels(), insertionOptions.agreement))
     object.estimator.add(std::move(*view), insertionOptions.estimator);
 }

@@ -174,8 +174,8 @@ void describeMisses(InsertionOptions& o, OptionList& list)
       "missMaxRange", o.existence.maxRange, {0, 1000}, "m", "Misses count up to this distance.");
   list.number(
       "missMinBoxSize_px", o.existence.minBoxSize, {0, 10000}, "px of the actual image",
-      "Misses count for objects of at least this size in the image, and whatever its size from "
-      "where an object was usually seen in this run.");
+      "Misses count for objects of at least this size in the image, or of the size that they were "
+      "seen with in this run.");
   list.number(
       "missVisibleShare", o.existence.visibleShare, {kSmall, 1}, "",
       "Misses count when at least this share of the object is inside the image.");

@@ -43,26 +43,26 @@ class ExistenceLooks
     Eigen::Vector3d camera = Eigen::Vector3d::Zero();  //!< Where from, in the map [m]
     double time = 0;                                   //!< [s]
     bool seen = false;
+    double boxSize = 0;  //!< Smaller side of the box that showed it; 0 of a miss [px]
   };
 
   ExistenceLooks() = default;
   /** Starts from log-odds that earlier looks led to. Those looks are no longer known. */
-  explicit ExistenceLooks(double logOdds) : before_{logOdds, {}, {}} {}
+  explicit ExistenceLooks(double logOdds) : before_{logOdds, {}, {}, {}, {}} {}
 
   /** \param center Of the object [m]. */
   void add(const Look& look, const Eigen::Vector3d& center, const ExistenceOptions& options);
 
   LookCounts independent(const ExistenceOptions& options) const;
 
-  /** What the looks say after the first time that the object was not looked at for
-   * independentViewTime, when it was known before: its log-odds were above confirmLogOdds. Nothing
-   * when it was not, or nobody came back. \return Log-odds, with p_D as the looks before tell it.
-   */
+  /** What the looks say from the first return on: nobody had looked at the object for
+   * independentViewTime, and it was known before, its log-odds being above confirmLogOdds. Nothing
+   * when nobody returned to it. \return What they add to the log-odds (13.2), without bounds. */
   std::optional<double> afterReturn(double labelProbability, const ExistenceOptions& options) const;
 
-  /** Mean distance from which the object was seen [m]; 0 before that. Where the camera is nearer, a
-   * detector can find it, however small it is in the image. */
-  double usualRange() const { return hits_ > 0 ? sumOfRanges_ / hits_ : 0; }
+  /** Harmonic mean of the box sizes, as sizes go with one over the distance [px]; nothing before it
+   * was seen. Where it is larger a detector can find it, however small that is. */
+  std::optional<double> usualSize() const;
 
   /** Log-odds that the object exists, (13.2). \param labelProbability p_D of its label. */
   double logOdds(double labelProbability, const ExistenceOptions& options) const;
@@ -82,18 +82,21 @@ class ExistenceLooks
   {
     double logOdds = 0;
     LookCounts counts;
-    LookCounts recent;  // of these, as many as tell its own p_D
+    LookCounts recent;                  // of these, as many as tell its own p_D
+    std::optional<double> last;         // time of the last of them [s]
+    std::optional<double> afterReturn;  // log-odds
   };
 
   static double correlation(const Visit& of, const Visit& with, const ExistenceOptions& options);
   static LookCounts independent(const Visit& visit, const ExistenceOptions& options);
+  Known known(double labelProbability, const ExistenceOptions& options) const;
   static void take(
       const Visit& visit, double labelProbability, const ExistenceOptions& options, Known& known);
 
-  std::deque<Visit> visits_;  // in the order of their beginning
-  Known before_;              // of visits that are not kept any more
-  double sumOfRanges_ = 0;    // of the looks that saw it [m]
-  unsigned hits_ = 0;
+  std::deque<Visit> visits_;      // in the order of their beginning
+  Known before_;                  // of visits that are not kept any more
+  double sumOfInverseSizes_ = 0;  // of the boxes that showed it [1/px]
+  unsigned boxes_ = 0;
 };
 
 }  // namespace quadmap

@@ -39,10 +39,11 @@ struct ExistenceOptions
   double maxSizeSigma = 0.5;    //!< ... and the uncertainty of its half sizes below this [m], > 0
 
   double minRange = 0.5, maxRange = 4.5;  //!< Where misses count: centre to camera [m]
-  double minBoxSize = 30;                 //!< Both sides of the projected box [px]
-  double visibleShare = 0.4;              //!< Share of the projected box inside the image, (0, 1]
-  double occluderMargin = 0.1;            //!< Depth this much nearer than the object hides it [m]
-  double maxHiddenShare = 0.5;            //!< Of the box's cells hidden or without depth, [0, 1]
+  /** ... and of the projected box both sides are this, or what they were when it was seen [px] */
+  double minBoxSize = 30;
+  double visibleShare = 0.4;    //!< Share of the projected box inside the image, (0, 1]
+  double occluderMargin = 0.1;  //!< Depth this much nearer than the object hides it [m]
+  double maxHiddenShare = 0.5;  //!< Of the box's cells hidden or without depth, [0, 1]
 };
 
 /** One frame's camera in the map. */
@@ -57,13 +58,13 @@ struct FrameGeometry
 };
 
 /** Should a detector have been able to see the object in this frame? False when in doubt: nothing
- * is known of what hides it without depth. \param usualRange Up to this distance of the camera it
- * is large enough, as it was seen from there [m]; 0 when it was not seen before. */
+ * is known of what hides it without depth. \param minBoxSize Both sides of its projected box, when
+ * it is large enough [px]. */
 bool shouldBeVisible(
     const Ellipsoid& object,
     const FrameGeometry& frame,
     const ExistenceOptions& options,
-    double usualRange);
+    double minBoxSize);
 
 /** Box of the object's outline in the image: of the cuboid or the ellipsoid, whichever the shape
  * exponent is nearer to; not clipped. */

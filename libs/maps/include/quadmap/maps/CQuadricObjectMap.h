@@ -169,7 +169,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   struct Revisits
   {
     std::size_t found = 0;
-    std::size_t missed = 0;  //!< Those of which later looks say that they are not there
+    std::size_t missed = 0;  //!< Those that surely are not there, by the later looks
   };
   Revisits revisits() const;
 
@@ -336,7 +336,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   std::set<ObjectId> countMisses(const Frame& frame, const std::set<ObjectId>& touched);
   LookCounts likelyLooks(const Entry& object) const;
   std::map<std::string, LookCounts> likelyLooksByLabel() const;
-  double ofOthers(const Entry& object, const std::map<std::string, LookCounts>& ofLabels) const;
+  double detectionProbabilityByOthers(
+      const Entry& object, const std::map<std::string, LookCounts>& ofLabels) const;
   void judge(const std::set<ObjectId>& looked);
   /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
   bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;

@@ -27,6 +27,7 @@ class WaitingList
   {
     ObjectView view;
     mrpt::Clock::time_point time;
+    double boxSize = 0;  //!< Smaller side of its box [px]
   };
 
   /** Keeps the measurement, or returns (and forgets) all those that make an object together with
