@@ -110,24 +110,34 @@ TEST(GzInput, ReadsNoMoreThanItMay)
   EXPECT_EQ(errorOf([&] { readAll(2u << 20); }), "the file holds more than 2 MB");
 }
 
-TEST(GzInput, CountsWhatFollowsTheCompressedData)
+TEST(GzInput, TellsWhatFollowsTheCompressedData)
 {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> bytes(300000, 'x');  // more than the buffers hold
   const auto member = gzipMember(bytes, 1);
   const std::string part(member.begin(), member.end());
-  const auto behind = [&](const std::string& content)
+  const auto failure = [&](const std::string& content, std::uint64_t expected)
   {
-    const auto path = folder.write("x.gz", content);
-    GzInput file(path);
-    EXPECT_EQ(file.skipToEnd() % bytes.size(), 0u);
-    EXPECT_EQ(file.skipToEnd(), 0u);
-    return file.bytesBehind();
+    GzInput file(folder.write("x.gz", content));
+    const std::string error = errorOf([&] { file.skipToEnd(); });
+    EXPECT_EQ(file.getPosition(), expected);
+    return error;
   };
-  EXPECT_EQ(behind(part), 0u);
-  EXPECT_EQ(behind(part + part), 0u);
+  EXPECT_EQ(failure(part, bytes.size()), "");
+  EXPECT_EQ(failure(part + part, 2 * bytes.size()), "");
+  EXPECT_EQ(failure(std::string(bytes.begin(), bytes.end()), bytes.size()), "") << "as it is";
+  EXPECT_EQ(failure("", 0), "");
+  EXPECT_EQ(failure("\x1f", 1), "");
   for (const std::size_t more : {std::size_t{1}, std::size_t{8}, std::size_t{200000}})
     for (const char fill : {'\0', '\x1f', 'g'})
-      EXPECT_EQ(behind(part + part + std::string(more, fill)), more) << static_cast<int>(fill);
-  EXPECT_EQ(behind(std::string(bytes.begin(), bytes.end())), 0u) << "is not compressed";
+      EXPECT_EQ(
+          failure(part + part + std::string(more, fill), 2 * bytes.size()),
+          "the file is damaged (more than gzip wrote follows)")
+          << more << ' ' << static_cast<int>(fill);
+  std::string flipped = part + part;
+  flipped[part.size()] ^= 1;  // in the mark of the second member
+  EXPECT_EQ(failure(flipped, bytes.size()), "the file is damaged (more than gzip wrote follows)");
+  EXPECT_EQ(
+      failure(part + part.substr(0, 5), bytes.size()),
+      "the file is truncated (its compressed data ends early)");
 }

@@ -228,7 +228,7 @@ TEST(MapFiles, RefuseWhatIsNoWholeMap)
   wrong[file.substr(0, file.size() - 1)] = "truncated";  // all of the archive is there
   for (const std::string& more : {file, std::string("\n"), std::string(512, '\0')})
   {
-    wrong[file + more] = "follow the map";
+    wrong[file + more] = more == file ? "follow the map" : "follows";
     wrong[bytes + more] = "follow the map";
   }
   for (std::size_t at = 20; at < file.size(); at += file.size() / 40)

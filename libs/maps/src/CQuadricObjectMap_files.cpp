@@ -47,7 +47,7 @@ void readMap(GzInput& input, CQuadricObjectMap& map)
   input.setMostBytes(kMostStoredBytes);
   input.startRecord();
   mrpt::serialization::archiveFrom(input) >> map;
-  const std::uint64_t more = input.skipToEnd() + input.bytesBehind();  // checks the checksum, too
+  const std::uint64_t more = input.skipToEnd();  // checks the checksum, too
   if (more > 0) throw std::runtime_error(std::to_string(more) + " bytes follow the map");
 }
 

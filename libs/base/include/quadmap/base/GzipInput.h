@@ -1,17 +1,20 @@
 #pragma once
 
 #include <mrpt/io/CStream.h>
-#include <zlib.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace quadmap
 {
+class GzipDecoder;
+
 /** Reads a file, gzip-compressed or not. Unlike MRPT's stream it tells the clean end of a file from
- * a truncated or damaged one, and knows how much of the compressed file has been read. */
+ * a truncated or damaged one, or one that goes on with other bytes, and knows how much of the
+ * compressed file has been read. */
 class GzInput : public mrpt::io::CStream
 {
  public:
@@ -47,9 +50,6 @@ class GzInput : public mrpt::io::CStream
   /** Reads to the end, whatever is there. \return How many bytes that were.
    *  \exception std::runtime_error If the file is damaged. */
   std::uint64_t skipToEnd();
-  /** Bytes of the file behind its compressed data, of which reading it tells nothing; 0 for a file
-   *  that is not compressed. Reads the whole file once more. */
-  std::uint64_t bytesBehind() const;
   std::size_t Write(const void* buffer, std::size_t count) override;
   std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
   std::uint64_t getTotalBytesCount() const override { return fileBytes_; }
@@ -62,8 +62,7 @@ class GzInput : public mrpt::io::CStream
   void requireRoomFor(std::uint64_t count);
   std::size_t readAvailable(char* bytes, std::size_t count);
 
-  std::string path_;
-  gzFile file_ = nullptr;
+  std::unique_ptr<GzipDecoder> decoder_;
   std::uint64_t fileBytes_ = 0, position_ = 0, recordBytes_ = 0;
   std::uint64_t mostBytes_ = std::numeric_limits<std::uint64_t>::max();
   std::string head_, failure_;
