@@ -1,9 +1,15 @@
 #pragma once
 
+#include <fcntl.h>
 #include <mrpt/3rdparty/tclap/CmdLine.h>
 #include <mrpt/system/COutputLogger.h>
 #include <mrpt/system/string_utils.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -42,22 +48,44 @@ struct UsageError : std::runtime_error
   std::string command;  //!< Of a program with commands: whose --help helps; else empty
 };
 
-/** Runs a program: 0 when `body` returns (or what it returns, if it is an int), 2 for a UsageError,
- * 1 for every other exception, each with "program: message" on stderr. A signal that ends the
- * program leaves no temporary files. */
+/** A closed stream's number would be the first file's that is opened, and what is printed would go
+ * there. It is opened the wrong way round instead, so that using it fails. */
+inline void keepStandardStreamsApart()
+{
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (fcntl(stream, F_GETFD) < 0 &&
+        open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+      std::abort();
+}
+
+/** What was printed is a result, too. \exception std::runtime_error If it did not arrive. */
+inline void requirePrinted()
+{
+  errno = 0;
+  std::cout.flush();
+  const bool isWhole = std::fflush(stdout) == 0 && std::cout.good() && std::ferror(stdout) == 0;
+  if (isWhole) return;
+  const std::string why = errno ? std::string(": ") + std::strerror(errno) : "";
+  throw std::runtime_error("the standard output cannot be written" + why);
+}
+
+/** Runs a program: 0 when `body` returns (or what it returns, if it is an int) and what it printed
+ * has arrived, 2 for a UsageError, 1 for every other exception, each with "program: message" on
+ * stderr. A signal that ends the program leaves no temporary files. */
 template <typename F>
 int runMain(const char* program, F&& body) noexcept
 {
+  keepStandardStreamsApart();
   watchStopSignals();
   try
   {
+    int status = 0;
     if constexpr (std::is_same_v<std::invoke_result_t<F>, int>)
-      return body();
+      status = body();
     else
-    {
       body();
-      return 0;
-    }
+    requirePrinted();
+    return status;
   }
   catch (const UsageError& e)
   {
