@@ -141,6 +141,67 @@ CPose3D JointBackEnd::addKeyframe(
   return graph_.pose(pose);
 }
 
+/** What the boxes show of one object, visit by visit. */
+struct JointBackEnd::Visit
+{
+  std::vector<std::size_t> keyframes;
+  std::vector<Eigen::Vector3d> cameras;  // positions in the map [m]
+  std::vector<BoxMeasurement> views;
+};
+
+JointBackEnd::Visits JointBackEnd::visitsOf(
+    const BoxesOf& boxesOf, const SlamResult& result, Returns returns) const
+{
+  const auto window = static_cast<std::size_t>(options_.window);
+  Visits all;
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+  {
+    const CPose3D& T_map_robot = result.keyframes[k].T_map_robot;
+    const auto boxes = boxesOf(k);
+    if (!boxes) continue;
+    for (const auto& decision : result.map.match(*boxes, T_map_robot))
+    {
+      const MapObject* object = decision.object ? result.map.find(*decision.object) : nullptr;
+      if (!object) continue;
+      auto view = viewFor(*boxes, decision.box, T_map_robot, *object);
+      if (!view) continue;
+      auto& ofOne = all[object->id];
+      if (ofOne.empty() ||
+          (returns == Returns::FindOtherObjects && ofOne.back().keyframes.back() + window < k))
+        ofOne.emplace_back();
+      Visit& visit = ofOne.back();
+      visit.keyframes.push_back(k);
+      visit.cameras.push_back(positionOf(T_map_robot + boxes->sensorPose));
+      visit.views.push_back(std::move(*view));
+    }
+  }
+  return all;
+}
+
+void JointBackEnd::addVisits(
+    Visits all,
+    const CQuadricObjectMap& map,
+    const Priors& priors,
+    std::size_t firstPose,
+    FactorGraph& graph) const
+{
+  ObjectId other = all.empty() ? 0 : all.rbegin()->first + 1;
+  for (auto& [id, visits] : all)
+    for (Visit& visit : visits)
+    {
+      const MapObject& object = *map.find(id);
+      const ObjectId inGraph = &visit == &visits.front() ? id : other++;
+      graph.setObject(inGraph, object.object, labels_.properties(object.label()));
+      if (const auto prior = priors.find(id); prior != priors.end())
+        graph.setObjectPrior(inGraph, prior->second);
+      const auto shares = independentShares(visit.cameras, object.object.center(), existence_);
+      for (std::size_t i = 0; i < shares.size(); ++i) visit.views[i].weight *= shares[i];
+      shareEdgeErrors(visit.views);
+      for (std::size_t i = 0; i < shares.size(); ++i)
+        graph.addView(firstPose + visit.keyframes[i], inGraph, visit.views[i]);
+    }
+}
+
 FactorGraph JointBackEnd::globalGraph(
     const BoxesOf& boxesOf,
     const SlamResult& result,
@@ -148,12 +209,8 @@ FactorGraph JointBackEnd::globalGraph(
     FirstPose firstPose,
     Returns returns) const
 {
-  struct Seen
-  {
-    std::vector<std::size_t> poses;
-    std::vector<Eigen::Vector3d> cameras;
-    std::vector<BoxMeasurement> views;
-  };
+  if (returns == Returns::FindOtherObjects && !priors.empty())
+    throw std::invalid_argument("JointBackEnd: priors of objects that are others at each visit");
   FactorGraph graph(graphOptions(options_, estimator_, GraphScope::WholeRun));
   const bool mayTilt = priors.empty() && firstPose == FirstPose::FreeToTilt &&
                        options_.upSigma > 0 && result.odometry.source == PoseSource::Visual &&
@@ -161,47 +218,15 @@ FactorGraph JointBackEnd::globalGraph(
   if (!priors.empty()) graph.addPose(CPose3D());
   if (mayTilt) graph.addPose(result.keyframes.front().T_map_robot);
   const std::size_t first = graph.poses();
-  std::map<ObjectId, std::vector<Seen>> seenOf;
-  const auto window = static_cast<std::size_t>(options_.window);
-  for (std::size_t k = 0; k < result.keyframes.size(); ++k)
+  for (const Keyframe& keyframe : result.keyframes)
   {
-    const Keyframe& keyframe = result.keyframes[k];
     const std::size_t pose = graph.addPose(keyframe.T_map_robot);
     if (pose == first && mayTilt)
       graph.addKnownStep(0, pose, tiltOf(keyframe.T_map_robot, options_.upSigma));
     if (pose > first && keyframe.odometryStep)
       graph.addStep(pose - 1, pose, stiffAtRest(*keyframe.odometryStep));
-    const auto boxes = boxesOf(k);
-    if (!boxes) continue;
-    for (const auto& decision : result.map.match(*boxes, keyframe.T_map_robot))
-      if (const MapObject* object = decision.object ? result.map.find(*decision.object) : nullptr)
-        if (auto view = viewFor(*boxes, decision.box, keyframe.T_map_robot, *object))
-        {
-          auto& visits = seenOf[object->id];
-          if (visits.empty() ||
-              (returns == Returns::FindOtherObjects && visits.back().poses.back() + window < pose))
-            visits.emplace_back();
-          Seen& seen = visits.back();
-          seen.poses.push_back(pose);
-          seen.cameras.push_back(positionOf(keyframe.T_map_robot + boxes->sensorPose));
-          seen.views.push_back(std::move(*view));
-        }
   }
-  ObjectId other = seenOf.empty() ? 0 : seenOf.rbegin()->first + 1;
-  for (auto& [id, visits] : seenOf)
-    for (Seen& seen : visits)
-    {
-      const MapObject& object = *result.map.find(id);
-      const ObjectId inGraph = &seen == &visits.front() ? id : other++;
-      graph.setObject(inGraph, object.object, labels_.properties(object.label()));
-      if (const auto prior = priors.find(id); prior != priors.end())
-        graph.setObjectPrior(inGraph, prior->second);
-      const auto shares = independentShares(seen.cameras, object.object.center(), existence_);
-      for (std::size_t i = 0; i < shares.size(); ++i) seen.views[i].weight *= shares[i];
-      shareEdgeErrors(seen.views);
-      for (std::size_t i = 0; i < shares.size(); ++i)
-        graph.addView(seen.poses[i], inGraph, seen.views[i]);
-    }
+  addVisits(visitsOf(boxesOf, result, returns), result.map, priors, first, graph);
   return graph;
 }
 

@@ -74,8 +74,22 @@ class JointBackEnd : public BackEnd
     FindTheSameObjects,
     FindOtherObjects  // whatever was not seen for as long as the window
   };
+  struct Visit;
+  using Visits = std::map<ObjectId, std::vector<Visit>>;
+  /** Which views belong to which object, and to which visit. An object that returns find again has
+   * one visit. */
+  Visits visitsOf(const BoxesOf& boxesOf, const SlamResult& result, Returns returns) const;
+  /** Puts each visit into a graph as an object. The first one of an object has its id.
+   * \param firstPose That of the first keyframe. */
+  void addVisits(
+      Visits all,
+      const CQuadricObjectMap& map,
+      const Priors& priors,
+      std::size_t firstPose,
+      FactorGraph& graph) const;
   /** All poses and objects. With priors pose 0 is the map, and when the first pose is not fixed
-   * where that was so far; either makes pose k + 1 that of keyframe k. */
+   * where that was so far; either makes pose k + 1 that of keyframe k.
+   * \exception std::invalid_argument If objects that are others at each visit have priors. */
   FactorGraph globalGraph(
       const BoxesOf& boxesOf,
       const SlamResult& result,
