@@ -2,103 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <deque>
-#include <functional>
 #include <map>
-#include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "../obs/InstalledLabels.h"
-#include "quadmap/geometry/RotationVector.h"
+#include "SeenTwice.h"
 
 using namespace quadmap;
-using mrpt::poses::CPose3D;
 
 namespace
 {
-/** Position of a robot that goes along x and back, one keyframe each half metre [m]. */
-Eigen::Vector3d robotAt(std::size_t keyframe)
-{
-  constexpr std::size_t kLast = 40;
-  return {0.5 * static_cast<double>(std::min(keyframe, kLast - keyframe)), 0, 0};
-}
-
-/** Each step of that robot errs by 5 cm and 1 degree about the place where it ends, times a factor.
- * The sum goes over the steps that both things have in common. */
-class DriftOfItsSteps : public Drift
-{
- public:
-  explicit DriftOfItsSteps(double factor) : factor_(factor) {}
-
-  Eigen::Matrix3d covariance(const Moved& a, const Moved& b) const override
-  {
-    constexpr double kShift = 0.05, kTurn = 0.0173;  // [m], [rad]
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    const std::size_t last = std::min(a.again, b.again);
-    for (std::size_t k = std::max(a.before, b.before) + 1; k <= last; ++k)
-      sum += kShift * kShift * Eigen::Matrix3d::Identity() +
-             kTurn * kTurn * crossMatrix(a.place - robotAt(k)) *
-                 crossMatrix(b.place - robotAt(k)).transpose();
-    return factor_ * factor_ * sum;
-  }
-
- private:
-  double factor_;
-};
-
-/** What that robot sees: when it sets out and again when it is back. */
-class SeenTwice
-{
- public:
-  using Keyframes = std::set<std::size_t>;
-
-  /** An object that some keyframes saw. */
-  ObjectId add(const std::string& label, const Eigen::Vector3d& center, const Keyframes& by)
-  {
-    MapObject object;
-    object.id = static_cast<ObjectId>(objects_.size());
-    object.object =
-        Ellipsoid(CPose3D(center.x(), center.y(), center.z(), 0, 0, 0), {0.08, 0.08, 0.3});
-    object.covariance = 1e-4 * UprightCovariance::Identity();
-    object.labelCounts[label] = 10;
-    objects_.push_back(object);
-    seenBy_.push_back(by);
-    return object.id;
-  }
-
-  void addSighting(ObjectId id, std::size_t keyframe) { seenBy_.at(id).insert(keyframe); }
-
-  std::optional<Doubles> doubles(
-      double drift = 1, const std::function<bool()>& shouldStop = [] { return false; }) const
-  {
-    return findDoubles(
-        sighted(), DriftOfItsSteps(drift), labels(), ConstellationOptions(), shouldStop);
-  }
-
- private:
-  std::vector<SightedObject> sighted() const
-  {
-    std::vector<SightedObject> sighted;
-    for (const MapObject& object : objects_)
-    {
-      const Keyframes& by = seenBy_[object.id];
-      const auto distance = [&](std::size_t k)
-      { return (robotAt(k) - object.object.center()).norm(); };
-      const auto nearest = std::min_element(
-          by.begin(), by.end(),
-          [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-      sighted.push_back({&object, by, *nearest});
-    }
-    return sighted;
-  }
-
-  std::deque<MapObject> objects_;  // an object's id is its index
-  std::vector<Keyframes> seenBy_;
-};
-
 const SeenTwice::Keyframes kBefore = {0, 1, 2, 3}, kAgain = {36, 37, 38, 39};
 const Eigen::Vector3d kDrifted(0.3, 0.6, 0.2);  // [m]
 
@@ -189,14 +102,39 @@ TEST(Doubles, AreNotSearchedAfterAStop)
   addFour(run, {0, 0, 0}, kBefore);
   addFour(run, kDrifted, kAgain);
   int asked = 0;
-  ASSERT_TRUE(run.doubles(1, [&] { return ++asked < 0; }));
+  const auto candidates = run.candidates();
+  ASSERT_TRUE(run.doublesAmong(candidates, 1, [&] { return ++asked < 0; }));
   EXPECT_GE(asked, 4);
   for (const int last : {1, asked})
   {
     int now = 0;
-    EXPECT_FALSE(run.doubles(1, [&] { return ++now == last; })) << last;
+    EXPECT_FALSE(run.doublesAmong(candidates, 1, [&] { return ++now == last; })) << last;
     EXPECT_EQ(now, last) << "it goes on no further";
   }
+}
+
+TEST(Doubles, AreLookedForAmongTheCandidatesAlone)
+{
+  SeenTwice run;
+  addFour(run, {0, 0, 0}, kBefore);
+  addFour(run, kDrifted, kAgain);
+  auto candidates = run.candidates();
+  ASSERT_GE(candidates.size(), 4U);
+  const DoublesCandidate left = candidates.front();
+  candidates.erase(candidates.begin());
+  const auto doubles = run.doublesAmong(candidates);
+  ASSERT_TRUE(doubles);
+  const auto pairs = pairsOf(*doubles);
+  EXPECT_EQ(pairs.size(), 3U);
+  EXPECT_EQ(pairs.count(left.before->object->id), 0U);
+  EXPECT_FALSE(run.doublesAmong(candidates, 0.1)) << "a smaller drift explains none of them";
+}
+
+TEST(Doubles, HaveAHundredCandidatesAtMost)
+{
+  SeenTwice run;
+  addRow(run, 11, 11, 0);
+  EXPECT_EQ(run.candidates(5).size(), 100U);
 }
 
 TEST(Doubles, AreNoThingsThatOneImageShows)

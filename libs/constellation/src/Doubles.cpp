@@ -42,21 +42,37 @@ Eigen::Vector2d placeOf(const SightedObject& sighted)
 class DoublesFinder
 {
  public:
-  DoublesFinder(
-      const std::vector<SightedObject>& sighted,
-      const Drift& drift,
-      const LabelTable& labels,
-      const ConstellationOptions& options) :
-      labels_(labels), options_(options), sighted_(sighted), drift_(drift)
+  DoublesFinder(const DoublesRules& rules, const Drift& drift) :
+      labels_(rules.labels), options_(rules.options), sighted_(rules.sighted), drift_(drift)
   {
-    for (const auto& object : sighted_)
-      for (const double margin : {-kBoundsMargin, kBoundsMargin})
-        bounds_.extend((placeOf(object).array() + margin).matrix());
-    addCandidates();
   }
 
-  std::optional<Doubles> find(const std::function<bool()>& shouldStop) const
+  std::vector<Candidate> candidates() const
   {
+    Eigen::AlignedBox2d bounds;
+    for (const auto& object : sighted_)
+      for (const double margin : {-kBoundsMargin, kBoundsMargin})
+        bounds.extend((placeOf(object).array() + margin).matrix());
+    std::vector<DoublesHypothesis> explained;
+    for (const auto& before : sighted_)
+    {
+      std::optional<double> logDensity;
+      for (const auto& again : sighted_)
+      {
+        if (!mayBeOne(before, again)) continue;
+        if (!logDensity) logDensity = std::log(rivalsOf(before) / bounds.volume());
+        addExplained({&before, &again, *logDensity}, explained);
+      }
+    }
+    return likeliestOf(std::move(explained));
+  }
+
+  std::optional<Doubles> find(
+      const std::vector<Candidate>& candidates, const std::function<bool()>& shouldStop)
+  {
+    std::vector<DoublesHypothesis> explained;
+    for (const Candidate& candidate : candidates) addExplained(candidate, explained);
+    candidates_ = likeliestOf(std::move(explained));
     std::vector<DoublesHypothesis> found;
     for (const Candidate& seed : candidates_)
     {
@@ -88,31 +104,22 @@ class DoublesFinder
     return common >= options_.minPairs && 2 * common > most;
   }
 
-  /** Those that the drift explains each for itself, the most likely ones first. */
-  void addCandidates()
+  void addExplained(const Candidate& candidate, std::vector<DoublesHypothesis>& explained) const
   {
-    std::vector<DoublesHypothesis> single;
-    for (const auto& before : sighted_)
-    {
-      std::optional<double> density;
-      for (const auto& again : sighted_)
-      {
-        if (!mayBeOne(before, again)) continue;
-        if (!density) density = logDensity(before);
-        if (auto one = evaluated({
-                {&before, &again, *density}
-        });
-            one.distance2 <= kGate)
-          single.push_back(std::move(one));
-      }
-    }
+    DoublesHypothesis single = evaluated({candidate});
+    if (single.distance2 <= kGate) explained.push_back(std::move(single));
+  }
+
+  /** \param single Of one candidate each. */
+  static std::vector<Candidate> likeliestOf(std::vector<DoublesHypothesis> single)
+  {
     std::stable_sort(
         single.begin(), single.end(),
         [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
-    if (single.size() > kMostCandidates)
-      single.erase(single.begin() + kMostCandidates, single.end());
-    for (const DoublesHypothesis& hypothesis : single)
-      candidates_.push_back(hypothesis.pairs.front());
+    std::vector<Candidate> likeliest;
+    for (std::size_t i = 0; i < std::min(single.size(), kMostCandidates); ++i)
+      likeliest.push_back(single[i].pairs.front());
+    return likeliest;
   }
 
   bool mayBeOne(const SightedObject& before, const SightedObject& again) const
@@ -124,13 +131,13 @@ class DoublesFinder
            !wereSeenTogether(before, again);
   }
 
-  double logDensity(const SightedObject& of) const
+  /** Number of things with such a label, itself among them. */
+  double rivalsOf(const SightedObject& sighted) const
   {
-    const auto rivals = std::count_if(
+    return static_cast<double>(std::count_if(
         sighted_.begin(), sighted_.end(),
         [&](const auto& other)
-        { return haveOneLabel(*of.object, *other.object, labels_, options_); });
-    return std::log(static_cast<double>(rivals) / bounds_.volume());
+        { return haveOneLabel(*sighted.object, *other.object, labels_, options_); }));
   }
 
   /** The candidate, and those that agree with it, the most telling one first. */
@@ -238,7 +245,6 @@ class DoublesFinder
   const ConstellationOptions& options_;
   const std::vector<SightedObject>& sighted_;
   const Drift& drift_;
-  Eigen::AlignedBox2d bounds_;  //!< Of the map [m]
   std::vector<Candidate> candidates_;
 };
 
@@ -249,14 +255,18 @@ Eigen::Vector3d comparedPoint(const MapObject& object)
   return object.object.center() + object.object.semiAxes().z() * Eigen::Vector3d::UnitZ();
 }
 
+std::vector<DoublesCandidate> doublesCandidates(const DoublesRules& rules, const Drift& drift)
+{
+  return DoublesFinder(rules, drift).candidates();
+}
+
 std::optional<Doubles> findDoubles(
-    const std::vector<SightedObject>& sighted,
+    const DoublesRules& rules,
+    const std::vector<DoublesCandidate>& candidates,
     const Drift& drift,
-    const LabelTable& labels,
-    const ConstellationOptions& options,
     const std::function<bool()>& shouldStop)
 {
-  return DoublesFinder(sighted, drift, labels, options).find(shouldStop);
+  return DoublesFinder(rules, drift).find(candidates, shouldStop);
 }
 
 }  // namespace quadmap

@@ -8,30 +8,17 @@
 
 namespace quadmap::doubles
 {
-/** Two objects that may be one thing. */
-struct Candidate
-{
-  const SightedObject *before = nullptr, *again = nullptr;
-  double logDensity = 0;  //!< Of things with this label [ln 1/m^2]
+using Candidate = DoublesCandidate;
 
-  Eigen::Vector3d gap() const
-  {
-    return comparedPoint(*again->object) - comparedPoint(*before->object);
-  }
-  Drift::Moved moved() const
-  {
-    return {comparedPoint(*again->object), before->nearest, again->nearest};
-  }
-  bool isSame(const Candidate& other) const
-  {
-    return before == other.before && again == other.again;
-  }
-  bool shares(const Candidate& other) const
-  {
-    return before == other.before || again == other.again || before == other.again ||
-           again == other.before;
-  }
-};
+inline bool areSame(const Candidate& a, const Candidate& b)
+{
+  return a.before == b.before && a.again == b.again;
+}
+
+inline bool haveCommon(const Candidate& a, const Candidate& b)
+{
+  return a.before == b.before || a.again == b.again || a.before == b.again || a.again == b.before;
+}
 
 /** Candidates that are taken for true together. */
 struct DoublesHypothesis
@@ -43,12 +30,12 @@ struct DoublesHypothesis
   bool shares(const Candidate& candidate) const
   {
     return std::any_of(
-        pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.shares(candidate); });
+        pairs.begin(), pairs.end(), [&](const auto& pair) { return haveCommon(pair, candidate); });
   }
   bool has(const Candidate& candidate) const
   {
     return std::any_of(
-        pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.isSame(candidate); });
+        pairs.begin(), pairs.end(), [&](const auto& pair) { return areSame(pair, candidate); });
   }
   /** Takes a thing of the other one for something else. */
   bool contradicts(const DoublesHypothesis& other) const

@@ -136,7 +136,8 @@ std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
   return marginals;
 }
 
-std::optional<Eigen::MatrixXd> GraphProblem::jointMarginal(const std::vector<std::size_t>& poses)
+std::optional<Eigen::MatrixXd> GraphProblem::jointMarginal(
+    const std::vector<std::size_t>& poses, const std::function<bool()>& shouldStop)
 {
   const auto at = [](std::size_t i) { return 6 * static_cast<Eigen::Index>(i); };
   const NormalMatrix normal = normalMatrix(kLooseSigma, kLooseSigma);
@@ -148,6 +149,7 @@ std::optional<Eigen::MatrixXd> GraphProblem::jointMarginal(const std::vector<std
     return std::nullopt;
   for (std::size_t c = 0; c < poses.size(); ++c)
   {
+    if (shouldStop()) return std::nullopt;
     const auto column = normal.poseAt.find(poses[c]);
     if (column == normal.poseAt.end()) continue;
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(normal.H.rows(), 6);
@@ -170,9 +172,10 @@ std::vector<Eigen::Matrix<double, 6, 6>> FactorGraph::poseMarginals()
   return GraphProblem(*this, 1, false).poseMarginals();
 }
 
-std::optional<Eigen::MatrixXd> FactorGraph::jointMarginal(const std::vector<std::size_t>& poses)
+std::optional<Eigen::MatrixXd> FactorGraph::jointMarginal(
+    const std::vector<std::size_t>& poses, const std::function<bool()>& shouldStop)
 {
-  return GraphProblem(*this, 1, false).jointMarginal(poses);
+  return GraphProblem(*this, 1, false).jointMarginal(poses, shouldStop);
 }
 
 std::map<ObjectId, Eigen::MatrixXd> FactorGraph::objectMarginals()

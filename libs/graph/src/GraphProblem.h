@@ -31,7 +31,8 @@ class GraphProblem
   FactorGraph::Summary solve();
   FactorGraph::Marginals marginals(bool withObjects);
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
-  std::optional<Eigen::MatrixXd> jointMarginal(const std::vector<std::size_t>& poses);
+  std::optional<Eigen::MatrixXd> jointMarginal(
+      const std::vector<std::size_t>& poses, const std::function<bool()>& shouldStop);
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
   FactorGraph::WindowFit windowFit(std::pair<std::size_t, std::size_t> steps);
   StepFit stepFit();

@@ -78,9 +78,11 @@ class ThereAndBack
 
   std::optional<Doubles> doubles() const
   {
-    return findDoubles(
-        sightedObjects(result_), OdometryDrift(result_.keyframes, {}), labels(),
-        ConstellationOptions(), [] { return false; });
+    const auto sighted = sightedObjects(result_);
+    const ConstellationOptions options;
+    const DoublesRules rules{sighted, labels(), options};
+    const OdometryDrift drift(result_.keyframes, {});
+    return findDoubles(rules, doublesCandidates(rules, drift), drift, [] { return false; });
   }
 
   SlamResult& result() { return result_; }

@@ -12,6 +12,7 @@ using mrpt::poses::CPose3DPDFGaussian;
 namespace
 {
 const StepNoise kTold{2, 3};
+const auto kNeverStop = [] { return false; };
 
 FactorGraph graphAlong(const std::vector<Keyframe>& keyframes)
 {
@@ -38,7 +39,7 @@ TEST(ViewedDrift, OfStepsAloneIsThatOfTheOdometry)
   const auto keyframes = bentDrive();
   FactorGraph graph = graphAlong(keyframes);
   const OdometryDrift odometry(keyframes, kTold);
-  const auto drift = ViewedDrift::of(graph, {8, 1, 3, 6}, odometry);
+  const auto drift = ViewedDrift::of(graph, {8, 1, 3, 6}, odometry, kNeverStop);
   ASSERT_TRUE(drift);
   for (const auto& [a, b] :
        {std::pair(kOne, kOne), std::pair(kOther, kOther), std::pair(kOne, kOther)})
@@ -58,7 +59,7 @@ TEST(ViewedDrift, IsLessWhereMoreIsKnown)
   for (int i = 0; i < 6; ++i) seen.cov(i, i) = 1e-7;
   graph.addKnownStep(2, 6, seen);
   const OdometryDrift odometry(keyframes, kTold);
-  const auto drift = ViewedDrift::of(graph, {1, 3, 6, 8}, odometry);
+  const auto drift = ViewedDrift::of(graph, {1, 3, 6, 8}, odometry, kNeverStop);
   ASSERT_TRUE(drift);
   const Eigen::Vector3d known = drift->covariance(kOne, kOne).diagonal(),
                         claimed = odometry.covariance(kOne, kOne).diagonal();
@@ -71,5 +72,18 @@ TEST(ViewedDrift, IsUnknownWherePosesAreNotJoined)
   const auto keyframes = bentDrive();
   FactorGraph graph = graphAlong(keyframes);
   graph.addPose(CPose3D());
-  EXPECT_FALSE(ViewedDrift::of(graph, {1, 3}, OdometryDrift(keyframes, kTold)));
+  EXPECT_FALSE(ViewedDrift::of(graph, {1, 3}, OdometryDrift(keyframes, kTold), kNeverStop));
+}
+
+TEST(ViewedDrift, IsNotComputedAfterAStop)
+{
+  const auto keyframes = bentDrive();
+  FactorGraph graph = graphAlong(keyframes);
+  const OdometryDrift odometry(keyframes, kTold);
+  for (const int last : {1, 4})
+  {
+    int now = 0;
+    EXPECT_FALSE(ViewedDrift::of(graph, {1, 3, 6, 8}, odometry, [&] { return ++now == last; }));
+    EXPECT_EQ(now, last) << "it goes on no further";
+  }
 }

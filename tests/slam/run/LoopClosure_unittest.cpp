@@ -28,9 +28,12 @@ TEST(LoopClosure, LeavesRoomsFurnishedAlikeTwo)
   EXPECT_EQ(result.loops.closed, 0);
   EXPECT_LT(report.trajectory->ateRmse, 0.3) << "[m]; 0.67 with one room for both";
   const OdometryDrift odometry(result.keyframes, result.correction->stepNoise.atLeastClaimed());
-  EXPECT_TRUE(findDoubles(
-      sightedObjects(result), odometry, LabelTable::installed(), ConstellationOptions(),
-      [] { return false; }))
+  const auto sighted = sightedObjects(result);
+  const auto labels = LabelTable::installed();
+  const ConstellationOptions options;
+  const DoublesRules rules{sighted, labels, options};
+  EXPECT_TRUE(
+      findDoubles(rules, doublesCandidates(rules, odometry), odometry, [] { return false; }))
       << "the odometry alone would allow it";
 }
 

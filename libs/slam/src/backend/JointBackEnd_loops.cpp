@@ -41,16 +41,17 @@ std::optional<Doubles> JointBackEnd::doublesOf(
   // Most runs have nothing that odometry alone explains, and need no graph.
   const OdometryDrift odometry(result.keyframes, noise);
   const auto sighted = sightedObjects(result);
-  const auto doubles = findDoubles(sighted, odometry, labels_, places_, shouldStop);
-  if (!doubles) return std::nullopt;
+  const DoublesRules rules{sighted, labels_, places_};
+  const auto candidates = doublesCandidates(rules, odometry);
+  if (!findDoubles(rules, candidates, odometry, shouldStop)) return std::nullopt;
   FactorGraph graph =
       globalGraph(boxesOf, result, Priors(), FirstPose::Fixed, Returns::FindOtherObjects);
   graph.setStepNoise(noise);
   std::set<std::size_t> nearest;
-  for (const auto& object : sighted) nearest.insert(object.nearest);
-  const auto drift = ViewedDrift::of(graph, {nearest.begin(), nearest.end()}, odometry);
+  for (const auto& pair : candidates) nearest.insert({pair.before->nearest, pair.again->nearest});
+  const auto drift = ViewedDrift::of(graph, {nearest.begin(), nearest.end()}, odometry, shouldStop);
   if (!drift) return std::nullopt;
-  return findDoubles(sighted, *drift, labels_, places_, shouldStop);
+  return findDoubles(rules, candidates, *drift, shouldStop);
 }
 
 std::optional<SlamResult> JointBackEnd::closedLoop(

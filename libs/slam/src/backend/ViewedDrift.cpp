@@ -20,9 +20,12 @@ Eigen::Matrix<double, 3, 6> moveOf(const Eigen::Vector3d& place, const Eigen::Ve
 }  // namespace
 
 std::optional<ViewedDrift> ViewedDrift::of(
-    FactorGraph& graph, const std::vector<std::size_t>& keyframes, const OdometryDrift& odometry)
+    FactorGraph& graph,
+    const std::vector<std::size_t>& keyframes,
+    const OdometryDrift& odometry,
+    const std::function<bool()>& shouldStop)
 {
-  auto joint = graph.jointMarginal(keyframes);
+  auto joint = graph.jointMarginal(keyframes, shouldStop);
   if (!joint) return std::nullopt;
   ViewedDrift drift(odometry);
   drift.joint_ = std::move(*joint);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -21,9 +22,13 @@ class ViewedDrift : public Drift
  public:
   /** \param graph Its pose k is that of keyframe k.
    * \param keyframes All that covariance() may be asked for, each once.
-   * \return Nothing when something is not determined at all. */
+   * \param shouldStop Asked for each keyframe.
+   * \return Nothing when something is not determined at all, and after a yes to shouldStop(). */
   static std::optional<ViewedDrift> of(
-      FactorGraph& graph, const std::vector<std::size_t>& keyframes, const OdometryDrift& odometry);
+      FactorGraph& graph,
+      const std::vector<std::size_t>& keyframes,
+      const OdometryDrift& odometry,
+      const std::function<bool()>& shouldStop);
 
   Eigen::Matrix3d covariance(const Moved& a, const Moved& b) const override;
 

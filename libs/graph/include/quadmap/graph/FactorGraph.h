@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -107,8 +108,11 @@ class FactorGraph
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
   /** Joint covariance of the increments of some poses, six rows each in the order given; those of
    * pose 0 are zero.
-   * \return Nothing when something is not determined at all. */
-  std::optional<Eigen::MatrixXd> jointMarginal(const std::vector<std::size_t>& poses);
+   * \param shouldStop Asked for each of these poses.
+   * \return Nothing when something is not determined at all, and after a yes to shouldStop(). */
+  std::optional<Eigen::MatrixXd> jointMarginal(
+      const std::vector<std::size_t>& poses,
+      const std::function<bool()>& shouldStop = [] { return false; });
   /** Covariances of the objects' increments, given all poses. */
   std::map<ObjectId, Eigen::MatrixXd> objectMarginals();
 
