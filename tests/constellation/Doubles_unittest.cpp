@@ -80,6 +80,7 @@ TEST(Doubles, AreNotFoundBeyondTheDrift)
   SeenTwice run;
   addFour(run, {0, 0, 0}, kBefore);
   addFour(run, kDrifted, kAgain);
+  EXPECT_TRUE(run.candidates(0.1).empty());
   EXPECT_FALSE(run.doubles(0.1));
 }
 
