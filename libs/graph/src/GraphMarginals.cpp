@@ -1,6 +1,7 @@
 #include <ceres/crs_matrix.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "GraphProblem.h"
@@ -14,7 +15,7 @@ namespace
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /** Loose prior of each object when covariances of poses are asked for. It keeps H invertible and
- * says nothing about the poses. */
+ * says nothing about poses that are joined to pose 0. */
 constexpr double kLooseSigma = 100;  // [m], [rad]
 
 /** Information that is added to every unknown, so that no pivot is zero. */
@@ -55,6 +56,28 @@ SparseMatrix squaredJacobian(ceres::Problem& problem, ceres::Problem::EvaluateOp
   }
   return H;
 }
+
+/** Which poses are joined, directly or by others. */
+class JoinedPoses
+{
+ public:
+  explicit JoinedPoses(std::size_t count) : next_(count)
+  {
+    std::iota(next_.begin(), next_.end(), std::size_t{0});
+  }
+
+  void join(std::size_t a, std::size_t b) { next_[groupOf(a)] = groupOf(b); }
+
+  /** One of the poses that this one is joined to: the same for all of them. */
+  std::size_t groupOf(std::size_t pose)
+  {
+    while (next_[pose] != pose) pose = next_[pose] = next_[next_[pose]];
+    return pose;
+  }
+
+ private:
+  std::vector<std::size_t> next_;  // of each pose, on the way to that one
+};
 
 /** Rows and columns [first, first + size) of H^-1. */
 Eigen::MatrixXd marginalBlock(
@@ -105,6 +128,21 @@ GraphProblem::NormalMatrix GraphProblem::normalMatrix(double positionSigma, doub
   return normal;
 }
 
+bool GraphProblem::isInOnePiece() const
+{
+  JoinedPoses joined(graph_.poses_.size());
+  for (const auto& steps : graph_.stepsByPose_)
+    for (const auto& step : steps) joined.join(step.from, step.to);
+  for (const auto& [id, views] : views_)
+  {
+    for (const auto& view : views) joined.join(view.first, views.front().first);
+    if (graph_.objects_.at(id).prior) joined.join(0, views.front().first);
+  }
+  for (std::size_t k = 1; k < graph_.poses_.size(); ++k)
+    if (joined.groupOf(k) != joined.groupOf(0)) return false;
+  return true;
+}
+
 FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
 {
   FactorGraph::Marginals result;
@@ -125,9 +163,9 @@ FactorGraph::Marginals GraphProblem::marginals(bool withObjects)
 std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
 {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  if (!isInOnePiece()) return {};
   std::vector<Matrix6> marginals(graph_.poses_.size(), Matrix6::Zero());
   const NormalMatrix normal = normalMatrix(kLooseSigma, kLooseSigma);
-  if (normal.poseAt.size() + 1 < marginals.size()) return {};  // nothing says where the others are
   if (normal.poseAt.empty()) return marginals;
   const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);
   if (factorised.info() != Eigen::Success || factorised.vectorD().minCoeff() <= 0) return {};
@@ -139,9 +177,9 @@ std::vector<Eigen::Matrix<double, 6, 6>> GraphProblem::poseMarginals()
 std::optional<Eigen::MatrixXd> GraphProblem::jointMarginal(
     const std::vector<std::size_t>& poses, const std::function<bool()>& shouldStop)
 {
+  if (!isInOnePiece()) return std::nullopt;
   const auto at = [](std::size_t i) { return 6 * static_cast<Eigen::Index>(i); };
   const NormalMatrix normal = normalMatrix(kLooseSigma, kLooseSigma);
-  if (normal.poseAt.size() + 1 < graph_.poses_.size()) return std::nullopt;
   Eigen::MatrixXd joint = Eigen::MatrixXd::Zero(at(poses.size()), at(poses.size()));
   if (normal.poseAt.empty()) return joint;
   const Eigen::SimplicialLDLT<SparseMatrix> factorised(normal.H);

@@ -46,6 +46,9 @@ class GraphProblem
     std::map<std::size_t, Eigen::Index> poseAt;
     std::map<ObjectId, Eigen::Index> objectAt;
   };
+  /** Do steps and views of common objects join each pose to pose 0, directly or by others? What is
+   * known of an object from elsewhere joins it to pose 0, too: that is where it was told. */
+  bool isInOnePiece() const;
   /** \param positionSigma, angleSigma Of each object from elsewhere [m], [rad]. */
   NormalMatrix normalMatrix(double positionSigma, double angleSigma);
   /** Rows and columns of H^-1 from these on, of two poses. */

@@ -23,7 +23,8 @@ class ViewedDrift : public Drift
   /** \param graph Its pose k is that of keyframe k.
    * \param keyframes All that covariance() may be asked for, each once.
    * \param shouldStop Asked for each keyframe.
-   * \return Nothing when something is not determined at all, and after a yes to shouldStop(). */
+   * \return Nothing when the graph does not join each pose to pose 0 (FactorGraph::jointMarginal),
+   * or after a yes to shouldStop(). */
   static std::optional<ViewedDrift> of(
       FactorGraph& graph,
       const std::vector<std::size_t>& keyframes,

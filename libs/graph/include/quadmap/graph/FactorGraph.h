@@ -103,13 +103,14 @@ class FactorGraph
   Marginals marginals(std::size_t firstFree, bool withObjects);
   /** Covariances of the increments of all poses (GraphState.h), that of pose 0 being zero. It takes
    * about as long as one iteration of optimise().
-   * \return Nothing when something is not determined at all: a pose that nothing joins to others.
-   */
+   * \return Nothing when a pose is not joined to pose 0: by steps, by views of common objects or by
+   * objects with a prior, directly or by other poses. */
   std::vector<Eigen::Matrix<double, 6, 6>> poseMarginals();
   /** Joint covariance of the increments of some poses, six rows each in the order given; those of
    * pose 0 are zero.
    * \param shouldStop Asked for each of these poses.
-   * \return Nothing when something is not determined at all, and after a yes to shouldStop(). */
+   * \return Nothing when any pose is not joined to pose 0, as above, or after a yes to
+   * shouldStop(). */
   std::optional<Eigen::MatrixXd> jointMarginal(
       const std::vector<std::size_t>& poses,
       const std::function<bool()>& shouldStop = [] { return false; });
@@ -119,7 +120,7 @@ class FactorGraph
   /** Covariances of the upright objects' increments relative to the trajectory as a whole, (16.18)
    * of doc/mathematics.md: the poses err, too, but a motion of everything together is no error of a
    * map. \param firstPose The first one of the trajectory.
-   * \return Nothing when something is not determined at all. */
+   * \return Nothing when no pose is free or the normal matrix cannot be factorised. */
   std::map<ObjectId, UprightCovariance> alignedObjectMarginals(std::size_t firstPose);
 
   /** What a window says of its last pose and of the odometry, at the present estimate. Both follow
@@ -135,7 +136,7 @@ class FactorGraph
    * \exception std::runtime_error When the normal matrix cannot be factorised. */
   WindowFit windowFit(std::size_t firstFree, std::pair<std::size_t, std::size_t> steps);
   /** How all steps agree with all else, with all poses free.
-   * \return Zeros when something is not determined at all. */
+   * \return Zeros when no pose is free or the normal matrix cannot be factorised. */
   StepFit stepFit();
 
   /** How much the views of one pose know of the relative pose of one object. */
