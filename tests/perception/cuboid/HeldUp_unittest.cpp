@@ -73,6 +73,18 @@ TEST(HeldUp, AScreenEndsWhereItsPanelDoes)
   }
 }
 
+TEST(HeldUp, AnEndThatItsBoxContradictsIsKnownNoBetter)
+{
+  const SyntheticFrame frame = monitorOnTable();
+  constexpr double kRange = 1.7;  // of the panel [m]
+  for (const double loose_px : {0.0, 4.0, 8.0})
+  {
+    const Ends end = endsOf(frame, {panel(frame, "tv", loose_px)});
+    EXPECT_EQ(end.kind, FaceKind::Measured) << end.reason;
+    EXPECT_GT(end.sigma, 0.8 * loose_px * kRange / frame.camera.fy()) << loose_px;
+  }
+}
+
 TEST(HeldUp, ABoxDownToTheSupportMeansWhatStandsOnIt)
 {
   const SyntheticFrame frame = monitorOnTable();

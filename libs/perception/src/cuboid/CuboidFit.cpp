@@ -183,7 +183,8 @@ class CuboidFitter
       faces[kBottom] = hold.bottomAt(*heldUp, faces);
     else if (const auto bottom = hold.bottomOf(faces))
     {
-      // What is below is the stand's, and would tell of the object's sides.
+      // What is below is the stand's, and would tell of the object's sides. When it is most of what
+      // is there, the box was not drawn around what it holds.
       const ObjectCloud part = partAbove(*bottom, up, object);
       if (2 * part.points.size() > object.points.size()) return fit(part, bottom);
     }

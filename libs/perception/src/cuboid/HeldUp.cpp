@@ -48,14 +48,14 @@ double HeldUp::overhang(double bottom, const Faces& faces) const
 std::optional<double> HeldUp::bottomInBox(double from, const Faces& faces) const
 {
   constexpr int kHalvings = 20;  // to a millionth of the height
-  double reachesOut = from, isInside = 0.5 * (from - faces[kTop].position);
-  if (overhang(isInside, faces) > 0) return {};
+  double outside = from, inside = 0.5 * (from - faces[kTop].position);
+  if (overhang(inside, faces) > 0) return {};
   for (int i = 0; i < kHalvings; ++i)
   {
-    const double middle = 0.5 * (reachesOut + isInside);
-    (overhang(middle, faces) > 0 ? reachesOut : isInside) = middle;
+    const double middle = 0.5 * (outside + inside);
+    (overhang(middle, faces) > 0 ? outside : inside) = middle;
   }
-  return isInside;
+  return inside;
 }
 
 std::optional<double> HeldUp::bottomOf(const Faces& faces) const
