@@ -4,7 +4,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <chrono>
-#include <filesystem>
 #include <future>
 #include <optional>
 #include <stdexcept>
@@ -13,7 +12,7 @@
 #include "quadmap/base/GzipStream.h"
 #include "quadmap/detection/FrameDetection.h"
 #include "quadmap/review/FramePicture.h"
-#include "quadmap/review/SceneRenderer.h"
+#include "quadmap/review/FramePictureFolder.h"
 #include "quadmap/sensors/RawlogSource.h"
 
 namespace quadmap
@@ -42,7 +41,7 @@ class DetectRun
       start_(std::chrono::steady_clock::now())
   {
     source_.sendWarningsTo(request.onWarning);
-    if (!request.pictures.empty()) std::filesystem::create_directories(request.pictures);
+    if (!request.pictures.empty()) pictures_.emplace(request.pictures);
   }
 
   DetectSummary run()
@@ -55,6 +54,7 @@ class DetectRun
       request_.onProgress(read->progress, framesPerSecond());
     }
     requireFrames();
+    if (pictures_) pictures_->commit();
     output_.commit();
     summary_.framesPerSecond = framesPerSecond();
     for (const auto& problem : source_.problems()) summary_.dropped.push_back(problem.text());
@@ -94,7 +94,7 @@ class DetectRun
     }
     summary_.boxes += boxes->objects.size();
     if (frame.isTurned) turnUpsideDown(*boxes);  // the file speaks of the images as recorded
-    if (!request_.pictures.empty()) draw(frame, *boxes);
+    if (pictures_) draw(frame, *boxes);
     mrpt::serialization::archiveFrom(output_) << *boxes;
     output_.requireWritten();
   }
@@ -111,15 +111,14 @@ class DetectRun
     throw std::runtime_error(problem.text());
   }
 
-  void draw(const RgbdFrame& frame, const CObservationObjects& boxes) const
+  void draw(const RgbdFrame& frame, const CObservationObjects& boxes)
   {
     const mrpt::img::CImage image = recordedImage(frame);
     FramePictureContent content;
     content.scan = frame.scan.get();
     content.image = &image;
     content.boxes = &boxes;
-    const std::string name = mrpt::format("frame-%06zu.jpg", summary_.frames - 1);
-    writePicture(drawFrame(content), (std::filesystem::path(request_.pictures) / name).string());
+    pictures_->add(summary_.frames - 1, drawFrame(content));
   }
 
   double framesPerSecond() const
@@ -142,6 +141,7 @@ class DetectRun
   Detector& detector_;
   RawlogSource source_;
   GzipFileWriter output_;
+  std::optional<FramePictureFolder> pictures_;
   std::chrono::steady_clock::time_point start_;
   DetectSummary summary_;
 };

@@ -13,7 +13,7 @@ struct DetectRequest
 {
   std::string rawlog;
   std::string output;           //!< The file with the boxes
-  std::string pictures;         //!< Folder for pictures, made when missing; empty for none
+  std::string pictures;         //!< Folder for pictures, see FramePictureFolder; empty for none
   std::string sensorLabel;      //!< The only RGB-D sensor to look at; empty for all
   bool keepGoing = false;       //!< Leave out what is broken instead of throwing
   bool imagesAnywhere = false;  //!< Read external images outside the rawlog's image folder

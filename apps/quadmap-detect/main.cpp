@@ -55,8 +55,13 @@ struct Cli
   Text output{"o",          "output",   "The boxes (default IN.objects.rawlog).", false, "",
               "OUT.rawlog", line.args()};
   Text draw{
-      "",         "draw", "Folder for a picture of each image with its boxes; made when missing.",
-      false,      "",     "DIR",
+      "",
+      "draw",
+      "Folder for a picture of each image with its boxes, in the place of earlier ones; made when "
+      "missing.",
+      false,
+      "",
+      "DIR",
       line.args()};
   cli::Group inputGroup{line, "Input"};
   Text sensor{"", "sensor", "Use only this RGB-D sensor.", false, "", "LABEL", line.args()};

@@ -65,7 +65,7 @@ struct Cli
       "",
       "frames",
       "Folder for a picture of each keyframe with its boxes, what was made of them, and the "
-      "objects they were taken for; made when missing.",
+      "objects they were taken for, in the place of earlier ones; made when missing.",
       false,
       "",
       "DIR",

@@ -133,9 +133,11 @@ TEST_F(StoppedPrograms, DetectLeavesTheBoxesThatThereWere)
 {
   const TinyDetector tiny;
   const std::string boxes = folder_.write("boxes.rawlog", "as before");
-  const auto program =
-      start("quadmap-detect", {recording("long"), "--model", tiny.model(), "-o", boxes});
-  waitUntil([&] { return folder_.fileCount() > 1; });  // the temporary file
+  const std::string pictures = folder_.path("pictures");
+  const auto program = start(
+      "quadmap-detect",
+      {recording("long"), "--model", tiny.model(), "-o", boxes, "--draw", pictures});
+  waitUntil([&] { return bytesIn(pictures) > 0; });
   program.send(SIGINT);
   EXPECT_EQ(program.wait(), 128 + SIGINT) << log();
   EXPECT_EQ(readFile(boxes), "as before");

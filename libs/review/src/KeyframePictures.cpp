@@ -1,20 +1,15 @@
 #include "quadmap/review/KeyframePictures.h"
 
-#include <mrpt/core/format.h>
-
-#include <filesystem>
 #include <set>
 
 #include "quadmap/review/FramePicture.h"
-#include "quadmap/review/SceneRenderer.h"
+#include "quadmap/review/FramePictureFolder.h"
 #include "quadmap/sensors/ResultKeyframes.h"
 
 namespace quadmap
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 class KeyframePictures
 {
  public:
@@ -22,10 +17,9 @@ class KeyframePictures
       const std::string& result,
       const std::vector<ObjectRecord>& objects,
       const std::string& folder) :
-      keyframes_(result, ResultKeyframes::Boxes::Read), objects_(objects), folder_(folder)
+      keyframes_(result, ResultKeyframes::Boxes::Read), objects_(objects), pictures_(folder)
   {
     for (const auto& object : objects) ids_.insert(object.id);
-    fs::create_directories(folder);
   }
 
   std::size_t write(const std::function<void(double)>& progress)
@@ -36,6 +30,7 @@ class KeyframePictures
       progress(
           static_cast<double>(keyframes_.keyframesRead()) / static_cast<double>(keyframes_.size()));
     }
+    pictures_.commit();
     return written_;
   }
 
@@ -59,14 +54,13 @@ class KeyframePictures
       if (shown.count(object.id) > 0)
         content.objects.push_back(
             {object.id, object.label, object.object.transformed(T_sensor_map)});
-    const std::string name = mrpt::format("frame-%06zu.jpg", written_++);
-    writePicture(drawFrame(content), (fs::path(folder_) / name).string());
+    pictures_.add(written_++, drawFrame(content));
   }
 
   ResultKeyframes keyframes_;
   const std::vector<ObjectRecord>& objects_;
   std::set<std::string> ids_;  // of the objects
-  std::string folder_;
+  FramePictureFolder pictures_;
   std::size_t written_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/base/OutputSet.h"
 
 namespace quadmap
 {
@@ -77,7 +78,9 @@ void writePicture(const mrpt::img::CImage& picture, const std::string& path)
   catch (const cv::Exception&)  // for an extension that OpenCV does not know
   {
   }
-  if (!written) throw std::runtime_error(output.finalPath() + ": the picture cannot be written");
+  if (!written)
+    throw std::runtime_error(
+        pathAfterCommit(output.finalPath()) + ": the picture cannot be written");
   output.commit();
 }
 

@@ -14,7 +14,8 @@ namespace quadmap
  * is in memory at a time.
  * \param result Folder of quadmap-slam: map.simplemap, objects.simplemap and report.json are read.
  * \param objects The objects of its map.
- * \param folder Where the pictures go; made when missing.
+ * \param folder Where the pictures go, all of them or none, in the place of earlier ones; made when
+ * missing.
  * \param progress Called with the share that is done, in [0, 1].
  * \return Number of pictures.
  * \exception std::runtime_error For a file that cannot be read or written; names it. */
