@@ -293,6 +293,28 @@ TEST_F(QuadmapMap, AppliesNoMisspeltLabel)
   EXPECT_EQ(mapFrom(folder_.path("a.quadmap")).withLabel("bnech").size(), 1u);
 }
 
+TEST_F(QuadmapMap, RefusesALabelThatNoMapCanHold)
+{
+  const std::string label(65537, 'x'), id = std::to_string(idOf("chair"));
+  folder_.write(
+      "edits.json",
+      R"({"format": "quadmap-edits", "version": 1, "edits": [{"op": "relabel", "id": )" + id +
+          R"(, "label": ")" + label + R"("}]})");
+  for (const std::string& arguments :
+       {"relabel MAP --id " + id + " --label " + label, std::string("apply MAP DIR/edits.json")})
+  {
+    const auto result = run(arguments + " --any-label -o DIR/x.quadmap");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("the label has 65537 bytes"), kNotFound) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("x.quadmap")));
+  const std::string longest(65536, 'x');
+  const auto held = run("relabel MAP --id " + id + " --label " + longest + " --any-label -o MAP");
+  ASSERT_EQ(held.status, 0) << held.err;
+  EXPECT_EQ(mapFrom(folder_.path("objects.quadmap")).withLabel(longest).size(), 1u);
+}
+
 TEST_F(QuadmapMap, ChangesAMapInPlace)
 {
   ASSERT_EQ(run("remove MAP" + option("id", "couch") + " -o MAP").status, 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "quadmap/base/ArchiveFields.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/obs/Plausible.h"
 
@@ -111,6 +112,9 @@ void CQuadricObjectMap::claimContradictions()
 void CQuadricObjectMap::relabel(ObjectId id, const std::string& label)
 {
   Entry& object = require(id);
+  if (label.size() > kMaxStoredText)
+    throw std::invalid_argument(mrpt::format(
+        "the label has %zu bytes, and a map holds at most %zu", label.size(), kMaxStoredText));
   object.labelCounts = {
       {labels().canonical(label), std::max(1u, object.observations())}
   };

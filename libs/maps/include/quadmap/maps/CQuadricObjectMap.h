@@ -248,7 +248,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void claimContradictions();
 
   /** Makes all measurements of an object say this label, in its canonical spelling.
-   *  \exception std::out_of_range If there is no such object. */
+   *  \exception std::out_of_range If there is no such object.
+   *  \exception std::invalid_argument For a label that is too long for a stored map. */
   void relabel(ObjectId id, const std::string& label);
 
   /** Says where an object is and how large, as a person knows it. What was measured before no
