@@ -46,20 +46,26 @@ TEST(RawlogErrors, CalibrationOfAnotherImageSize)
 {
   const TemporaryFolder folder;
   const auto file = folder.path("x.rawlog");
-  RawlogWriterOptions external;  // of embedded images MRPT overwrites the calibration's size
-  external.external = true;
-  RawlogWriter writer(file, external);
-  auto scan = sampleScan(kStart);
-  scan->cameraParams.ncols = 640;
-  scan->cameraParams.nrows = 480;
-  writer.write(*scan);
-  writer.write(*sampleScan(kStart + 1));
-  writer.finish();
-  expectProblem(
-      file,
-      {"x.rawlog: record 0 (camera): ",
-       "its calibration is for 640x480 images, its depth image has 64x48"},
-      1);
+  for (const bool isExternal : {false, true})
+  {
+    SCOPED_TRACE(isExternal);
+    RawlogWriterOptions options;
+    options.external = isExternal;
+    RawlogWriter writer(file, options);
+    auto scan = sampleScan(kStart);
+    scan->cameraParams.ncols = 640;
+    scan->cameraParams.nrows = 480;
+    writer.write(*scan);
+    writer.write(*sampleScan(kStart + 1));
+    writer.finish();
+    ::testing::internal::CaptureStderr();
+    expectProblem(
+        file,
+        {"x.rawlog: record 0 (camera): ",
+         "its calibration is for 640x480 images, its depth image has 64x48"},
+        1);
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "MRPT prints nothing";
+  }
 }
 
 TEST(RawlogErrors, ScansNobodyCanUse)

@@ -1,3 +1,8 @@
+#include <mrpt/core/format.h>
+
+#include <cstring>
+#include <optional>
+
 #include "records/RecordLayouts.h"
 
 namespace quadmap
@@ -17,6 +22,21 @@ void points(RecordCheck& c, int version)
   if (version >= 8) c.bytes.skip(n * kPixel);
   const std::vector<std::uint8_t> none(sizeof(std::uint32_t), 0);
   c.bytes.replaceFrom(c.bytes.size() - none.size(), none);
+}
+
+/** Index of the first byte behind the head of an object, which has the length of the name of its
+ * class in the first byte, and its version behind the name. */
+std::size_t behindHead(RecordCheck& c, std::size_t begin)
+{
+  const std::size_t nameLength = *c.bytes.at(begin) & ~RecordCheck::kHeadMark;
+  return begin + 1 + nameLength + 1;
+}
+
+std::uint32_t storedNumber(RecordCheck& c, std::size_t at)
+{
+  std::uint32_t value = 0;
+  std::memcpy(&value, c.bytes.at(at), sizeof value);
+  return value;
 }
 
 /** \return Its number of pixels. */
@@ -76,14 +96,51 @@ void externalFiles(RecordCheck& c)
   }
 }
 
-void images(RecordCheck& c, int version)
+/** \return Where the number of rows of the range image is stored, with that of columns behind it;
+ * nothing when there is no range image. */
+std::optional<std::size_t> images(RecordCheck& c, int version)
 {
+  std::optional<std::size_t> sizeAt;
   const bool hasRangeImage = c.flag();
   if (version >= 9) c.bytes.copy(kFloat);
-  if (hasRangeImage && version >= 9) rangeImage(c);
-  if (hasRangeImage && version < 9) c.matrix();
+  const std::size_t begin = c.bytes.size();
+  if (hasRangeImage && version >= 9)
+  {
+    sizeAt = begin;
+    rangeImage(c);
+  }
+  else if (hasRangeImage)
+  {
+    c.matrix();
+    sizeAt = behindHead(c, begin);
+  }
   if (c.flag()) c.image();
   if (c.flag()) c.image();
+  return sizeAt;
+}
+
+/** The camera of the range image. When it is for another size, MRPT prints a warning for each scan
+ * and takes the image's size with the other camera's focal length. The scan counts as damaged
+ * instead, and gets the image's size so that MRPT prints nothing.
+ * \param sizeAt See images(). External images, which are empty here, are compared later. */
+void rangeCamera(RecordCheck& c, const std::optional<std::size_t>& sizeAt)
+{
+  constexpr int kFirstKnown = 4;                            // of the versions of TCamera
+  constexpr std::size_t kParameters = 13 * sizeof(double);  // before its numbers of rows, columns
+  const std::size_t begin = c.bytes.size();
+  if (c.objectOf("TCamera") < kFirstKnown || !sizeAt) return;
+  const std::size_t rowsAt = behindHead(c, begin) + kParameters;
+  const std::size_t columnsAt = rowsAt + sizeof(std::uint32_t);
+  const auto columns = storedNumber(c, columnsAt), rows = storedNumber(c, rowsAt);
+  const auto imageRows = storedNumber(c, *sizeAt);
+  const auto imageColumns = storedNumber(c, *sizeAt + sizeof imageRows);
+  if (imageRows == 0 || (columns == imageColumns && rows == imageRows)) return;
+  if (c.damage.empty())
+    c.damage = mrpt::format(
+        "its calibration is for %ux%u images, its depth image has %ux%u", columns, rows,
+        imageColumns, imageRows);
+  std::memcpy(c.bytes.at(columnsAt), &imageColumns, sizeof imageColumns);
+  std::memcpy(c.bytes.at(rowsAt), &imageRows, sizeof imageRows);
 }
 }  // namespace
 
@@ -93,8 +150,8 @@ void followRangeScan(RecordCheck& c, const RecordCheck::Head& head)
   c.bytes.copy(kFloat);
   c.objectOf("CPose3D");
   if (c.flag()) points(c, version);
-  images(c, version);
-  c.objectOf("TCamera");
+  const auto sizeAt = images(c, version);
+  rangeCamera(c, sizeAt);
   if (version >= 4)
   {
     c.objectOf("TCamera");

@@ -27,8 +27,8 @@ struct RecordLimits
   std::uint64_t recordBytes = std::uint64_t{1} << 28;
 };
 
-/** An object has an embedded image that cannot be decoded, though its place is known: the objects
- * behind it can be read. */
+/** An object has an embedded image that cannot be decoded, or an embedded depth image of another
+ * size than its calibration. The objects behind it can be read. */
 struct DamagedImage : std::runtime_error
 {
   using std::runtime_error::runtime_error;
