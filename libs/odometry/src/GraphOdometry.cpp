@@ -4,13 +4,14 @@
 #include <mrpt/graphs/CNetworkOfPoses.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
-#include "quadmap/base/ConfigCheck.h"
+#include "GraphText.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputSet.h"
@@ -30,12 +31,6 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 25;
 constexpr double kSameTime = 1e-3;  // between rounded time stamps of one image [s]
 constexpr double kSilent = 1e-15;   // information below this is rounding: a planar edge states none
 
-struct NodeTime
-{
-  double time = 0;  // [s]
-  TNodeID node = 0;
-};
-
 /** Whether an information matrix states nothing about these coordinates. */
 bool isSilent(const Eigen::Matrix<double, 6, 6>& matrix, std::initializer_list<int> coordinates)
 {
@@ -54,14 +49,14 @@ class GraphFile
     const auto file = openModestText(path, kMostBytes);
     std::stringstream text;
     text << file.rdbuf();
-    readTimes(text.str());
+    times = checkGraphText(text.str(), path);
     read(text);
     if (graph.nodes.empty())
       throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line");
     for (const auto& t : times)
       if (graph.nodes.count(t.node) == 0)
         throw std::runtime_error(mrpt::format(
-            "%s: a TIME of node %u, which is not there", path.c_str(), unsigned(t.node)));
+            "%s: a TIME of node %u, which is not there", t.place.c_str(), unsigned(t.node)));
   }
 
   Graph graph;
@@ -106,44 +101,6 @@ class GraphFile
     }
   }
 
-  /** MRPT's reader passes over lines it does not know, and takes any number.
-   *  \exception std::runtime_error For an unknown entry or a number that cannot be right. */
-  void check(const std::string& line, const std::string& place) const
-  {
-    static const std::set<std::string> known = {
-        "VERTEX", "VERTEX2",  "VERTEX_SE2", "VERTEX3",       "VERTEX_SE3:QUAT", "EDGE",
-        "EDGE2",  "EDGE_SE2", "EDGE3",      "EDGE_SE3:QUAT", "EQUIV",           "FIX"};
-    constexpr double kLargest = 1e15;  // of a coordinate or an information
-    std::istringstream words(line);
-    std::string word;
-    if (!(words >> word) || word[0] == '#') return;
-    if (known.count(word) == 0)
-      throw std::runtime_error(place + ": '" + oneLine(word) + "' is no entry of a pose graph");
-    while (words >> word)
-      if (const auto number = parseNumber(word); !number || !(std::abs(*number) <= kLargest))
-        throw std::runtime_error(
-            place + ": '" + oneLine(word) + "' is not a number of a pose graph");
-  }
-
-  void readTimes(const std::string& text)
-  {
-    std::istringstream lines(text);
-    unsigned number = 0;
-    for (std::string line; std::getline(lines, line);)
-    {
-      ++number;
-      check(line, mrpt::format("%s:%u", path_.c_str(), number));
-      std::istringstream words(line);
-      std::string hash, name;
-      if (!(words >> hash >> name) || hash != "#" || name != "TIME") continue;
-      NodeTime t;
-      if (!(words >> t.node >> t.time) || !std::isfinite(t.time))
-        throw std::runtime_error(
-            mrpt::format("%s:%u: expected # TIME node seconds", path_.c_str(), number));
-      times.push_back(t);
-    }
-  }
-
   std::string path_;
 };
 
@@ -179,14 +136,16 @@ GraphOdometry::GraphOdometry(const std::string& path) : path_(path)
     poses_.push_back(
         {file.graph.nodes.at(nodes[i]),
          i + 1 < nodes.size() ? file.stepCovariance(nodes[i], nodes[i + 1]) : std::nullopt});
+  wasUsed_.resize(poses_.size(), false);
 }
 
 std::optional<CPose3D> GraphOdometry::poseAt(double time)
 {
   latest_.reset();
+  const std::size_t image = images_++;
   if (times_.empty())
   {
-    latest_ = images_++;
+    latest_ = image;
     if (*latest_ >= poses_.size())
       throw std::runtime_error(mrpt::format(
           "%s: %zu robot poses without times (# TIME lines), but the recording has more images",
@@ -198,8 +157,10 @@ std::optional<CPose3D> GraphOdometry::poseAt(double time)
     for (auto it = nearest; it != times_.end() && it->first <= time + kSameTime; ++it)
       if (std::abs(it->first - time) <= std::abs(nearest->first - time)) nearest = it;
     if (nearest != times_.end() && nearest->first <= time + kSameTime) latest_ = nearest->second;
+    if (!latest_ && isFarOutside(time)) ++imagesOutside_;
   }
   if (!latest_) return std::nullopt;
+  wasUsed_[*latest_] = true;
   return poses_[*latest_].T_map_robot;
 }
 
@@ -228,6 +189,30 @@ CPose3DPDFGaussian GraphOdometry::step(
     sum = sum ? *sum + next : next;
   }
   return *sum;
+}
+
+/** Between the keyframes of a run there are images without a pose, and behind the last keyframe a
+ * few. Many of them behind it mean that the graph is of another recording, or a part of its own. */
+bool GraphOdometry::isFarOutside(double time) const
+{
+  double longest = kSameTime;  // between two times of the graph [s]
+  for (auto it = std::next(times_.begin()); it != times_.end(); ++it)
+    longest = std::max(longest, it->first - std::prev(it)->first);
+  return time < times_.begin()->first - longest || time > times_.rbegin()->first + longest;
+}
+
+std::string GraphOdometry::warning() const
+{
+  const auto unused = std::count(wasUsed_.begin(), wasUsed_.end(), false);
+  if (times_.empty() || unused == static_cast<std::ptrdiff_t>(poses_.size())) return {};
+  std::string text;
+  if (unused > 0)
+    text = mrpt::format("%td of %zu poses have the time of no image", unused, poses_.size());
+  if (imagesOutside_ > 0)
+    text += mrpt::format(
+        "%s%zu of %zu images are before all poses or behind them, by more than these are apart",
+        text.empty() ? "" : ", and ", imagesOutside_, images_);
+  return text.empty() ? text : path_ + ": " + text;
 }
 
 void GraphOdometry::requireAllUsed() const

@@ -121,6 +121,28 @@ TEST_F(GraphOdometryFile, AnEdgeMayPointBackwards)
   EXPECT_LT((step.cov.asEigen() - expected).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+TEST_F(GraphOdometryFile, TellsOfPosesAndImagesThatDoNotFit)
+{
+  const auto warningAfter = [&](const std::vector<double>& images)
+  {
+    auto graph = read(kNodes + kForward);
+    for (const double time : images) graph.poseAt(time);
+    return graph.warning();
+  };
+  EXPECT_EQ(warningAfter({100, 100.2, 100.5, 100.52, 101, 101.4}), "") << "as in a run's own graph";
+  const std::string file = folder_.path("x.graph") + ": ";
+  EXPECT_EQ(warningAfter({100, 101}), file + "1 of 3 poses have the time of no image");
+  EXPECT_EQ(
+      warningAfter({99, 100, 100.5, 101, 101.6, 102}),
+      file + "3 of 6 images are before all poses or behind them, by more than these are apart");
+  EXPECT_EQ(
+      warningAfter({100.5, 101.0, 102}), file +
+                                             "1 of 3 poses have the time of no image, and 1 of 3 "
+                                             "images are before all poses or behind "
+                                             "them, by more than these are apart");
+  EXPECT_EQ(warningAfter({42}), "") << "that no image has a pose is an error";
+}
+
 TEST_F(GraphOdometryFile, WithoutTimesNodesAreTheImagesInTheirOrder)
 {
   const std::string text =
@@ -145,12 +167,15 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
       "EDGE3 0 1 1 0 0 0 0 0.5 0 0 0 0 0 0  0 0 0 0 0  0 0 0 0  0 0 0  0 0  0\n";
   const std::pair<std::string, std::string> cases[] = {
       {                                "","no pose graph, it has no VERTEX3 line"                                          },
-      {                 "VERTEX3 0 1 2\n",                                  "VERTEX3"},
-      {kNodes + "VERTEX3 0 0 0 0 0 0 0\n",                                     "ID 0"},
-      {         kNodes + "# TIME 3 102\n",     "a TIME of node 3, which is not there"},
-      {       kNodes + "# TIME two 102\n", "x.graph:10: expected # TIME node seconds"},
+      {                 "VERTEX3 0 1 2\n",                                           "VERTEX3"},
+      {kNodes + "VERTEX3 0 0 0 0 0 0 0\n",           "x.graph:10: node 0 is in line 2 already"},
+      {kNodes + "EDGE3 2 9 1 0 0 0 0 0\n", "x.graph:10: an edge of node 9, which is not there"},
+      {kNodes + "EDGE3 0 1.5 1 0 0 0 0\n",     "x.graph:10: '1.5' is not the number of a node"},
+      {      kNodes + "# TIME 7 100.52\n",         "x.graph:10: node 7 has the time of node 1"},
+      {         kNodes + "# TIME 3 102\n",              "a TIME of node 3, which is not there"},
+      {       kNodes + "# TIME two 102\n",          "x.graph:10: expected # TIME node seconds"},
       {            kNodes + noInformation,
-       "the information of the edge between 0 and 1 is not positive definite"        },
+       "the information of the edge between 0 and 1 is not positive definite"                 },
   };
   for (const auto& [text, expected] : cases)
   {

@@ -77,6 +77,9 @@ class ObjectSlam : public mrpt::system::COutputLogger
    *  \exception std::runtime_error If the images do not fit the given poses. */
   void requireAllPosesUsed() const { odometry_.requireAllUsed(); }
 
+  /** Says so when a given pose graph does not fit the images; empty otherwise. */
+  std::string warningOfGraph() const { return odometry_.warningOfGraph(); }
+
   /** Says so when some images have poses, but most have none; empty otherwise. */
   std::string lackOfPoses() const
   {

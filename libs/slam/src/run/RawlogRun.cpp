@@ -188,9 +188,11 @@ class RawlogRun
     slam_.warn(text);
   }
 
-  void requirePoses() const
+  void requirePoses()
   {
     slam_.requireAllPosesUsed();
+    if (const std::string text = slam_.warningOfGraph(); !text.empty())
+      slam_.warn(request_.rawlog + ": " + text);
     const std::string lack = slam_.lackOfPoses();
     if (!request_.keepGoing && !lack.empty())
       throw std::runtime_error(request_.rawlog + ": " + lack + "; --keep-going leaves them out");

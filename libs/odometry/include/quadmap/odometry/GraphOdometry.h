@@ -26,8 +26,9 @@ namespace quadmap
 class GraphOdometry
 {
  public:
-  /** \exception std::runtime_error If the file cannot be read, is no graph, or has an information
-   *  matrix that is not positive definite. The message is one line that starts with the file. */
+  /** \exception std::runtime_error If the file cannot be read, is no graph, has a node twice or an
+   *  edge of a node that is not there, or an information matrix that is not positive definite. The
+   * message is one line that starts with the file. */
   explicit GraphOdometry(const std::string& path);
 
   /** T_map_robot of the next image of the recording, or nothing when no node has its time.
@@ -44,6 +45,10 @@ class GraphOdometry
    *  \exception std::runtime_error If the graph has no times and more nodes than images. */
   void requireAllUsed() const;
 
+  /** Says how many poses have no image, and how many images are far outside the times of the poses;
+   *  empty when there are none, and when no pose has an image. Call it after the last image. */
+  std::string warning() const;
+
   const std::string& path() const { return path_; }
 
  private:
@@ -56,10 +61,14 @@ class GraphOdometry
   mrpt::poses::CPose3DPDFGaussian step(
       std::size_t from, std::size_t to, const PoseUncertaintyOptions& options) const;
 
+  bool isFarOutside(double time) const;
+
   std::string path_;
   std::vector<Pose> poses_;              //!< In the order of time
+  std::vector<bool> wasUsed_;            //!< For each pose, whether an image has its time
   std::map<double, std::size_t> times_;  //!< From time [s] to index of the pose
   std::size_t images_ = 0;               //!< Number of images that asked for their pose
+  std::size_t imagesOutside_ = 0;        //!< Of these, by more than poses are apart
   std::optional<std::size_t> latest_, keyframe_;
 };
 

@@ -61,6 +61,10 @@ class OdometryInput
   /** What to tell the user after the last frame when given poses are doubtful; empty otherwise. */
   std::string warningOfJumps() const { return jumps_.warning(); }
 
+  /** What to tell the user after the last frame when a given graph does not fit the frames; empty
+   * otherwise. */
+  std::string warningOfGraph() const { return graph_ ? graph_->warning() : std::string(); }
+
   /** How many images have no pose, for messages: "3 of 8 images have no pose"; empty when all have
    * one. Images that cannot have one do not count: those of further cameras with visual odometry,
    * and those between the keyframes of a graph. */
