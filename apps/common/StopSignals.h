@@ -8,14 +8,14 @@
 
 #include "quadmap/base/Temporary.h"
 
-/** What Ctrl-C, SIGTERM and the end of the terminal do. A thread of its own receives these signals,
- * so that what they do may take locks and remove files. */
+/** What Ctrl-C, SIGTERM, SIGQUIT (Ctrl-\) and the end of the terminal do. A thread of its own
+ * receives these signals, so that what they do may take locks and remove files. */
 namespace quadmap::cli
 {
 enum class OnStop
 {
   End,   //!< The program ends at once, without temporary files
-  Note,  //!< The program goes on and ends soon; a second signal ends it at once
+  Note,  //!< The program goes on and ends soon; a second signal, or SIGQUIT, ends it at once
   Defer  //!< The program goes on, whatever comes: it is about to end
 };
 
@@ -35,13 +35,23 @@ inline std::atomic<int> stopSignal{0};  //!< The first signal that was noted, or
   ::_exit(128 + signal);
 }
 
+/** Whether whoever started the program wants it to ignore a signal: nohup, SIGHUP, and a shell that
+ * starts it in the background, SIGQUIT. */
+inline bool isIgnored(int signal)
+{
+  struct sigaction action = {};
+  ::sigaction(signal, nullptr, &action);
+  return action.sa_handler == SIG_IGN;
+}
+
 inline void receiveStopSignals(sigset_t signals)
 {
   for (;;)
   {
     int signal = 0;
     if (sigwait(&signals, &signal) != 0) continue;
-    if (onStop == OnStop::End) endBySignal(signal);
+    const bool endsAtOnce = signal == SIGQUIT ? onStop != OnStop::Defer : onStop == OnStop::End;
+    if (endsAtOnce) endBySignal(signal);
     int none = 0;
     stopSignal.compare_exchange_strong(none, signal);
     auto note = OnStop::Note;
@@ -57,9 +67,8 @@ inline void watchStopSignals()
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
-  struct sigaction hangup = {};
-  ::sigaction(SIGHUP, nullptr, &hangup);
-  if (hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);  // ignored under nohup
+  for (const int signal : {SIGHUP, SIGQUIT})
+    if (!isIgnored(signal)) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);
   std::thread(receiveStopSignals, signals).detach();

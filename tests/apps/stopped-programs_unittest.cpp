@@ -146,7 +146,7 @@ TEST_F(StoppedPrograms, DetectLeavesTheBoxesThatThereWere)
 
 TEST_F(StoppedPrograms, ASimulationThatASignalEndsChangesNothing)
 {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
   {
     const auto program =
         start("quadmap-simulate", {"home", "--frames", "5000", "-o", folder_.path("x.rawlog")});
@@ -262,6 +262,14 @@ TEST_F(StoppedPrograms, SignalsWhileTheResultIsWrittenLoseNothing)
   EXPECT_TRUE(interrupted(out() + "/report.json"));
   EXPECT_TRUE(fs::exists(out() + "/scene.3Dscene"));
   EXPECT_FALSE(fs::exists(out() + "/.results.partial"));
+}
+
+TEST_F(StoppedPrograms, QuitEndsARunAtOnceWithoutTemporaryFiles)
+{
+  const auto run = startLongRun();
+  run.send(SIGQUIT);
+  EXPECT_EQ(run.wait(), 128 + SIGQUIT);
+  EXPECT_EQ(folder_.fileCount(), 0u);
 }
 
 TEST_F(StoppedPrograms, KilledWhileItWritesARunLeavesTheEarlierResult)
