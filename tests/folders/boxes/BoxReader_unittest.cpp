@@ -203,6 +203,26 @@ TEST_F(BoxFiles, CocoDataSetsHaveTheirOwnNames)
       openBoxes(files_.path("x.json"), "")->fileOf(frame), files_.path("x.json") + ": image c");
 }
 
+TEST_F(BoxFiles, CocoDataSetsOfImagesOfAnotherSizeAreRefused)
+{
+  const auto write = [&](const std::string& size)
+  {
+    files_.write(
+        "x.json", R"({"images": [{"id": 7, "file_name": "a.jpg", )" + size +
+                      R"(}], "categories": [{"id": 3, "name": "vase"}],
+    "annotations": [{"id": 1, "image_id": 7, "category_id": 3, "bbox": [10, 20, 30, 40]}]})");
+  };
+  write(R"("width": 640, "height": 480)");
+  EXPECT_EQ(read("a.png", "x.json")->size(), 1u);
+  write(R"("width": 1280, "height": 960)");
+  EXPECT_EQ(
+      errorOfReading("a.png", "x.json"),
+      files_.path("x.json") +
+          ": image a.jpg has 1280x960 pixels there, and 640x480 in the recording: its boxes do not "
+          "fit");
+  EXPECT_FALSE(read("b.png", "x.json"));
+}
+
 TEST_F(BoxFiles, CocoResultsHaveNumbersOfImagesAndClasses)
 {
   files_.write(

@@ -276,6 +276,19 @@ TEST(TumFolder, RejectsBadCalibrations)
   expect("fx: 1\nfy\n", "is not YAML as OpenCV writes it (line 4)");
   expect(" fx: 1\nfy: 1\n", "is not YAML as OpenCV writes it (line 3)");
   expect("fx: 1\nfx: 1\n", "the key 'fx' stands there twice");
+  expect("K1: 0.3\n" + calibration, "the key 'K1' is not known; did you mean 'k1'?");
+  expect(
+      "world-up: 0\n" + calibration, "the key 'world-up' is not known; did you mean 'world_up'?");
+  expect("WORLD_UP: 0\n" + calibration, "the key 'WORLD_UP' is not known; did you mean");
+  expect("k4: 0.3\n" + calibration, "k4=0.3: a lens with this term is not known");
+}
+
+TEST(TumFolder, PassesOverKeysOfOtherProgramsInCalibrations)
+{
+  const SampleRecording recording;
+  recording.writeCalibration(
+      "fps: 30\nk4: 0\ncamera_name: left\n" + std::string(SampleRecording::kCalibration));
+  EXPECT_NO_THROW(openFrameFolder("tum", recording.folder()));
 }
 
 TEST(TumFolder, RejectsMissingAndMalformedLists)

@@ -111,9 +111,13 @@ class CocoBoxes : public BoxReader
   }
 
   std::optional<std::vector<DetectedObject>> boxes(
-      const FolderFrame& frame, const mrpt::img::TCamera&) const override
+      const FolderFrame& frame, const mrpt::img::TCamera& camera) const override
   {
-    if (const auto* found = images_.find(frame.color, namesFor(frame))) return *found;
+    if (const auto* found = images_.find(frame.color, namesFor(frame)))
+    {
+      requireSize(*found, camera);
+      return found->boxes;
+    }
     // Results do not say at which images the detector looked in vain.
     if (isResults_) return std::vector<DetectedObject>();
     return std::nullopt;
@@ -145,6 +149,16 @@ class CocoBoxes : public BoxReader
     return names;
   }
 
+  /** \exception std::runtime_error If the image had another size when its boxes were found. */
+  void requireSize(const CocoImages::Image& image, const mrpt::img::TCamera& camera) const
+  {
+    if (!image.size || *image.size == std::pair<double, double>(camera.ncols, camera.nrows)) return;
+    throw std::runtime_error(mrpt::format(
+        "%s: image %s has %gx%g pixels there, and %ux%u in the recording: its boxes do not fit",
+        file_.c_str(), image.written.c_str(), image.size->first, image.size->second, camera.ncols,
+        camera.nrows));
+  }
+
   void readResults(const Json& results)
   {
     isResults_ = true;
@@ -165,7 +179,10 @@ class CocoBoxes : public BoxReader
       const std::string place = file_ + ": an image";
       const auto name = valueOf<std::string>(image, "file_name", place);
       images[wholeNumberOf(image, "id", place)] = name;
-      images_.of(name);
+      CocoImages::Image& added = images_.of(name);
+      if (image.contains("width") && image.contains("height"))
+        added.size.emplace(
+            valueOf<double>(image, "width", place), valueOf<double>(image, "height", place));
     }
     for (const auto& category : valueOf<Json>(json, "categories", file_))
       names[wholeNumberOf(category, "id", file_ + ": a category")] =
@@ -195,7 +212,7 @@ class CocoBoxes : public BoxReader
     object.label = label;
     if (json.contains("score")) object.score = valueOf<double>(json, "score", place);
     object.box = {box[0], box[1], box[0] + box[2], box[1] + box[3]};
-    auto& objects = images_.of(image);
+    auto& objects = images_.of(image).boxes;
     objects.push_back(std::move(object));
     requireFewBoxes(objects.size(), file_ + ": " + image);
   }

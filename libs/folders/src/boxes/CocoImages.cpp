@@ -45,13 +45,13 @@ Agreement agreementOf(const fs::path& place, const fs::path& recording)
 }
 }  // namespace
 
-CocoImages::Boxes& CocoImages::of(const std::string& image)
+CocoImages::Image& CocoImages::of(const std::string& image)
 {
   meant_.clear();
   const fs::path path = fs::path(image).lexically_normal();
   Image& found = images_[withoutExtension(path)][path.parent_path().string()];
   if (found.written.empty()) found.written = image;
-  return found.boxes;
+  return found;
 }
 
 CocoImages::Meant CocoImages::imagesMeantIn(const std::string& folder) const
@@ -96,7 +96,7 @@ std::vector<const CocoImages::Image*> CocoImages::candidates(
   return {};
 }
 
-const CocoImages::Boxes* CocoImages::find(
+const CocoImages::Image* CocoImages::find(
     const std::string& path, const std::vector<std::string>& names) const
 {
   const auto found = candidates(path, names);
@@ -104,7 +104,7 @@ const CocoImages::Boxes* CocoImages::find(
     throw std::runtime_error(
         file_ + ": image " + found[0]->written + " and image " + found[1]->written +
         " may both be " + path + "; name them with folders that end as those of the recording");
-  return found.empty() ? nullptr : &found[0]->boxes;
+  return found.empty() ? nullptr : found[0];
 }
 
 }  // namespace quadmap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,12 +21,18 @@ class CocoImages
 {
  public:
   using Boxes = std::vector<DetectedObject>;
+  struct Image
+  {
+    std::string written;  //!< Its name, as the file has it
+    Boxes boxes;
+    std::optional<std::pair<double, double>> size;  //!< Width and height, if the file tells [px]
+  };
 
   /** \param file For messages. */
   explicit CocoImages(std::string file) : file_(std::move(file)) {}
 
-  /** The boxes of an image, none at first. \param image As the file names it. */
-  Boxes& of(const std::string& image);
+  /** An image, which has no boxes at first. \param image As the file names it. */
+  Image& of(const std::string& image);
 
   bool empty() const { return images_.empty(); }
 
@@ -35,18 +42,13 @@ class CocoImages
     return !candidates(path, names).empty();
   }
 
-  /** The boxes of an image of the recording, or null. Not for several threads at a time.
+  /** What the file has of an image of the recording, or null. Not for several threads at a time.
    * \param path The image's file.
    * \param names What it may be called, without folder and extension; the first that is there
    * counts. \exception std::runtime_error If several may be it. The message names them. */
-  const Boxes* find(const std::string& path, const std::vector<std::string>& names) const;
+  const Image* find(const std::string& path, const std::vector<std::string>& names) const;
 
  private:
-  struct Image
-  {
-    std::string written;  // as the file names it
-    Boxes boxes;
-  };
   using Meant = std::map<std::string, std::vector<const Image*>>;  // by names without extension
 
   Meant imagesMeantIn(const std::string& folder) const;

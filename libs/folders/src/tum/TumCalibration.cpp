@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "frames/RigidMatrix.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/InputFile.h"
+#include "quadmap/base/SimilarWords.h"
 #include "quadmap/sensors/DepthUnit.h"
 #include "tum/TumFiles.h"
 
@@ -56,6 +59,13 @@ class FlatYaml
   {
     const auto found = values_.find(key);
     return found == values_.end() ? nullptr : &found->second;
+  }
+
+  std::vector<std::string> keys() const
+  {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : values_) keys.push_back(key);
+    return keys;
   }
 
   /** \exception std::runtime_error If a required key is missing or its value is no finite number.
@@ -118,6 +128,35 @@ unsigned pixelsAt(const FlatYaml& file, const std::string& key)
   return static_cast<unsigned>(value);
 }
 
+/** The file may have keys for other programs, but one like a key of ours is a slip, and without it
+ * a default would be taken. \exception std::runtime_error For such a key, and for terms of the
+ * distortion of which images could not be rectified. */
+void requireNoSlips(const FlatYaml& file)
+{
+  const std::vector<std::string> known = {"fx",           "fy",
+                                          "cx",           "cy",
+                                          "width",        "height",
+                                          "k1",           "k2",
+                                          "p1",           "p2",
+                                          "k3",           "depth_factor",
+                                          "world_up",     "T_color_depth",
+                                          "depth_raw_fx", "depth_raw_fy",
+                                          "depth_raw_cx", "depth_raw_cy"};
+  const std::vector<std::string> further = {"k4", "k5", "k6"};  // OpenCV's rational terms
+  for (const auto& key : further)
+    if (const double value = file.number(key, 0.0); value != 0)
+      file.reject(mrpt::format("%s=%g: a lens with this term is not known", key.c_str(), value));
+  const auto isOneOf = [](const std::vector<std::string>& keys, const std::string& key)
+  { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+  for (const auto& key : file.keys())
+  {
+    if (isOneOf(known, key) || isOneOf(further, key)) continue;
+    auto meant = mostSimilar(key, known);
+    if (!meant) meant = mostSimilar(mrpt::system::lowerCase(key), known);
+    if (meant) file.reject("the key '" + key + "' is not known; did you mean '" + *meant + "'?");
+  }
+}
+
 /** The numbers between the brackets of an !!opencv-matrix or a list; nothing without the key.
  * \param what The matrix has so many numbers, in words. */
 std::optional<std::vector<double>> matrixAt(
@@ -178,6 +217,7 @@ FolderCamera readTumCalibration(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
   const FlatYaml file(path);
+  requireNoSlips(file);
   FolderCamera calibration;
   calibration.origin = std::filesystem::path(path).filename().string();
   auto& camera = calibration.color;
