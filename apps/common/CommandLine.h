@@ -219,6 +219,7 @@ class CommandLine
       return false;
     }
     rejectUnknownOptions(argc, argv);
+    rejectEmptyNumbers(argc, argv);
     return line_.parse(argc, argv);
   }
 
@@ -255,6 +256,19 @@ class CommandLine
       const TCLAP::Arg* option = isOption ? findOption(word) : nullptr;
       if (isOption && !option) throw UsageError(whyUnknown(word));
       isValue = option && option->isValueRequired();
+    }
+  }
+
+  /** TCLAP takes the default where the value of a number is empty. */
+  void rejectEmptyNumbers(int argc, char** argv)
+  {
+    for (int i = 2; i < argc; ++i)
+    {
+      const TCLAP::Arg* option = *argv[i] == '\0' ? findOption(argv[i - 1]) : nullptr;
+      if (!option || !option->isValueRequired()) continue;
+      if (!dynamic_cast<const TCLAP::ValueArg<std::string>*>(option) &&
+          !dynamic_cast<const TCLAP::MultiArg<std::string>*>(option))
+        throw UsageError("--" + option->getName() + ": expected a number, got ''");
     }
   }
 

@@ -112,9 +112,9 @@ TEST_F(QuadmapImport, WrongUsageIsStatus2)
   for (const char* arguments :
        {"", "tum", "tum IN", "tom IN -o OUT/x.rawlog", "tum IN -o OUT/x.rawlog --every 0",
         "tum IN -o OUT/x.rawlog --every -1", "tum IN -o OUT/x.rawlog --every two",
-        "tum IN -o OUT/x.rawlog --poses-as truth", "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o",
-        "tum IN --check --max-gap -1", "tum IN --check --max-speed 0",
-        "openni2 live -o OUT/x.rawlog --labels IN/x",
+        "tum IN -o OUT/x.rawlog --every ''", "tum IN -o OUT/x.rawlog --poses-as truth",
+        "tum IN -o OUT/x.rawlog --evry 2", "tum IN -o", "tum IN --check --max-gap -1",
+        "tum IN --check --max-speed 0", "openni2 live -o OUT/x.rawlog --labels IN/x",
         "openni2 live -o OUT/x.rawlog --images-anywhere",
         "rawlog x.rawlog -o OUT/x.rawlog --trajectory IN/groundtruth.txt --poses-as none"})
   {
