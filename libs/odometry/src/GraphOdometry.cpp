@@ -137,6 +137,8 @@ GraphOdometry::GraphOdometry(const std::string& path) : path_(path)
         {file.graph.nodes.at(nodes[i]),
          i + 1 < nodes.size() ? file.stepCovariance(nodes[i], nodes[i + 1]) : std::nullopt});
   wasUsed_.resize(poses_.size(), false);
+  for (auto it = times_.begin(); it != times_.end(); ++it)
+    if (it != times_.begin()) longestGap_ = std::max(longestGap_, it->first - std::prev(it)->first);
 }
 
 std::optional<CPose3D> GraphOdometry::poseAt(double time)
@@ -195,10 +197,7 @@ CPose3DPDFGaussian GraphOdometry::step(
  * few. Many of them behind it mean that the graph is of another recording, or a part of its own. */
 bool GraphOdometry::isFarOutside(double time) const
 {
-  double longest = kSameTime;  // between two times of the graph [s]
-  for (auto it = std::next(times_.begin()); it != times_.end(); ++it)
-    longest = std::max(longest, it->first - std::prev(it)->first);
-  return time < times_.begin()->first - longest || time > times_.rbegin()->first + longest;
+  return time < times_.begin()->first - longestGap_ || time > times_.rbegin()->first + longestGap_;
 }
 
 std::string GraphOdometry::warning() const

@@ -67,6 +67,7 @@ class GraphOdometry
   std::vector<Pose> poses_;              //!< In the order of time
   std::vector<bool> wasUsed_;            //!< For each pose, whether an image has its time
   std::map<double, std::size_t> times_;  //!< From time [s] to index of the pose
+  double longestGap_ = 0;                //!< Between two of these times [s]
   std::size_t images_ = 0;               //!< Number of images that asked for their pose
   std::size_t imagesOutside_ = 0;        //!< Of these, by more than poses are apart
   std::optional<std::size_t> latest_, keyframe_;
