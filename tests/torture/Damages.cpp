@@ -32,6 +32,12 @@ std::string gzipped(const std::string& bytes)
   return {member.begin(), member.end()};
 }
 
+std::string object(const std::string& name, int version, const std::string& content)
+{
+  return std::string(1, static_cast<char>(0x80 | name.size())) + name + static_cast<char>(version) +
+         content + '\x88';
+}
+
 std::string with(const std::string& whole, const std::string& part, const std::string& other)
 {
   const auto at = whole.find(part);

@@ -13,6 +13,9 @@ using Cases = std::vector<Case>;
 std::string littleEndian(std::uint32_t number);
 std::string gzipped(const std::string& bytes);
 
+/** An object as MRPT writes it: the name of its class, its content and the mark of its end. */
+std::string object(const std::string& name, int version, const std::string& content);
+
 /** The same file with one part replaced by another. The part has to be there. */
 std::string with(const std::string& whole, const std::string& part, const std::string& other);
 

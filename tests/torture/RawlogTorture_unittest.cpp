@@ -55,13 +55,6 @@ class RawlogTorture : public ::testing::Test
   std::vector<mrpt::obs::CObservationRobotPose::Ptr> poses_;
 };
 
-/** The head of an object as MRPT writes it, with its content and the mark of its end. */
-std::string object(const std::string& name, int version, const std::string& content)
-{
-  return std::string(1, static_cast<char>(0x80 | name.size())) + name + static_cast<char>(version) +
-         content + '\x88';
-}
-
 /** Objects of the class, one inside the other. */
 std::string nested(const std::string& name, int version, int depth)
 {

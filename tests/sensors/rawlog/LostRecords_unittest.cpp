@@ -37,6 +37,24 @@ TEST(LostRecords, ACountThatIsTooLargeCostsItsRecord)
   }
 }
 
+// MRPT makes room for so many numbers before it reads any.
+TEST(LostRecords, ACountOfAnUnknownClassCostsItsRecord)
+{
+#ifdef QUADMAP_SANITIZED
+  GTEST_SKIP() << "sanitizers end the program when memory is refused";
+#endif
+  const TemporaryFolder folder;
+  const auto scanAt = [&](double time)
+  { return readFile(writeObjects(folder.path("scan"), {sampleScan(time)}, false)); };
+  const std::string name = "mrpt::obs::CObservationBatteryState";
+  const std::string battery = static_cast<char>(0x80 | name.size()) + name + '\x02' +
+                              std::string(18, '\0') + bytesOf(40000000u) + std::string(64, '\0');
+  folder.write("x.rawlog", scanAt(kStart) + battery + scanAt(kStart + 1));
+  expectProblem(
+      folder.path("x.rawlog"), {"x.rawlog: record 1: ", name, "sizes that take too much memory"},
+      2);
+}
+
 TEST(LostRecords, TheirBytesMayLookLikeARecord)
 {
   const TemporaryFolder folder;

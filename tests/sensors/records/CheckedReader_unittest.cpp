@@ -6,6 +6,7 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBatteryState.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -337,4 +338,21 @@ TEST(CheckedReader, LimitsTheMemoryOfOtherClasses)
       std::string("CObservationComment\0", 20);  // with its version; a text follows
   EXPECT_TRUE(read(bytes));
   EXPECT_NE(errorOf([&] { read(with(bytes, head + number(0), head + number(0xfffffff0))); }), "");
+}
+
+TEST(CheckedReader, LimitsTheMemoryOfMrptsVectors)
+{
+#ifdef QUADMAP_SANITIZED
+  GTEST_SKIP() << "sanitizers end the program when memory is refused";
+#endif
+  mrpt::obs::CObservationBatteryState battery;
+  battery.voltageOtherBatteries.resize(3);
+  const auto bytes = bytesOf(battery);
+  const std::string three = number(3) + std::string(3 * sizeof(double), '\0');
+  EXPECT_TRUE(read(bytes));
+  for (const std::uint32_t count : {40000000u, 0x10000000u, 0xffffffffu})
+  {
+    const auto much = with(bytes, three, number(count) + three.substr(4));
+    EXPECT_NE(errorOf([&] { read(much); }).find("too much memory"), std::string::npos) << count;
+  }
 }

@@ -29,3 +29,5 @@ TEST(MemoryGuard, TheLimitGoesWithTheLastOne)
   second.reset();
   EXPECT_EQ(limitNow(), before);
 }
+
+TEST(MemoryGuard, AllocationFailsWithAnException) { EXPECT_TRUE(MemoryGuard::isSafe()); }

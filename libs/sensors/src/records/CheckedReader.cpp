@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include "records/MemoryGuard.h"
 #include "records/RecordBytes.h"
 #include "records/RecordCheck.h"
 
@@ -21,7 +22,8 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::read(bool isTry)
   RecordBytes bytes(from_, limits_.recordBytes);
   if (!bytes.begin()) return nullptr;
   RecordCheck check(bytes, limits_);
-  check.refusesUnknown = isTry;
+  const bool refusesUnknown = isTry || !MemoryGuard::isSafe();
+  check.refusesUnknown = refusesUnknown;
   const auto head = check.headAfterFirstByte();
   // Callers would take the null pointer for the end of the file.
   RecordCheck::require(head.name != "nullptr", "holds an empty object");
@@ -33,7 +35,7 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::read(bool isTry)
   }
   else
   {
-    check.refusesUnknown = isTry && !RecordCheck::mayTry(head.name);
+    check.refusesUnknown = refusesUnknown && !RecordCheck::mayTry(head.name);
     object = check.readUnknown(head.begin);
   }
   if (check.damage.empty()) return object;

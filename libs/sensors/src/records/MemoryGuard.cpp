@@ -1,12 +1,15 @@
 #include "records/MemoryGuard.h"
 
+#include <mrpt/core/aligned_allocator.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <mutex>
+#include <new>
 
 namespace quadmap
 {
@@ -61,6 +64,23 @@ MemoryGuard::~MemoryGuard()
 {
   const std::lock_guard<std::mutex> lock(mutex);
   if (--guards == 0) ::setrlimit(RLIMIT_DATA, &limitWithoutGuards);
+}
+
+bool MemoryGuard::isSafe()
+{
+  static const bool answer = []
+  {
+    try
+    {
+      mrpt::aligned_free(mrpt::aligned_malloc(std::numeric_limits<std::size_t>::max(), 16));
+      return false;
+    }
+    catch (const std::bad_alloc&)
+    {
+      return true;
+    }
+  }();
+  return answer;
 }
 
 }  // namespace quadmap

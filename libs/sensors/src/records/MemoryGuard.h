@@ -12,6 +12,11 @@ class MemoryGuard
   ~MemoryGuard();
   MemoryGuard(const MemoryGuard&) = delete;
   MemoryGuard& operator=(const MemoryGuard&) = delete;
+
+  /** Whether allocation really fails with an exception in this program: MRPT's own allocator gives
+   * a null pointer instead. quadmap's takes its place, except where a program loads MRPT's core
+   * library before those of quadmap. */
+  static bool isSafe();
 };
 
 }  // namespace quadmap

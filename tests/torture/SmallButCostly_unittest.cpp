@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "../slam/SyntheticRoom.h"
+#include "Damages.h"
+#include "quadmap/base/GzipInput.h"
+
+using namespace quadmap;
+using namespace quadmap::torture;
+
+namespace
+{
+/** Small files that ask for much memory or time. */
+class SmallButCostly : public ::testing::Test
+{
+ protected:
+  SmallButCostly()
+  {
+    room_.camera = {65, 65, 39.5, 29.5, 80, 60};
+    for (int i = 0; i < 3; ++i)
+      scans_.push_back(room_.scanFrom(room_.robotAt(0.1 * i), kStart + i));
+  }
+
+  std::string bytesOf(const std::vector<mrpt::serialization::CSerializable::Ptr>& records) const
+  {
+    const TemporaryFolder scratch;
+    return readFile(writeObjects(scratch.path("x"), records, /*compressed*/ false));
+  }
+
+  TemporaryFolder folder_;
+  SyntheticRoom room_;
+  std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> scans_;
+};
+
+const Reader kRawlog{"quadmap-slam IN -o OUT --every 1 --threads 1", "x.rawlog", ""};
+
+/** Objects of classes with vectors and matrices of MRPT, for which it makes room as it is told. */
+Cases objectsOfHugeCounts()
+{
+  const std::string rest(100, '\0'), twoNumbers(16, '\0');
+  Cases cases;
+  for (const std::uint32_t n : {40000000u, 0x10000000u, 0xffffffffu})
+  {
+    const std::string count = littleEndian(n), name = " of " + std::to_string(n);
+    cases.push_back(
+        {"batteries" + name,
+         object("mrpt::obs::CObservationBatteryState", 2, twoNumbers + "\x01\x01" + count + rest)});
+    cases.push_back({"a matrix" + name, object("mrpt::math::CMatrixD", 0, count + count + rest)});
+    cases.push_back({"Gaussians" + name, object("mrpt::poses::CPose3DPDFSOG", 2, count + rest)});
+  }
+  for (auto& c : cases) c.mustFail = true;
+  return cases;
+}
+}  // namespace
+
+TEST_F(SmallButCostly, CountsInOtherClasses)
+{
+  Cases cases = objectsOfHugeCounts();
+  const auto frame = object("mrpt::obs::CSensoryFrame", 2, littleEndian(1));
+  for (const Case& c : objectsOfHugeCounts())
+    cases.push_back({c.name + " in a frame", frame.substr(0, frame.size() - 1) + c.bytes, true});
+  for (auto& c : cases) c.bytes = bytesOf({scans_[0]}) + c.bytes + bytesOf({scans_[1]});
+  judge(folder_, kRawlog, at("x.rawlog: record 1", cases));
+  judge(folder_, {"quadmap-import rawlog IN -o OUT", "x.rawlog", ""}, cases);
+}
+
+TEST_F(SmallButCostly, CountsInOtherClassesOfASidecar)
+{
+  writeObjects(folder_.path("x.rawlog"), {scans_[0], scans_[1]});
+  judge(
+      folder_, {"quadmap-slam DIR/x.rawlog -o OUT --every 1 --threads 1", "x.objects.rawlog", ""},
+      at("x.objects.rawlog: record 0", objectsOfHugeCounts()));
+}
+
+TEST_F(SmallButCostly, CountsInASimpleMap)
+{
+  writeObjects(
+      folder_.path("x.rawlog"), {samplePose(kStart, {}), scans_[0], samplePose(kStart + 1, {}),
+                                 scans_[1], room_.boxesOf(*scans_[0], room_.robotAt(0))});
+  const std::string command = QUADMAP_BIN_DIR "/quadmap-slam " + folder_.path("x.rawlog") +
+                              " --every 1 -o " + folder_.path("run") + " >/dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  GzInput file(folder_.path("run/map.simplemap"));
+  std::string whole(std::size_t{1} << 20, '\0');
+  whole.resize(file.readSome(whole.data(), whole.size()));
+  const auto frame = whole.find("CSensoryFrame\x02") + 14;
+  Cases cases = objectsOfHugeCounts();
+  for (auto& c : cases)
+    c.bytes = whole.substr(0, frame) + littleEndian(9) + c.bytes + whole.substr(frame + 4);
+  judge(
+      folder_, {"quadmap-export DIR/run --ply OUT", "run/map.simplemap", "map.simplemap"},
+      compressed(cases));
+}
