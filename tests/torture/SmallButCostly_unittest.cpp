@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 
 #include "../slam/SyntheticRoom.h"
 #include "Damages.h"
@@ -89,4 +90,24 @@ TEST_F(SmallButCostly, CountsInASimpleMap)
   judge(
       folder_, {"quadmap-export DIR/run --ply OUT", "run/map.simplemap", "map.simplemap"},
       compressed(cases));
+}
+
+TEST_F(SmallButCostly, ParticlesOfActions)
+{
+  using mrpt::obs::CActionRobotMovement2D;
+  CActionRobotMovement2D::TMotionModelOptions thrun;
+  thrun.modelSelection = CActionRobotMovement2D::mmThrun;
+  thrun.thrunModel.nParticlesCount = 77777;
+  CActionRobotMovement2D move;
+  move.computeFromOdometry({0.01, 0, 0}, thrun);
+  auto actions = mrpt::obs::CActionCollection::Create();
+  actions->insert(move);
+  const auto action = with(bytesOf({actions}), littleEndian(77777), littleEndian(100000));
+  std::string many;
+  for (int i = 0; i < 2000; ++i) many += action;
+  judge(
+      folder_, kRawlog,
+      {
+          {"200 million particles", many + bytesOf({scans_[0]}), true, ""}
+  });
 }

@@ -356,3 +356,26 @@ TEST(CheckedReader, LimitsTheMemoryOfMrptsVectors)
     EXPECT_NE(errorOf([&] { read(much); }).find("too much memory"), std::string::npos) << count;
   }
 }
+
+TEST(CheckedReader, DrawsNoParticlesOfAMotion)
+{
+  using mrpt::obs::CActionRobotMovement2D;
+  CActionRobotMovement2D::TMotionModelOptions thrun;
+  thrun.modelSelection = CActionRobotMovement2D::mmThrun;
+  thrun.thrunModel.nParticlesCount = 77777;
+  CActionRobotMovement2D move;
+  move.computeFromOdometry({0.1, 0.2, 0.3}, thrun);
+  mrpt::obs::CActionCollection actions;
+  actions.insert(move);
+  const auto bytes = bytesOf(actions);
+  const auto copy = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(read(bytes));
+  ASSERT_TRUE(copy);
+  const auto& read2D = dynamic_cast<const CActionRobotMovement2D&>(*copy->get(0));
+  const auto& model = read2D.motionModelConfiguration.thrunModel;
+  EXPECT_EQ(model.nParticlesCount, 1u);
+  EXPECT_EQ(read2D.rawOdometryIncrementReading, move.rawOdometryIncrementReading);
+  EXPECT_FLOAT_EQ(model.alfa4_trans_rot, thrun.thrunModel.alfa4_trans_rot);
+  const std::string name = "CActionRobotMovement2D";
+  const auto older = with(bytes, name + '\x07', name + '\x03');
+  EXPECT_NE(errorOf([&] { read(older); }).find("misreads"), std::string::npos);
+}

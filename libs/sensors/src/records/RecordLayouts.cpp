@@ -12,7 +12,7 @@ constexpr std::uint64_t kDouble = sizeof(double), kWord = 4;
 
 /** So many observations or actions are never in one record, and MRPT makes room for them first. */
 constexpr std::uint32_t kMostMembers = 1000;
-/** MRPT draws so many samples while it reads an action; it takes 300 itself. */
+/** Samples of a motion; MRPT takes 300 itself. */
 constexpr std::uint32_t kMostParticles = 100000;
 constexpr std::uint32_t kMostRays = 1000000;
 
@@ -65,16 +65,27 @@ void followMovement3D(RecordCheck& c, const Head& head)
   if (head.version >= 1) c.bytes.copy(kTime);
 }
 
+/** The odometry's increment and its noise. By Thrun's model MRPT draws the particles that are
+ * stated here while it reads an action. Nobody looks at them (see thrunCovariance()): one is
+ * enough. */
+void motionModel(RecordCheck& c, int version)
+{
+  constexpr std::uint32_t kGaussian = 0;
+  c.objectOf("CPose2D");
+  const bool drawsParticles = c.bytes.number<std::uint32_t>() != kGaussian;
+  c.bytes.copy(6 * kFloat);
+  c.count(kMostParticles, "particles");
+  if (drawsParticles) c.bytes.replaceFrom(c.bytes.size() - kWord, {1, 0, 0, 0});
+  c.bytes.copy((version >= 5 ? 6 : 4) * kFloat);
+}
+
 void followMovement2D(RecordCheck& c, const Head& head)
 {
+  // MRPT takes two floats of version 3 for doubles, and other bytes for the number of particles.
+  RecordCheck::require(head.version != 3, "holds a motion in a form that MRPT misreads");
   constexpr std::uint32_t kFromOdometry = 0;
   if (c.bytes.number<std::uint32_t>() == kFromOdometry)
-  {
-    c.objectOf("CPose2D");
-    c.bytes.copy(kWord + 6 * kFloat);
-    c.count(kMostParticles, "particles");
-    c.bytes.copy((head.version >= 5 ? 6 : 4) * kFloat);
-  }
+    motionModel(c, head.version);
   else
     c.object();
   const bool hasVelocities = c.flag();
@@ -158,7 +169,7 @@ const std::map<std::string, Layout>& layouts()
       {          "CSensoryFrame",     {2, 2, false, followSensoryFrame}},
       {      "CActionCollection",          {0, 0, false, followActions}},
       { "CActionRobotMovement3D",        {0, 1, true, followMovement3D}},
-      { "CActionRobotMovement2D",        {4, 7, true, followMovement2D}},
+      { "CActionRobotMovement2D",        {3, 7, true, followMovement2D}},
       {  "CObservationRobotPose",         {0, 1, true, followRobotPose}},
       {   "CObservationOdometry",          {0, 2, true, followOdometry}},
       {"CObservation2DRangeScan",         {4, 7, true, followLaserScan}},
