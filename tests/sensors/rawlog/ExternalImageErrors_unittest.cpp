@@ -59,6 +59,40 @@ TEST(RawlogErrors, UnreadableExternalImages)
   EXPECT_EQ(readAll(file).size(), 2u);
 }
 
+TEST(RawlogErrors, ExternalDepthsAsText)
+{
+  const TemporaryFolder folder;
+  auto scan = sampleScan(kStart);
+  const auto depth = scan->rangeImage;
+  mrpt::obs::CObservation3DRangeScan::EXTERNALS_AS_TEXT(true);
+  scan->rangeImage_convertToExternalStorage("depth.txt", folder.path(""));
+  mrpt::obs::CObservation3DRangeScan::EXTERNALS_AS_TEXT(false);
+  const auto file = writeObjects(folder.path("x.rawlog"), {scan});
+  std::filesystem::create_directory(folder.path("x_Images"));
+  const auto isRefused = [&](const std::string& text, const std::string& why)
+  {
+    folder.write("x_Images/depth.txt", text);
+    expectProblem(file, {"x.rawlog: record 0 (camera): ", "depth.txt cannot be read: ", why}, 0);
+  };
+  depth.saveToTextFile(folder.path("x_Images/depth.txt"));
+  const auto frames = readAll(file);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_TRUE(frames[0].scan->rangeImage == depth);
+  isRefused("1 2\n3\n", "its rows differ in length");
+  isRefused("1 -2\n", "no depth of 0 to 65535");
+  isRefused("1 65536\n", "no depth of 0 to 65535");
+  isRefused("1 x\n", "no depth of 0 to 65535");
+  std::string pair = "0 0\n", row, column;
+  for (int i = 0; i < 32767; ++i)
+  {
+    row += "0 ";
+    column += pair;
+  }
+  isRefused(row + "\n", "a row is too long");
+  isRefused(column, "32767 or more rows of 2");
+  isRefused(std::string((8u << 24) + 1, ' '), "it is too large");
+}
+
 TEST(RawlogErrors, ExternalImagesOutsideTheFolder)
 {
   namespace fs = std::filesystem;

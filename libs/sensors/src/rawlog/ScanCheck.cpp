@@ -2,8 +2,13 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -12,6 +17,7 @@
 #include "quadmap/base/InsideFolder.h"
 #include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/BoxCheck.h"
+#include "quadmap/sensors/CheckedReader.h"
 #include "quadmap/sensors/DepthUnit.h"
 #include "quadmap/sensors/EncodedImage.h"
 
@@ -58,11 +64,45 @@ void loadDepthFile(const std::string& path, std::uint64_t mostPixels, CObservati
   file.Read(scan.rangeImage.data(), bytes);
 }
 
-/** MRPT makes a matrix of 32-bit numbers of a text, which has at least two characters for each. */
+/** The numbers of a row of a text, as MRPT writes and reads them. */
+std::vector<std::uint16_t> depthsIn(const std::string& row)
+{
+  std::vector<std::uint16_t> depths;
+  if (row[0] == '%' || row[0] == '#') return depths;  // a comment
+  const char* next = row.c_str();
+  while (next += std::strspn(next, " \t\r,"), *next != '\0')
+  {
+    char* end = nullptr;
+    const double depth = std::strtod(next, &end);
+    if (end == next || !(depth >= 0 && depth <= std::numeric_limits<std::uint16_t>::max()))
+      throw std::runtime_error("it holds something that is no depth of 0 to 65535");
+    if (depths.size() == kLongestImageSide) throw std::runtime_error("a row is too long");
+    depths.push_back(static_cast<std::uint16_t>(depth));
+    next = end;
+  }
+  return depths;
+}
+
+/** Loads an external depth image as a text. MRPT takes 20 bytes of memory for each number of one,
+ * however many there are. */
 void loadDepthText(const std::string& path, std::uint64_t mostPixels, CObservation3DRangeScan& scan)
 {
   if (fs::file_size(path) > 8 * mostPixels) throw std::runtime_error("it is too large");
-  scan.rangeImage.loadFromTextFile(path);
+  std::ifstream file(path);
+  std::vector<std::uint16_t> pixels;
+  std::size_t rows = 0, columns = 0;
+  for (std::string row; std::getline(file, row);)
+  {
+    const auto depths = depthsIn(row);
+    if (depths.empty()) continue;
+    if (rows++ == 0) columns = depths.size();
+    if (depths.size() != columns) throw std::runtime_error("its rows differ in length");
+    if (rows > kLongestImageSide || rows * columns > mostPixels)
+      throw std::runtime_error(mrpt::format("it has %zu or more rows of %zu", rows, columns));
+    pixels.insert(pixels.end(), depths.begin(), depths.end());
+  }
+  scan.rangeImage_setSize(static_cast<int>(rows), static_cast<int>(columns));
+  std::copy(pixels.begin(), pixels.end(), scan.rangeImage.data());
 }
 
 void loadExternalDepth(CObservation3DRangeScan& scan, const ImageRules& rules)
