@@ -19,8 +19,8 @@ CObservationObjects largeObject()
   CObservationObjects object;
   ObjectMask mask;
   mask.width = mask.height = 1024;
-  mask.pixels.resize(std::size_t{mask.width} * mask.height);
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = i * i / 77 % 2;
+  for (std::size_t i = 0; i < std::size_t{mask.width} * mask.height; ++i)
+    mask.pixels.push_back(i * i / 77 % 2 != 0);
   object.objects.resize(16);
   for (auto& detected : object.objects) detected.mask = mask;
   return object;

@@ -159,7 +159,8 @@ TEST_F(RealNetworks, Yolov8SegHasMasksOfItsObjects)
     EXPECT_GE(mask.x0, object.box.x1 - 1);
     EXPECT_LE(mask.x0 + mask.width, object.box.x2 + 1);
     EXPECT_LE(mask.y0 + mask.height, object.box.y2 + 1);
-    const auto covered = std::count(mask.pixels.begin(), mask.pixels.end(), 1);
+    const auto pixels = mask.pixels.expanded();
+    const auto covered = std::count(pixels.begin(), pixels.end(), 1);
     EXPECT_GE(static_cast<double>(covered), 0.2 * object.box.area()) << object.label;
   }
 }

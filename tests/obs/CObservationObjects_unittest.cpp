@@ -8,6 +8,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <limits>
+#include <random>
 #include <sstream>
 
 #include "SampleObservation.h"
@@ -368,6 +369,28 @@ TEST(ObjectMask, ContainsOnlyItsOwnPixels)
   EXPECT_FALSE(mask.contains(31, 52));
 }
 
+TEST(MaskPixels, AreThoseThatWereAdded)
+{
+  std::mt19937 random(7);
+  std::vector<std::uint8_t> expected;
+  MaskPixels pixels;
+  EXPECT_EQ(pixels.size(), 0u);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto count = static_cast<std::uint32_t>(random() % 5);
+    const bool pixel = random() % 3 == 0;
+    pixels.append(count, pixel);
+    expected.insert(expected.end(), count, pixel);
+    ASSERT_EQ(pixels.size(), expected.size());
+    ASSERT_EQ(pixels.expanded(), expected);
+    ASSERT_EQ(pixels, MaskPixels(expected));
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_EQ(pixels[i], expected[i] != 0) << i;
+  EXPECT_TRUE(pixels.hasOnes());
+  EXPECT_FALSE(MaskPixels({0, 0}).hasOnes());
+  EXPECT_FALSE(MaskPixels().hasOnes());
+}
+
 TEST(CObservationObjects, LimitsTheObjectsAndMasksOfAnImage)
 {
   const auto copyOf = [](const CObservationObjects& original)
@@ -387,12 +410,20 @@ TEST(CObservationObjects, LimitsTheObjectsAndMasksOfAnImage)
 
   ObjectMask mask;
   mask.width = mask.height = 4096;
-  mask.pixels.assign(std::size_t{4096} * 4096, 0);
+  mask.pixels.append(4096 * 4096, false);
   boxes.objects.assign(4, {});
   for (auto& object : boxes.objects) object.mask = mask;
   EXPECT_EQ(errorOf([&] { copyOf(boxes); }), "") << "64 MB together";
   boxes.objects.push_back(boxes.objects[0]);
   EXPECT_NE(errorOf([&] { copyOf(boxes); }).find("masks"), std::string::npos);
+
+  mask.pixels = {};
+  for (int i = 0; i < 4096 * 4096; ++i) mask.pixels.push_back(i % 2 != 0);
+  boxes.objects.assign(1, {});
+  boxes.objects[0].mask = mask;
+  EXPECT_EQ(errorOf([&] { copyOf(boxes); }), "") << "16 million runs";
+  boxes.objects.push_back(boxes.objects[0]);
+  EXPECT_NE(errorOf([&] { copyOf(boxes); }).find("too many runs"), std::string::npos);
 }
 
 TEST(CObservationObjects, LimitsTheTextsOfAnImage)

@@ -308,7 +308,7 @@ TEST_F(RawlogTorture, Sidecar)
        true});
   ObjectMask mask;
   mask.width = mask.height = 4096;
-  mask.pixels.assign(std::size_t{4096} * 4096, 0);
+  mask.pixels.append(4096 * 4096, false);
   many->objects.resize(8);
   for (auto& object : many->objects) object.mask = mask;
   cases.push_back({"128 MB of masks", bytesOf({many}), true});

@@ -111,3 +111,32 @@ TEST_F(SmallButCostly, ParticlesOfActions)
           {"200 million particles", many + bytesOf({scans_[0]}), true, ""}
   });
 }
+
+TEST_F(SmallButCostly, MasksOfManyPixels)
+{
+  const auto pose = room_.robotAt(0);
+  auto boxes = room_.boxesOf(*scans_[0], pose);
+  ASSERT_FALSE(boxes->objects.empty());
+  ObjectMask mask;
+  mask.width = mask.height = 4096;
+  mask.pixels.append(4096 * 4096, true);
+  boxes->objects.resize(4, boxes->objects[0]);
+  for (auto& object : boxes->objects) object.mask = mask;
+  std::string many;
+  const auto one = bytesOf({boxes});
+  for (int i = 0; i < 3000; ++i) many += one;
+  writeObjects(folder_.path("x.rawlog"), {samplePose(kStart, pose), scans_[0]});
+  const std::string command = "quadmap-slam DIR/x.rawlog -o OUT --every 1 --threads 1";
+  judge(
+      folder_,
+      {
+          command, "x.objects.rawlog", "x."
+  },
+      compressed({{"200,000 million pixels beside a rawlog", many}}));
+  std::filesystem::remove(folder_.path("x.objects.rawlog"));
+  judge(
+      folder_, kRawlog,
+      compressed({
+          {"200,000 million pixels", many + bytesOf({samplePose(kStart, pose), scans_[0]})}
+  }));
+}

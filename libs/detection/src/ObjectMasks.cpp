@@ -48,11 +48,10 @@ std::optional<ObjectMask> objectMask(
   cv::warpAffine(
       sum, fine, toPrototype, cv::Size(static_cast<int>(mask.width), static_cast<int>(mask.height)),
       cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  mask.pixels.resize(static_cast<std::size_t>(mask.width) * mask.height);
-  std::transform(
-      fine.begin<float>(), fine.end<float>(), mask.pixels.begin(),
-      [](float value) { return static_cast<std::uint8_t>(value > 0 ? 1 : 0); });
-  if (std::count(mask.pixels.begin(), mask.pixels.end(), 1) == 0) return std::nullopt;
+  std::for_each(
+      fine.begin<float>(), fine.end<float>(),
+      [&](float value) { mask.pixels.push_back(value > 0); });
+  if (!mask.pixels.hasOnes()) return std::nullopt;
   return mask;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "quadmap/base/ArchiveFields.h"
 
@@ -32,23 +33,6 @@ std::uint8_t partsOf(const DetectedObject& o)
       (o.measurement.edges ? kEdges : 0));
 }
 
-/** Lengths of runs of equal pixels. The first run is of zeros and may be empty. */
-std::vector<std::uint32_t> runLengths(const std::vector<std::uint8_t>& pixels)
-{
-  std::vector<std::uint32_t> runs(1, 0);
-  bool one = false;
-  for (const auto pixel : pixels)
-  {
-    if ((pixel != 0) != one)
-    {
-      one = !one;
-      runs.push_back(0);
-    }
-    ++runs.back();
-  }
-  return runs;
-}
-
 void checkMaskSize(const ObjectMask& m)
 {
   requireStored(
@@ -63,25 +47,28 @@ void writeMask(CArchive& out, const ObjectMask& m)
   checkMaskSize(m);
   requireStored(m.pixels.size() == std::size_t{m.width} * m.height, "a mask's size is wrong");
   for (const unsigned v : {m.x0, m.y0, m.width, m.height}) out.WriteAs<std::uint32_t>(v);
-  for (const auto run : runLengths(m.pixels)) writeVarint(out, run);
+  std::uint32_t begin = 0;
+  for (const auto end : m.pixels.runEnds()) writeVarint(out, end - std::exchange(begin, end));
+  if (m.pixels.runEnds().empty()) writeVarint(out, 0);
 }
 
-/** \param pixelsLeft How many the masks of the image may still have. */
-ObjectMask readMask(CArchive& in, std::uint64_t& pixelsLeft)
+/** \param left What the masks of the image may still have. */
+ObjectMask readMask(CArchive& in, ObjectsBudget& left)
 {
   ObjectMask m;
   for (unsigned* v : {&m.x0, &m.y0, &m.width, &m.height}) *v = readScalar<std::uint32_t>(in);
   checkMaskSize(m);
   const std::size_t size = std::size_t{m.width} * m.height;
-  requireStored(size <= pixelsLeft, "the masks of an image are too large");
-  pixelsLeft -= size;
-  std::uint8_t pixel = 0;
+  requireStored(size <= left.maskPixels, "the masks of an image are too large");
+  left.maskPixels -= size;
+  bool pixel = false;
   std::size_t run = readVarint(in);
-  for (;; run = readVarint(in), pixel ^= 1)
+  for (;; run = readVarint(in), pixel = !pixel)
   {
+    requireStored(left.maskRuns-- > 0, "the masks of an image have too many runs of pixels");
     requireStored(run <= size - m.pixels.size(), "a mask has more pixels than its size");
-    requireStored(run > 0 || m.pixels.empty(), "a mask has an empty run");
-    m.pixels.insert(m.pixels.end(), run, pixel);
+    requireStored(run > 0 || m.pixels.size() == 0, "a mask has an empty run");
+    m.pixels.append(static_cast<std::uint32_t>(run), pixel);
     if (m.pixels.size() == size) return m;
   }
 }
@@ -228,7 +215,7 @@ DetectedObject readDetectedObject(CArchive& in, ObjectsBudget& left)
   object.score = readScalar<double>(in);
   for (double* v : {&object.box.x1, &object.box.y1, &object.box.x2, &object.box.y2})
     *v = readScalar<double>(in);
-  if (parts & kMask) object.mask = readMask(in, left.maskPixels);
+  if (parts & kMask) object.mask = readMask(in, left);
   if (parts & kInstance) object.instanceId = readScalar<std::uint32_t>(in);
   object.measurement = readMeasurement(in, parts);
   takeTexts(object, left.textBytes);

@@ -11,6 +11,8 @@ namespace quadmap
 struct ObjectsBudget
 {
   std::uint64_t maskPixels = CObservationObjects::kMostMaskPixels;
+  /** Runs of equal pixels in the masks. They take memory, where pixels take none. */
+  std::uint64_t maskRuns = std::uint64_t{1} << 24;
   /** Bytes of labels and reasons, 256 for each of the most objects. Labels are compared often. */
   std::uint64_t textBytes = 256 * CObservationObjects::kMostObjects;
 };

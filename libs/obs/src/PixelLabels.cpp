@@ -109,7 +109,6 @@ std::optional<DetectedObject> objectOf(
   mask.height = static_cast<unsigned>(area.height);
   std::vector<bool> isPart(static_cast<std::size_t>(stats.rows), false);
   for (const int c : components) isPart[static_cast<std::size_t>(c)] = true;
-  mask.pixels.reserve(static_cast<std::size_t>(area.area()));
   for (int y = area.y; y < area.y + area.height; ++y)
     for (int x = area.x; x < area.x + area.width; ++x)
       mask.pixels.push_back(isPart[static_cast<std::size_t>(componentOf.at<int>(y, x))]);

@@ -105,9 +105,9 @@ int FrameCanvas::freeRow(const cv::Rect& text) const
 
 void FrameCanvas::tint(const ObjectMask& mask, cv::Scalar color)
 {
+  auto values = mask.pixels.expanded();
   const cv::Mat pixels(
-      static_cast<int>(mask.height), static_cast<int>(mask.width), CV_8U,
-      const_cast<std::uint8_t*>(mask.pixels.data()));
+      static_cast<int>(mask.height), static_cast<int>(mask.width), CV_8U, values.data());
   const cv::Rect place(
       static_cast<int>(mask.x0) * scale_, static_cast<int>(mask.y0) * scale_, pixels.cols * scale_,
       pixels.rows * scale_);

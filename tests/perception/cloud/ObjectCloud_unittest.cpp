@@ -337,11 +337,12 @@ TEST(ObjectCloud, UsesAMaskWhoseBoundaryIsABitOff)
     ObjectMask mask;
     mask.width = 640;
     mask.height = 480;
-    mask.pixels.assign(640 * 480, 0);
+    std::vector<std::uint8_t> pixels(640 * 480, 0);
     for (unsigned v = 0; v < 480; ++v)
       for (unsigned u = 4; u < 636; ++u)
         if (frame.look(u, v).first == 0)
-          mask.pixels[v * 640 + static_cast<unsigned>(static_cast<int>(u) + shift)] = 1;
+          pixels[v * 640 + static_cast<unsigned>(static_cast<int>(u) + shift)] = 1;
+    mask.pixels = pixels;
     detection.mask = mask;
     const auto m = measureAll(frame, {detection}, frame.scan());
     ASSERT_TRUE(m[0].complete) << m[0].reason;

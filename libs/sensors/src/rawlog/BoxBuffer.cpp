@@ -18,7 +18,7 @@ std::size_t bytesOf(const CObservationObjects& boxes)
   std::size_t bytes = sizeof boxes + boxes.coarseDepth.depth.size() * sizeof(float);
   for (const auto& object : boxes.objects)
     bytes += sizeof object + object.label.size() + object.measurement.reason.size() +
-             (object.mask ? object.mask->pixels.size() : 0);
+             (object.mask ? object.mask->pixels.runEnds().size() * sizeof(std::uint32_t) : 0);
   return bytes;
 }
 

@@ -43,10 +43,12 @@ void turn(DetectedObject& object, unsigned rows)
   if (!object.mask) return;
   ObjectMask& mask = *object.mask;
   mask.y0 = rows - std::min(rows, mask.y0 + mask.height);
+  auto pixels = mask.pixels.expanded();
   for (unsigned row = 0; row < mask.height / 2; ++row)
     std::swap_ranges(
-        mask.pixels.begin() + row * mask.width, mask.pixels.begin() + (row + 1) * mask.width,
-        mask.pixels.begin() + (mask.height - 1 - row) * mask.width);
+        pixels.begin() + row * mask.width, pixels.begin() + (row + 1) * mask.width,
+        pixels.begin() + (mask.height - 1 - row) * mask.width);
+  mask.pixels = pixels;
 }
 
 void turnDepth(mrpt::obs::CObservation3DRangeScan& scan)

@@ -98,7 +98,6 @@ std::optional<ObjectMask> noisyMask(
   mask.y0 = static_cast<unsigned>(v1);
   mask.width = static_cast<unsigned>(u2 - u1 + 1);
   mask.height = static_cast<unsigned>(v2 - v1 + 1);
-  mask.pixels.reserve(std::size_t{mask.width} * mask.height);
   for (int v = v1; v <= v2; ++v)
     for (int u = u1; u <= u2; ++u)
     {
@@ -108,8 +107,7 @@ std::optional<ObjectMask> noisyMask(
       const auto i = static_cast<std::size_t>(y * width + x);
       mask.pixels.push_back(frame.object[i] == static_cast<std::int32_t>(object));
     }
-  if (std::find(mask.pixels.begin(), mask.pixels.end(), 1) == mask.pixels.end())
-    return std::nullopt;
+  if (!mask.pixels.hasOnes()) return std::nullopt;
   return mask;
 }
 
@@ -154,7 +152,7 @@ void labelPixels(
     if (bit == bitOf.end()) continue;
     for (unsigned v = 0; v < mask->height; ++v)
       for (unsigned u = 0; u < mask->width; ++u)
-        if (mask->pixels[std::size_t{v} * mask->width + u] != 0)
+        if (mask->pixels[std::size_t{v} * mask->width + u])
           scan.pixelLabels->setLabel(
               static_cast<int>(mask->y0 + v), static_cast<int>(mask->x0 + u), bit->second);
   }

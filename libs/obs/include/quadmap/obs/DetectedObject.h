@@ -3,25 +3,25 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "quadmap/geometry/ImageBox.h"
+#include "quadmap/obs/MaskPixels.h"
 #include "quadmap/obs/ObjectMeasurement.h"
 
 namespace quadmap
 {
-/** Which pixels of a box belong to the object, one byte (0 or 1) per pixel, row major. */
+/** Which pixels of a box belong to the object. */
 struct ObjectMask
 {
-  unsigned x0 = 0, y0 = 0;           //!< Upper left pixel in the image
-  unsigned width = 0, height = 0;    //!< [px]
-  std::vector<std::uint8_t> pixels;  //!< width * height
+  unsigned x0 = 0, y0 = 0;         //!< Upper left pixel in the image
+  unsigned width = 0, height = 0;  //!< [px]
+  MaskPixels pixels;               //!< width * height, row major
 
   /** False for pixels outside the mask's rectangle. */
   bool contains(unsigned x, unsigned y) const
   {
     return x >= x0 && y >= y0 && x < x0 + width && y < y0 + height &&
-           pixels[(y - y0) * width + (x - x0)] != 0;
+           pixels[std::size_t{y - y0} * width + (x - x0)];
   }
 };
 
