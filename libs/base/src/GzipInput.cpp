@@ -72,29 +72,23 @@ std::size_t GzInput::Read(void* buffer, std::size_t count)
 
 std::size_t GzInput::readSome(char* bytes, std::size_t count)
 {
-  requireRoomFor(count);
-  const std::size_t done = readAvailable(bytes, count);
+  const std::uint64_t room = mostBytes_ - std::min(mostBytes_, position_);
+  // One byte more tells whether there are more than there may be.
+  const std::size_t most = count <= room ? count : static_cast<std::size_t>(room) + 1;
+  const std::size_t done = readAvailable(bytes, most);
   position_ += done;
-  return done;
-}
-
-void GzInput::requireRoomFor(std::uint64_t count)
-{
-  if (position_ > mostBytes_ || count > mostBytes_ - position_)
+  if (position_ > mostBytes_)
     fail("the file holds more than " + std::to_string(mostBytes_ >> 20) + " MB");
+  return done;
 }
 
 std::uint64_t GzInput::skipToEnd()
 {
-  const std::uint64_t start = position_;
   constexpr std::size_t kAtOnce = 1u << 17;
+  const std::uint64_t start = position_;
   std::vector<char> bytes(kAtOnce);
-  std::size_t done = bytes.size();
-  while (done > 0)
+  while (readSome(bytes.data(), bytes.size()) > 0)
   {
-    done = readAvailable(bytes.data(), bytes.size());
-    requireRoomFor(done);
-    position_ += done;
   }
   return position_ - start;
 }

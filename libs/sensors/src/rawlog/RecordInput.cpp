@@ -15,7 +15,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr std::size_t kPieceBytes = 1u << 16;  // read at a time while the next record is looked for
+constexpr std::size_t kPieceBytes = 1u << 16;  // read ahead, as records are read byte by byte
 
 /** Classes whose layout is not known here are none: see CheckedReader::tryNext(). */
 bool isRecordClass(const std::string& writtenName)
@@ -49,11 +49,12 @@ void RecordInput::startRecord()
   begin_ = next_ = 0;
 }
 
-/** Reads the file until there are so many bytes, as far as it has them. */
-void RecordInput::fetch(std::size_t size)
+/** Reads the file until there are so many bytes or more, as far as it has them. */
+void RecordInput::fetch(std::size_t least)
 {
   const std::size_t before = bytes_.size();
-  if (size <= before) return;
+  if (least <= before) return;
+  const std::size_t size = std::max(least, before + kPieceBytes);
   bytes_.resize(size);
   std::size_t end = before;
   try
@@ -70,9 +71,9 @@ void RecordInput::fetch(std::size_t size)
 
 std::size_t RecordInput::Read(void* buffer, std::size_t count)
 {
-  if (next_ == bytes_.size() && next_ - begin_ > kMostKept)
+  if (next_ - begin_ > kMostKept)
   {
-    bytes_.clear();
+    bytes_.erase(0, next_);
     begin_ = next_ = 0;
     wasForgotten_ = true;
   }
@@ -106,7 +107,7 @@ std::optional<std::uint64_t> RecordInput::skipToNextRecord()
   if (wasForgotten_ || searched_ > kMostSearched) return std::nullopt;
   for (std::size_t at = begin_ + 1; at - begin_ <= kMostKept; ++at)
   {
-    if (at + GzInput::kHeadBytes > bytes_.size()) fetch(at + kPieceBytes);
+    if (at + GzInput::kHeadBytes > bytes_.size()) fetch(at + GzInput::kHeadBytes);
     if (at >= bytes_.size()) break;
     if (!isRecordAt(at)) continue;
     const std::uint64_t passed = at - begin_;

@@ -56,7 +56,7 @@ class RecordInput : public mrpt::io::CStream
   static constexpr std::uint64_t kTryBytes = std::uint64_t{1} << 16;
 
  private:
-  void fetch(std::size_t size);
+  void fetch(std::size_t least);
   bool isRecordAt(std::size_t at) const;
 
   GzInput file_;

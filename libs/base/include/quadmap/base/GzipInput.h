@@ -59,7 +59,6 @@ class GzInput : public mrpt::io::CStream
 
  private:
   [[noreturn]] void fail(const std::string& why);
-  void requireRoomFor(std::uint64_t count);
   std::size_t readAvailable(char* bytes, std::size_t count);
 
   std::unique_ptr<GzipDecoder> decoder_;
