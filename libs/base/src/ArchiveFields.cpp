@@ -9,10 +9,7 @@ namespace quadmap
 {
 using mrpt::serialization::CArchive;
 
-void requireStored(bool condition, const std::string& what)
-{
-  if (!condition) throw std::runtime_error("archive: " + what);
-}
+void throwNotStored(const std::string& what) { throw std::runtime_error("archive: " + what); }
 
 void readBytes(CArchive& in, void* to, std::size_t n)
 {

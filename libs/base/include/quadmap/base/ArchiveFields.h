@@ -13,8 +13,19 @@ namespace quadmap
 // What the serialization of our classes is made of. MRPT's own readers believe the sizes they read
 // (a damaged byte asks for gigabytes) and take half a number for a number; these throw.
 
-/** \exception std::runtime_error "archive: " and `what`, when the condition does not hold. */
-void requireStored(bool condition, const std::string& what);
+/** \exception std::runtime_error "archive: " and `what`. */
+[[noreturn]] void throwNotStored(const std::string& what);
+
+/** \exception std::runtime_error "archive: " and `what`, when the condition does not hold. No text
+ * is made when it does: this is asked for each byte of some files. */
+inline void requireStored(bool condition, const char* what)
+{
+  if (!condition) throwNotStored(what);
+}
+inline void requireStored(bool condition, const std::string& what)
+{
+  if (!condition) throwNotStored(what);
+}
 
 /** Reads exactly n bytes. CArchive::ReadBuffer is content with fewer. */
 void readBytes(mrpt::serialization::CArchive& in, void* to, std::size_t n);
