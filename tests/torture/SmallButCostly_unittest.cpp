@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
 
+#include "../sensors/records/ThrunMotion.h"
 #include "../slam/SyntheticRoom.h"
 #include "Damages.h"
 #include "quadmap/base/GzipInput.h"
@@ -94,12 +94,7 @@ TEST_F(SmallButCostly, CountsInASimpleMap)
 
 TEST_F(SmallButCostly, ParticlesOfActions)
 {
-  using mrpt::obs::CActionRobotMovement2D;
-  CActionRobotMovement2D::TMotionModelOptions thrun;
-  thrun.modelSelection = CActionRobotMovement2D::mmThrun;
-  thrun.thrunModel.nParticlesCount = 77777;
-  CActionRobotMovement2D move;
-  move.computeFromOdometry({0.01, 0, 0}, thrun);
+  const auto move = thrunMotion(77777);
   auto actions = mrpt::obs::CActionCollection::Create();
   actions->insert(move);
   const auto action = with(bytesOf({actions}), littleEndian(77777), littleEndian(100000));

@@ -18,6 +18,7 @@
 #include <cstring>
 
 #include "../SampleRawlog.h"
+#include "ThrunMotion.h"
 #include "quadmap/base/GzipInput.h"
 #include "quadmap/base/GzipStream.h"
 
@@ -360,11 +361,7 @@ TEST(CheckedReader, LimitsTheMemoryOfMrptsVectors)
 TEST(CheckedReader, DrawsNoParticlesOfAMotion)
 {
   using mrpt::obs::CActionRobotMovement2D;
-  CActionRobotMovement2D::TMotionModelOptions thrun;
-  thrun.modelSelection = CActionRobotMovement2D::mmThrun;
-  thrun.thrunModel.nParticlesCount = 77777;
-  CActionRobotMovement2D move;
-  move.computeFromOdometry({0.1, 0.2, 0.3}, thrun);
+  const CActionRobotMovement2D move = thrunMotion(77777);
   mrpt::obs::CActionCollection actions;
   actions.insert(move);
   const auto bytes = bytesOf(actions);
@@ -374,7 +371,7 @@ TEST(CheckedReader, DrawsNoParticlesOfAMotion)
   const auto& model = read2D.motionModelConfiguration.thrunModel;
   EXPECT_EQ(model.nParticlesCount, 1u);
   EXPECT_EQ(read2D.rawOdometryIncrementReading, move.rawOdometryIncrementReading);
-  EXPECT_FLOAT_EQ(model.alfa4_trans_rot, thrun.thrunModel.alfa4_trans_rot);
+  EXPECT_FLOAT_EQ(model.alfa4_trans_rot, move.motionModelConfiguration.thrunModel.alfa4_trans_rot);
   const std::string name = "CActionRobotMovement2D";
   const auto older = with(bytes, name + '\x07', name + '\x03');
   EXPECT_NE(errorOf([&] { read(older); }).find("misreads"), std::string::npos);
