@@ -197,6 +197,27 @@ TEST(CQuadricObjectMap, HiddenObjectsAreNotMissed)
   }
 }
 
+/** The coarse depth has two or three cells for a cup; the map knows what stands before it. */
+TEST(CQuadricObjectMap, WhatIsBehindAThingOfTheMapIsNotMissed)
+{
+  const auto cup = cuboid("cup", {0, 0, 0.85}, {0.1, 0.1, 0.1}, 0);
+  const auto vase = cuboid("vase", {0.3, 0, 0.95}, {0.2, 0.2, 0.3}, 0);
+  const auto missesFrom = [&](const Eigen::Vector3d& eye)
+  {
+    CQuadricObjectMap map;
+    SyntheticCamera camera(9);
+    walkAround(map, camera, {cup, vase}, 12);
+    EXPECT_EQ(map.confirmedObjects().size(), 2u);
+    const auto T = SyntheticCamera::lookAt(eye, {0, 0, 0.8});
+    for (int i = 0; i < 10; ++i) map.insertObservation(camera.observe(T, {vase}), T);
+    for (const auto& [id, object] : map.objects())
+      if (object.label() == "cup") return object.missCount;
+    return 1000u;
+  };
+  EXPECT_EQ(missesFrom({2.4, 0, 1.2}), 0u) << "behind the vase";
+  EXPECT_EQ(missesFrom({0, 2.4, 1.2}), 10u) << "beside it";
+}
+
 /** A detector finds chairs behind tables, too: that it found none there counts as well, unless
  * hardly anything of one would show. */
 TEST(CQuadricObjectMap, WhatIsHiddenInPartIsMissed)

@@ -1,6 +1,7 @@
 #include "quadmap/estimation/Visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "quadmap/geometry/Projection.h"
@@ -26,6 +27,42 @@ double hiddenShare(
       hidden += d <= 0 || d < nearestDepth ? 1 : 0;
     }
   return cells == 0 ? 1.0 : static_cast<double>(hidden) / cells;
+}
+
+/** Does the way from a camera to a point lead into the cuboid and out of it again? */
+bool leadsThrough(
+    const Eigen::Vector3d& camera, const Eigen::Vector3d& point, const Ellipsoid& cuboid)
+{
+  const Eigen::Matrix3d R_obj_map = cuboid.rotation().transpose();
+  const Eigen::Vector3d start = R_obj_map * (camera - cuboid.center());
+  const Eigen::Vector3d way = R_obj_map * (point - camera);
+  double in = 0, out = 1;  // shares of the way
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double half = cuboid.semiAxes()[axis];
+    // Along an axis that the way does not move on, both are infinite.
+    const auto [first, last] =
+        std::minmax({(-half - start[axis]) / way[axis], (half - start[axis]) / way[axis]});
+    in = std::max(in, first);
+    out = std::min(out, last);
+  }
+  return in < out && out < 1;
+}
+
+/** The centre, and the points at 0.7 of the half axes: inside, where the outline is not at stake.
+ */
+std::array<Eigen::Vector3d, 7> pointsIn(const Ellipsoid& object)
+{
+  const Eigen::Matrix3d axes = 0.7 * object.rotation() * object.semiAxes().asDiagonal();
+  const Eigen::Vector3d center = object.center();
+  std::array<Eigen::Vector3d, 7> points;
+  points[0] = center;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    points[1 + 2 * axis] = center + axes.col(axis);
+    points[2 + 2 * axis] = center - axes.col(axis);
+  }
+  return points;
 }
 
 }  // namespace
@@ -57,6 +94,23 @@ bool shouldBeVisible(
 
   return hiddenShare(*frame.depth, frame.camera, inside, nearestDepth - options.occluderMargin) <=
          options.maxHiddenShare;
+}
+
+bool isBehind(
+    const Ellipsoid& object,
+    const std::vector<Ellipsoid>& things,
+    const Eigen::Vector3d& camera,
+    const ExistenceOptions& options)
+{
+  const auto points = pointsIn(object);
+  const auto isHidden = [&](const Eigen::Vector3d& point)
+  {
+    return std::any_of(
+        things.begin(), things.end(),
+        [&](const Ellipsoid& thing) { return leadsThrough(camera, point, thing); });
+  };
+  const auto hidden = std::count_if(points.begin(), points.end(), isHidden);
+  return static_cast<double>(hidden) > options.maxHiddenShare * points.size();
 }
 
 std::optional<ImageBox> projectedBox(

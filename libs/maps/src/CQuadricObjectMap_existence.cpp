@@ -9,19 +9,39 @@
 // Whether an object exists: section 13 of doc/mathematics.md.
 namespace quadmap
 {
+namespace
+{
+/** Should a detector have found the object? It finds what is as large as it saw it before,
+ * `usualSize` [px]. For what is smaller than minBoxSize the coarse depth has few cells: whether
+ * something hides it is also asked of the map. */
+bool shouldBeFound(
+    const Ellipsoid& object,
+    std::optional<double> usualSize,
+    const FrameGeometry& frame,
+    const std::vector<Ellipsoid>& confirmed,
+    const ExistenceOptions& existence)
+{
+  if (shouldBeVisible(object, frame, existence, existence.minBoxSize)) return true;
+  return usualSize && *usualSize < existence.minBoxSize &&
+         shouldBeVisible(object, frame, existence, *usualSize) &&
+         !isBehind(object, confirmed, positionOf(frame.T_map_sensor), existence);
+}
+}  // namespace
+
 /** Notes each object that the frame should have shown and did not. \return Their ids. */
 std::set<ObjectId> CQuadricObjectMap::countMisses(
     const Frame& frame, const std::set<ObjectId>& touched)
 {
   const auto& existence = insertionOptions.existence;
   const auto& camera = frame.geometry.T_map_sensor;
+  std::vector<Ellipsoid> confirmed;
+  for (const MapObject* object : confirmedObjects()) confirmed.push_back(object->object);
   std::set<ObjectId> missed;
   for (auto& [id, object] : objects_)
   {
     if (touched.count(id) != 0) continue;
-    const double usualSize = object.looks.usualSize().value_or(existence.minBoxSize);
-    if (!shouldBeVisible(
-            object.object, frame.geometry, existence, std::min(existence.minBoxSize, usualSize)))
+    if (!shouldBeFound(
+            object.object, object.looks.usualSize(), frame.geometry, confirmed, existence))
       continue;
     if (isShownByAFreeBox(object, frame)) continue;
     ++object.missCount;

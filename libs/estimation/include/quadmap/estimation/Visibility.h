@@ -3,6 +3,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <optional>
+#include <vector>
 
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/estimation/ObjectView.h"
@@ -65,6 +66,15 @@ bool shouldBeVisible(
     const FrameGeometry& frame,
     const ExistenceOptions& options,
     double minBoxSize);
+
+/** Is more of the object behind things of the map than existence.maxHiddenShare? Things count as
+ * their cuboids, and hide what is wholly behind them, not what stands on them, is in them or
+ * overlaps them; so an object does not hide itself. \param camera Its place in the map [m]. */
+bool isBehind(
+    const Ellipsoid& object,
+    const std::vector<Ellipsoid>& things,
+    const Eigen::Vector3d& camera,
+    const ExistenceOptions& options);
 
 /** Box of the object's outline in the image: of the cuboid or the ellipsoid, whichever the shape
  * exponent is nearer to; not clipped. */
