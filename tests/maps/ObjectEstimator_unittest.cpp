@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "../geometry/Algebra.h"
@@ -197,6 +198,68 @@ TEST(ObjectEstimator, RoundLabelsBecomeRound)
   EXPECT_FALSE(result.orientationDefined);
   EXPECT_NEAR(result.state[4], result.state[5], 0.1);
   EXPECT_LT((result.state.head<3>() - cup.object.center()).norm(), 0.02);
+}
+
+namespace
+{
+/** Cuboids without a heading, from all around. \param halfWidth Of the object, along an angle. */
+template <typename HalfWidth>
+ObjectEstimator seenWithoutHeading(const HalfWidth& halfWidth, const LabelProperties& label)
+{
+  std::mt19937 generator(7);
+  std::normal_distribution<double> noise(0, 0.01);
+  ObjectEstimator e;
+  for (int i = 0; i < 24; ++i)
+  {
+    ObjectView view;
+    view.label = label.name;
+    view.complete = true;
+    view.yaw = 0.26 * i;
+    view.camera = {1 + 2 * std::cos(view.yaw), 2 * std::sin(view.yaw), 1.4};
+    view.center = {1 + noise(generator), noise(generator), 0.37};
+    view.halfSizes = {
+        halfWidth(view.yaw) + noise(generator), halfWidth(view.yaw + M_PI / 2) + noise(generator),
+        0.37};
+    view.faces.fill({FaceKind::Measured, 0.02});
+    view.faceExponent = label.shapeExponent;
+    view.centerCovariance = 1e-4 * Eigen::Matrix3d::Identity();
+    e.add(view, {});
+  }
+  return e;
+}
+}  // namespace
+
+TEST(ObjectEstimator, ATableIsRoundWhenItsSidesAre)
+{
+  LabelProperties table = boxy("dining table");
+  table.levelTop = true;
+  const auto estimated = [&](const auto& halfWidth)
+  { return seenWithoutHeading(halfWidth, table).estimate({}, table, {}); };
+
+  const auto round = estimated([](double) { return 0.55; });
+  EXPECT_TRUE(round.isRound);
+  EXPECT_FALSE(round.orientationDefined);
+  const Eigen::Vector3d halfSizes = round.state.tail<3>().array().exp();
+  EXPECT_NEAR(halfSizes.x(), 0.55, 0.01);
+  EXPECT_NEAR(halfSizes.y(), 0.55, 0.01);
+
+  for (const double half : {0.4, 0.6})  // square, and longer than wide
+  {
+    const auto angular =
+        estimated([&](double angle)
+                  { return half * std::abs(std::cos(angle)) + 0.4 * std::abs(std::sin(angle)); });
+    EXPECT_FALSE(angular.isRound) << half;
+    Eigen::Vector3d sizes = angular.state.tail<3>().array().exp();
+    EXPECT_NEAR(sizes.head<2>().maxCoeff(), half, 0.02);
+    EXPECT_NEAR(sizes.head<2>().minCoeff(), 0.4, 0.02);
+  }
+}
+
+TEST(ObjectEstimator, OnlyThingsWithALevelTopMayBeRoundAgainstTheirLabel)
+{
+  const LabelProperties chair = boxy("chair");
+  const auto estimator = seenWithoutHeading([](double) { return 0.3; }, chair);
+  EXPECT_FALSE(estimator.estimate({}, chair, {}).isRound);
 }
 
 TEST(MedianState, DoesNotDependOnWhereTheMapsOriginIs)

@@ -233,6 +233,13 @@ double positionLogLikelihood(
   return log;
 }
 
+LabelProperties propertiesOf(const MapObject& object, const LabelTable& labels)
+{
+  LabelProperties properties = labels.properties(object.label());
+  if (object.isRound) properties.shapeExponent = kCylinder;
+  return properties;
+}
+
 std::optional<ObjectView> measurementOf(
     const MapObject& object,
     ObjectView view,

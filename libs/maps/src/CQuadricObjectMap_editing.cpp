@@ -155,6 +155,8 @@ void CQuadricObjectMap::estimate(Entry& object, bool restart)
   object.covariance = result.covariance;
   object.contradicted.setZero();
   object.orientationDefined = result.orientationDefined;
+  object.isRound = result.isRound;
+  object.estimator.setRound(result.isRound);
   object.confirmed = isConfirmed(object);
   object.estimatedFrom = object.observations();
 }

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "FreeInformation.h"
+#include "ObjectEvidence.h"
 #include "quadmap/estimation/AxisRenaming.h"
 #include "quadmap/estimation/LabelPrior.h"
-#include "quadmap/estimation/RepeatedErrors.h"
-#include "quadmap/estimation/ViewResiduals.h"
 #include "quadmap/geometry/RotationDistance.h"
 #include "quadmap/obs/Plausible.h"
 
@@ -21,69 +20,8 @@ namespace
 /** Share of the complete measurements that must show a direction. */
 constexpr double kYawShare = 0.25;
 
-/** Adds what a file knew, doc/mathematics.md, (11.19). */
-void addPrior(const InformationPrior& prior, const UprightState& state, NormalEquations& eq)
-{
-  const UprightState x = prior.inItsTurn(state);
-  eq.H += prior.L;
-  eq.g += prior.L * x - prior.xi;
-  eq.cost += 0.5 * x.dot(prior.L * x) - prior.xi.dot(x);
-}
-
-/** The measured part of the cost (doc/mathematics.md, (11.1)): views with their weights, and what a
- * file knew. */
-class Evidence
-{
- public:
-  /** \param reference The weights of the views are taken there. \param prior Must outlive it. */
-  Evidence(
-      const std::deque<ObjectView>& views,
-      const InformationPrior& prior,
-      const UprightState& reference,
-      const EstimatorOptions& options) :
-      views_(views), prior_(prior), options_(options)
-  {
-    measurements_.reserve(views.size());  // the placed ones refer to them
-    placed_.reserve(views.size());
-    for (const ObjectView& view : views)
-    {
-      measurements_.push_back(measurementInMap(view, options));
-      // A consensus needs a majority.
-      measurements_.back().weight = views.size() < 3 ? 1.0 : viewWeight(view, reference);
-    }
-    shareEdgeErrors(measurements_);
-    for (const BoxMeasurement& measurement : measurements_)
-      placed_.emplace_back(
-          measurement, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
-  }
-
-  NormalEquations at(const UprightState& x, double shapeExponent) const
-  {
-    NormalEquations eq;
-    const ObjectShape object(x);
-    for (std::size_t i = 0; i < placed_.size(); ++i)
-      addViewResiduals(
-          placed_[i], object, shapeExponent, options_.huber, measurements_[i].weight, eq);
-    if (!prior_.empty()) addPrior(prior_, x, eq);
-    return eq;
-  }
-
-  /** What the views do not average out. */
-  RepeatedErrors repeated(const UprightState& x, double shapeExponent) const
-  {
-    RepeatedErrors errors(x, shapeExponent, options_);
-    for (std::size_t i = 0; i < placed_.size(); ++i)
-      errors.add(views_[i], measurements_[i], placed_[i]);
-    return errors;
-  }
-
- private:
-  const std::deque<ObjectView>& views_;
-  const InformationPrior& prior_;
-  const EstimatorOptions& options_;
-  std::vector<BoxMeasurement> measurements_;
-  std::vector<ViewAtPose> placed_;
-};
+/** Complete measurements from which on what is round can be told from what has corners. */
+constexpr double kFewComplete = 3;
 
 /** Shortens a step so that it stays where the linearisation means something. */
 UprightState limited(UprightState step)
@@ -130,6 +68,51 @@ NormalEquations minimise(const Linearise& linearise, UprightState& x, int maxIte
     if (step.cwiseAbs().maxCoeff() < kSmallStep || lambda > 1e6) break;
   }
   return eq;
+}
+
+/** The most probable state by that evidence, searched from one or two starts. */
+ObjectEstimator::Estimate minimum(
+    const ObjectEvidence& evidence,
+    const UprightState& start,
+    const std::optional<UprightState>& otherStart,
+    const LabelProperties& label,
+    const EstimatorOptions& options)
+{
+  const auto linearise = [&](const UprightState& x)
+  {
+    NormalEquations eq = evidence.at(x);
+    addLabelPrior(x, label, options, eq);
+    return eq;
+  };
+  UprightState x = start;
+  NormalEquations best = minimise(linearise, x, options.maxIterations);
+  if (otherStart)
+  {
+    UprightState other = *otherStart;
+    other[3] = nearestEquivalentYaw(other[3], x[3], 2 * M_PI);
+    const NormalEquations there = minimise(linearise, other, options.maxIterations);
+    if (there.cost < best.cost)
+    {
+      best = there;
+      x = other;
+    }
+  }
+  ObjectEstimator::Estimate e;
+  e.state = x;
+  e.cost = best.cost;
+  const UprightCovariance information = best.H + freeInformation();
+  const UprightCovariance independent = information.ldlt().solve(UprightCovariance::Identity());
+  const UprightCovariance repeated = evidence.repeated(x).crossTerms();
+  e.covariance = independent + independent * repeated * independent;
+  return e;
+}
+
+double labelCost(
+    const UprightState& x, const LabelProperties& label, const EstimatorOptions& options)
+{
+  NormalEquations eq;
+  addLabelPrior(x, label, options, eq);
+  return eq.cost;
 }
 
 /** Index of the view that is missed least. It is the older one of the two whose cameras are nearest
@@ -181,49 +164,48 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   if (!start && !medians) throw std::logic_error("ObjectEstimator: nothing to estimate from");
   // With a prior the medians of the measurements are not a consensus of all.
   const UprightState reference = medians && prior_.empty() ? *medians : start.value_or(*medians);
-  const Evidence evidence(views_, prior_, reference, options);
-  const auto linearise = [&](const UprightState& x)
-  {
-    NormalEquations eq = evidence.at(x, label.shapeExponent);
-    addLabelPrior(x, label, options, eq);
-    return eq;
-  };
+  const UprightState from = start.value_or(reference);
+  const auto other = restart && start ? medians : std::nullopt;
 
-  UprightState x = start.value_or(reference);
-  NormalEquations best = minimise(linearise, x, options.maxIterations);
-  if (restart && start && medians)
-  {
-    UprightState other = *medians;
-    other[3] = nearestEquivalentYaw(other[3], x[3], 2 * M_PI);
-    const NormalEquations there = minimise(linearise, other, options.maxIterations);
-    if (there.cost < best.cost)
-    {
-      best = there;
-      x = other;
-    }
-  }
-
-  Estimate e;
-  e.state = x;
-  e.cost = best.cost;
-  const UprightCovariance information = best.H + freeInformation();
-  const UprightCovariance independent = information.ldlt().solve(UprightCovariance::Identity());
-  const UprightCovariance repeated = evidence.repeated(x, label.shapeExponent).crossTerms();
-  e.covariance = independent + independent * repeated * independent + sharedError_;
   double complete = prior_.complete, defined = prior_.yawDefined;
   for (const auto& v : views_)
   {
     complete += v.complete ? 1 : 0;
     defined += v.complete && v.yawDefined ? 1 : 0;
   }
-  e.orientationDefined = label.dominantDirection && defined > 0 && defined >= kYawShare * complete;
-  return e;
+  const bool hasHeading = defined > 0 && defined >= kYawShare * complete;
+
+  const ObjectEvidence angular(views_, prior_, reference, options, label.shapeExponent);
+  Estimate best = minimum(angular, from, other, label, options);
+  if (label.dominantDirection && label.levelTop && !hasHeading && complete >= kFewComplete)
+  {
+    const ObjectEvidence circular(views_, prior_, reference, options, std::nullopt);
+    const Estimate round = minimum(circular, from, other, label, options);
+    const auto cost = [&](const ObjectEvidence& evidence, const Estimate& e)
+    { return evidence.costOfEqualViews(e.state) + labelCost(e.state, label, options); };
+    if (cost(circular, round) < cost(angular, best))
+    {
+      best = round;
+      best.isRound = true;
+    }
+  }
+  best.covariance += sharedError_;
+  best.orientationDefined = label.dominantDirection && hasHeading;
+  return best;
+}
+
+ObjectEvidence ObjectEstimator::evidenceAt(
+    const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
+{
+  return {
+      views_, prior_, at, options,
+      isRound_ ? std::nullopt : std::optional<double>(label.shapeExponent)};
 }
 
 UprightCovariance ObjectEstimator::contradictions(
     const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
 {
-  return Evidence(views_, prior_, at, options).repeated(at, label.shapeExponent).contradictions();
+  return evidenceAt(at, label, options).repeated(at).contradictions();
 }
 
 void ObjectEstimator::absorb(
@@ -252,12 +234,12 @@ InformationPrior ObjectEstimator::summary(
     const UprightCovariance& contradicted) const
 {
   constexpr double kLeast = 1e-9;  // of what nothing is known about
-  const Evidence evidence(views_, prior_, at, options);
-  const NormalEquations eq = evidence.at(at, label.shapeExponent);
+  const ObjectEvidence evidence = evidenceAt(at, label, options);
+  const NormalEquations eq = evidence.at(at);
   InformationPrior all = prior_;
   // (H^-1 + H^-1 X H^-1 + S)^-1 = (1 + G S)^-1 G, G = H (H + X)^-1 H, also where H knows nothing in
   // some direction.
-  const UprightCovariance repeated = evidence.repeated(at, label.shapeExponent).crossTerms();
+  const UprightCovariance repeated = evidence.repeated(at).crossTerms();
   UprightCovariance share = UprightCovariance::Identity();  // (H + X)^-1 H
   if (!repeated.isZero(0.0))  // what a file knew stays as it is, to the last bit
     share = (eq.H + repeated + kLeast * UprightCovariance::Identity()).ldlt().solve(eq.H);

@@ -77,6 +77,7 @@ std::optional<BoxMeasurement> JointBackEnd::viewFor(
       labels_.properties(labels_.canonical(detected.label)), viewNoise_);
   if (view) view = measurementOf(object, std::move(*view), labels_, agreement_);
   if (!view) return std::nullopt;
+  if (object.isRound) view->faceExponent = kCircle;
   BoxMeasurement r = measurementFromRobot(
       detected, *view, T_map_robot, boxes.sensorPose, estimator_, options_.tiltSigma);
   r.weight = viewWeight(*view, uprightStateOf(object.object));
@@ -98,7 +99,7 @@ void JointBackEnd::addViews(
     auto view = viewFor(boxes, decision.box, T_map_robot, *object);
     if (!view) continue;
     if (!graph_.hasObject(object->id))
-      graph_.setObject(object->id, object->object, labels_.properties(object->label()));
+      graph_.setObject(object->id, object->object, propertiesOf(*object, labels_));
     view->weight *=
         independentShare(camera, object->object.center(), cameras_[object->id], existence_);
     graph_.addView(pose, object->id, *view);
@@ -191,7 +192,7 @@ void JointBackEnd::addVisits(
     {
       const MapObject& object = *map.find(id);
       const ObjectId inGraph = &visit == &visits.front() ? id : other++;
-      graph.setObject(inGraph, object.object, labels_.properties(object.label()));
+      graph.setObject(inGraph, object.object, propertiesOf(object, labels_));
       if (const auto prior = priors.find(id); prior != priors.end())
         graph.setObjectPrior(inGraph, prior->second);
       const auto shares = independentShares(visit.cameras, object.object.center(), existence_);

@@ -19,7 +19,7 @@ void followMerged(const CQuadricObjectMap& map, FactorGraph& graph, CamerasOf& c
     if (!graph.hasObject(absorbed)) continue;
     const MapObject& kept = *map.find(heir);
     if (!graph.hasObject(heir))
-      graph.setObject(heir, kept.object, map.labels().properties(kept.label()));
+      graph.setObject(heir, kept.object, propertiesOf(kept, map.labels()));
     graph.removeObject(absorbed, heir);
   }
 }

@@ -46,6 +46,9 @@ struct MapObject
   unsigned completeCount = 0, partialCount = 0;  //!< Measurements that were used
   unsigned missCount = 0;                        //!< Frames that should have shown it and did not
   bool orientationDefined = true;
+  /** Round in plan, though its label has a direction, as a round table: its measurements tell, so
+   * that files do not keep it. */
+  bool isRound = false;
   double existenceLogOdds = 0;  //!< From measurements and misses
   bool confirmed = false;       //!< Enough evidence to be reported
   mrpt::Clock::time_point firstSeen, lastSeen;

@@ -79,6 +79,13 @@ double agreementLogLikelihood(
 double positionLogLikelihood(
     const ObjectView& view, const MapObject& object, const AgreementOptions& options);
 
+/** Exponents q of what is round in plan: of the circle that its side faces touch, and of its
+ * outline in an image, which labels of cylinders have, such as that of cups. */
+constexpr double kCircle = 2.0, kCylinder = 1.4;
+
+/** Those of its label, but for the outline of what is round. */
+LabelProperties propertiesOf(const MapObject& object, const LabelTable& labels);
+
 /** What a view that shows the object says of its shape and place; nothing when the label is that of
  * another kind, as it was measured with what holds for that kind. The depth of a partial view that
  * is more likely another thing's tells little (doc/mathematics.md, (12.11)). */

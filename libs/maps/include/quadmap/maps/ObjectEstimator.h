@@ -24,6 +24,8 @@ struct InformationPrior
   UprightState inItsTurn(const UprightState& x) const;
 };
 
+class ObjectEvidence;
+
 /** Fuses the measurements of one object: state (x, y, z, yaw, ln a, ln b, ln c) in the map. */
 class ObjectEstimator
 {
@@ -34,6 +36,7 @@ class ObjectEstimator
     UprightCovariance covariance = UprightCovariance::Identity();
     double cost = 0;  //!< Half the sum of squared residuals, robust
     bool orientationDefined = false;
+    bool isRound = false;  //!< Its sides are where those of a round thing are, whatever its label
   };
 
   /** Keeps the measurement. When there are too many, the one goes that was seen from nearly the
@@ -88,13 +91,19 @@ class ObjectEstimator
   UprightState pullOfSummary(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
+  /** How summary() and contradictions() take the object; estimate() finds out. */
+  void setRound(bool isRound) { isRound_ = isRound; }
+
   const std::deque<ObjectView>& views() const { return views_; }
 
  private:
+  ObjectEvidence evidenceAt(
+      const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
   void limitViews(const EstimatorOptions& options);
 
   std::deque<ObjectView> views_;
   InformationPrior prior_;
+  bool isRound_ = false;
   UprightCovariance sharedError_ = UprightCovariance::Zero();
 };
 
