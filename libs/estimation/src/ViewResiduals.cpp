@@ -32,6 +32,17 @@ void addViewResiduals(
   addViewResiduals(inMap, ObjectShape(x), shapeExponent, options.huber, weight, eq);
 }
 
+namespace
+{
+/** How far the measured heading moves the ends of the object [m]. */
+double turnedBy(const ObjectView& view, const UprightState& reference)
+{
+  if (!view.complete || !view.yawDefined) return 0;
+  const double half = std::exp(reference.segment<2>(4).maxCoeff());
+  return half * (nearestEquivalentYaw(view.yaw, reference[3]) - reference[3]);
+}
+}  // namespace
+
 double viewWeight(const ObjectView& view, const UprightState& reference)
 {
   const Eigen::Vector3d size = 2.0 * reference.tail<3>().array().exp();
@@ -58,8 +69,8 @@ double viewWeight(const ObjectView& view, const UprightState& reference)
     squares = off.dot(view.centerCovariance.llt().solve(off)) * scale * scale / 4.0;
     count = 1;
   }
-  if (count == 0) return 1.0;
-  const double ratio = std::sqrt(squares / count) / scale;
+  const double gap = count == 0 ? 0.0 : std::sqrt(squares / count);
+  const double ratio = std::hypot(gap, turnedBy(view, reference)) / scale;
   return 1.0 / (1.0 + std::pow(ratio, 4));  // (11.14)
 }
 

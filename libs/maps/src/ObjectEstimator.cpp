@@ -179,6 +179,14 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   Estimate best = minimum(angular, from, other, label, options);
   if (label.dominantDirection && label.levelTop && !hasHeading && complete >= kFewComplete)
   {
+    // Nothing told the yaw, and a start that is turned by half a right angle may stay there.
+    for (const double turn : {M_PI / 8, M_PI / 4, 3 * M_PI / 8})
+    {
+      UprightState turned = best.state;
+      turned[3] += turn;
+      const Estimate there = minimum(angular, turned, std::nullopt, label, options);
+      if (there.cost < best.cost) best = there;
+    }
     const ObjectEvidence circular(views_, prior_, reference, options, std::nullopt);
     const Estimate round = minimum(circular, from, other, label, options);
     const auto cost = [&](const ObjectEvidence& evidence, const Estimate& e)
