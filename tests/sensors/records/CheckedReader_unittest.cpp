@@ -18,51 +18,15 @@
 #include <cstring>
 
 #include "../SampleRawlog.h"
+#include "ObjectBytes.h"
 #include "ThrunMotion.h"
 #include "quadmap/base/GzipInput.h"
-#include "quadmap/base/GzipStream.h"
 
 using namespace quadmap;
 using mrpt::serialization::CSerializable;
 
 namespace
 {
-std::string bytesOf(const CSerializable& object)
-{
-  const auto bytes = archiveBytes(object);
-  return {bytes.begin(), bytes.end()};
-}
-
-/** Reads the first object of a file with these bytes. */
-CSerializable::Ptr read(const std::string& bytes, const RecordLimits& limits = {})
-{
-  const TemporaryFolder folder;
-  GzInput file(folder.write("x", bytes));
-  CheckedReader reader(file, limits);
-  return reader.next();
-}
-
-std::string with(const std::string& whole, const std::string& part, const std::string& other)
-{
-  const auto at = whole.find(part);
-  EXPECT_NE(at, std::string::npos);
-  return whole.substr(0, at) + other + whole.substr(at + part.size());
-}
-
-std::string number(std::uint32_t value)
-{
-  std::string bytes(4, '\0');
-  for (int i = 0; i < 4; ++i)
-    bytes[static_cast<std::size_t>(i)] = static_cast<char>(value >> (8 * i));
-  return bytes;
-}
-
-/** How MRPT begins an object. */
-std::string named(const std::string& className)
-{
-  return static_cast<char>(0x80 | className.size()) + className;
-}
-
 mrpt::obs::CObservationStereoImages::Ptr stereoPair()
 {
   auto pair = mrpt::obs::CObservationStereoImages::Create();

@@ -22,11 +22,10 @@ bool isRecordClass(const std::string& writtenName)
 {
   const auto* found = mrpt::rtti::findRegisteredClass(writtenName);
   if (!found) return false;
-  const std::string name = found->className;
   return (found->derivedFrom(CLASS_ID(mrpt::obs::CObservation)) ||
           found->derivedFrom(CLASS_ID(mrpt::obs::CSensoryFrame)) ||
           found->derivedFrom(CLASS_ID(mrpt::obs::CActionCollection))) &&
-         RecordCheck::mayTry(name.substr(name.rfind(':') + 1));
+         RecordCheck::mayTry(RecordCheck::classNamed(writtenName));
 }
 }  // namespace
 

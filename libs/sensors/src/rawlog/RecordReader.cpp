@@ -1,12 +1,12 @@
 #include "rawlog/RecordReader.h"
 
 #include <mrpt/core/exceptions.h>
-#include <mrpt/rtti/CObject.h>
 
 #include <utility>
 
 #include "InputError.h"
 #include "quadmap/base/ErrorText.h"
+#include "records/RecordCheck.h"
 
 namespace quadmap
 {
@@ -60,7 +60,7 @@ std::string RecordReader::explain(const std::exception& e) const
                              : "is no MRPT object: the file is damaged";
   }
   if (!stream_.failure().empty()) return name + ": " + stream_.failure();
-  if (!mrpt::rtti::findRegisteredClass(name))
+  if (!RecordCheck::reads(RecordCheck::classNamed(name)))
     return "class " + name + " is unknown, and MRPT files do not tell where such an object ends";
   return name + " cannot be read: " + rootMessage(e);
 }

@@ -36,7 +36,7 @@ mrpt::serialization::CSerializable::Ptr CheckedReader::read(bool isTry)
   else
   {
     check.refusesUnknown = refusesUnknown && !RecordCheck::mayTry(head.name);
-    object = check.readUnknown(head.begin);
+    object = check.readUnknown(head);
   }
   if (check.damage.empty()) return object;
   DamagedImage error(check.damage);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "records/MemoryGuard.h"
+#include "records/ReadableClasses.h"
 #include "records/RecordLayouts.h"
 #include "records/RecordStream.h"
 
@@ -27,6 +28,12 @@ std::string withoutNamespaces(const std::string& name)
   const auto colon = name.rfind(':');
   return colon == std::string::npos ? name : name.substr(colon + 1);
 }
+
+void requireRead(const std::string& className)
+{
+  RecordCheck::require(
+      RecordCheck::reads(className), [&] { return "class " + className + " is unknown"; });
+}
 }  // namespace
 
 RecordCheck::Head RecordCheck::headAfterFirstByte()
@@ -43,19 +50,23 @@ RecordCheck::Head RecordCheck::headAfterName(std::size_t begin)
 {
   Head head;
   head.begin = begin;
-  head.name = classNameAt(begin + 1, bytes.size() - begin - 1);
+  head.name = classNamed(writtenNameAt(begin + 1, bytes.size() - begin - 1));
   if (head.name == "nullptr") return head;
   head.versionAt = bytes.size();
   head.version = bytes.number<std::uint8_t>();
   return head;
 }
 
-std::string RecordCheck::classNameAt(std::size_t begin, std::size_t length)
+std::string RecordCheck::classNamed(const std::string& writtenName)
 {
-  const std::string written(reinterpret_cast<const char*>(bytes.at(begin)), length);
-  const std::string name = written.c_str();  // for MRPT it ends at a zero
-  const auto* known = mrpt::rtti::findRegisteredClass(name);
-  return withoutNamespaces(known ? known->className : name);
+  const auto* known = mrpt::rtti::findRegisteredClass(writtenName);
+  return withoutNamespaces(known ? known->className : writtenName);
+}
+
+std::string RecordCheck::writtenNameAt(std::size_t begin, std::size_t length)
+{
+  const std::string bytesOfName(reinterpret_cast<const char*>(bytes.at(begin)), length);
+  return bytesOfName.c_str();
 }
 
 void RecordCheck::endOfObject()
@@ -65,6 +76,11 @@ void RecordCheck::endOfObject()
 
 bool RecordCheck::knows(const std::string& className) { return layouts().count(className) != 0; }
 
+bool RecordCheck::reads(const std::string& className)
+{
+  return isReadByMrpt(className) || knows(className);
+}
+
 bool RecordCheck::mayTry(const std::string& className)
 {
   return knows(className) || className == "CObservationObjects";
@@ -73,8 +89,7 @@ bool RecordCheck::mayTry(const std::string& className)
 void RecordCheck::content(const Head& head)
 {
   const Layout& layout = layouts().at(head.name);
-  if (layout.olderAreSafe && head.version < layout.firstVersion)
-    return void(readUnknown(head.begin));
+  if (layout.olderAreSafe && head.version < layout.firstVersion) return void(readUnknown(head));
   require(
       head.version >= layout.firstVersion && head.version <= layout.lastVersion,
       [&]
@@ -91,7 +106,11 @@ void RecordCheck::content(const Head& head)
 
 void RecordCheck::contentAfterName(std::size_t begin)
 {
-  if (knows(classNameAt(begin + 1, bytes.size() - begin - 1))) content(headAfterName(begin));
+  const std::string written = writtenNameAt(begin + 1, bytes.size() - begin - 1);
+  const std::string name = classNamed(written);
+  if (knows(name)) return content(headAfterName(begin));
+  // MRPT itself refuses what it does not know, and reads other texts like the names of classes.
+  if (mrpt::rtti::findRegisteredClass(written)) requireRead(name);
 }
 
 void RecordCheck::object()
@@ -100,10 +119,7 @@ void RecordCheck::object()
   const Head head = headAfterFirstByte();
   if (head.name == "nullptr") return endOfObject();
   if (knows(head.name)) return content(head);
-  require(
-      mrpt::rtti::findRegisteredClass(head.name) != nullptr,
-      [&] { return "class " + head.name + " is unknown"; });
-  readUnknown(head.begin);  // to find its end
+  readUnknown(head);  // to find its end
 }
 
 mrpt::serialization::CSerializable::Ptr RecordCheck::readByMrpt(std::size_t begin)
@@ -120,14 +136,15 @@ mrpt::serialization::CSerializable::Ptr RecordCheck::readByMrpt(std::size_t begi
   }
 }
 
-mrpt::serialization::CSerializable::Ptr RecordCheck::readUnknown(std::size_t begin)
+mrpt::serialization::CSerializable::Ptr RecordCheck::readUnknown(const Head& head)
 {
+  requireRead(head.name);
   require(!refusesUnknown, "is of a class whose layout is not known");
   std::optional<MemoryGuard> guard;
   if (unknownDepth_++ == 0) guard.emplace();
   try
   {
-    auto object = readByMrpt(begin);
+    auto object = readByMrpt(head.begin);
     --unknownDepth_;
     return object;
   }

@@ -22,18 +22,23 @@ class RecordCheck
   struct Head
   {
     std::size_t begin = 0;  //!< Index of the object's first byte
-    std::string name;       //!< Of the class, see classNameAt()
+    std::string name;       //!< Of the class, see classNamed()
     int version = 0;
     std::size_t versionAt = 0;  //!< Index of the byte with the version
   };
   Head headAfterFirstByte();
 
-  /** The name of the class that MRPT finds by the name in these bytes, without namespaces. MRPT
-   * has several names for some classes. For an unknown class it is the name in the bytes. */
-  std::string classNameAt(std::size_t begin, std::size_t length);
+  /** The name of the class that MRPT finds by a name in a file, without namespaces. MRPT has
+   * several names for some classes. For a class that MRPT does not know it is the name in the file.
+   */
+  static std::string classNamed(const std::string& writtenName);
+  /** The name in these bytes: for MRPT it ends at a zero. */
+  std::string writtenNameAt(std::size_t begin, std::size_t length);
 
   /** Whether the layouts of the class are known here. */
   static bool knows(const std::string& className);
+  /** Whether objects of the class are read, by MRPT alone where their layout is not known. */
+  static bool reads(const std::string& className);
   /** Whether an object of the class may be read where one only seems to begin, as no few bytes take
    * much memory. quadmap's own reader of boxes checks their counts. */
   static bool mayTry(const std::string& className);
@@ -42,10 +47,11 @@ class RecordCheck
    * or the version is not one of those that are known. */
   void content(const Head& head);
   /** The same for an object that begins there, of which the first byte and the name were copied, if
-   * the layout of its class is known. */
+   * the layout of its class is known. Other classes are left to MRPT.
+   *  \exception std::runtime_error Also for a class of which no objects are read. */
   void contentAfterName(std::size_t begin);
 
-  /** Any object, which may be of an unknown class. */
+  /** Any object of a class of which objects are read. */
   void object();
   /** An object of this class. \return Its version. */
   int objectOf(const char* className);
@@ -72,8 +78,9 @@ class RecordCheck
 
   /** MRPT's reading of the object that begins there, after its content was checked. */
   mrpt::serialization::CSerializable::Ptr readByMrpt(std::size_t begin);
-  /** The same for an object whose layout is not known here: memory is limited meanwhile. */
-  mrpt::serialization::CSerializable::Ptr readUnknown(std::size_t begin);
+  /** The same for an object whose layout is not known here: memory is limited meanwhile.
+   *  \exception std::runtime_error Also for a class of which no objects are read. */
+  mrpt::serialization::CSerializable::Ptr readUnknown(const Head& head);
 
   static constexpr unsigned kHeadMark = 0x80;  //!< Added by MRPT to the length of a class name
 

@@ -1,5 +1,7 @@
 #include "records/RecordStream.h"
 
+#include <mrpt/rtti/CObject.h>
+
 #include <cstring>
 #include <stdexcept>
 
@@ -58,7 +60,7 @@ void RecordStream::checkObjectNamedBy(std::size_t length)
     check_.contentAfterName(next_ - length - 1);
   if (bytesReadLast_ == kRestOfOldLength && lengthIs(1 + kRestOfOldLength, length))
     RecordCheck::require(
-        !RecordCheck::knows(check_.classNameAt(next_ - length, length)),
+        !mrpt::rtti::findRegisteredClass(check_.writtenNameAt(next_ - length, length)),
         "holds an object in a form that MRPT no longer writes");
 }
 

@@ -11,8 +11,8 @@ namespace quadmap
 {
 /** What MRPT reads an object from. The object may be of a class whose layout is not known here, and
  * hold others. Before MRPT sees the content of one whose layout is known, that layout is followed
- * as everywhere. How deeply MRPT calls itself is limited: each level needs bytes, so this can be
- * tested where they are read.
+ * as everywhere. One of a class of which no objects are read is refused. How deeply MRPT calls
+ * itself is limited: each level needs bytes, so this can be tested where they are read.
  *
  * MRPT hides the reason why reading failed; rethrowRefusal() tells it. */
 class RecordStream : public mrpt::io::CStream

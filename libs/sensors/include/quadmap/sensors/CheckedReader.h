@@ -43,8 +43,9 @@ struct DamagedImage : std::runtime_error
  * program. Those of other classes than range scans are left out instead, as quadmap looks at none
  * of them. The 3D points of range scans are left out, too.
  *
- * The objects of classes that this reader does not know are read by MRPT while memory and nesting
- * are limited. Known ones in them are checked like all others. */
+ * The objects of other classes that recordings are made of are read by MRPT while memory and
+ * nesting are limited. Known ones in them are checked like all others. All other classes are
+ * refused, as those that MRPT does not know. */
 class CheckedReader
 {
  public:
