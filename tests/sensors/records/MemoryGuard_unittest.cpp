@@ -1,4 +1,4 @@
-#include "records/MemoryGuard.h"
+#include "quadmap/sensors/MemoryGuard.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -28,6 +28,16 @@ TEST(MemoryGuard, TheLimitGoesWithTheLastOne)
   EXPECT_LT(limitNow(), before) << "the second one still lives";
   second.reset();
   EXPECT_EQ(limitNow(), before);
+}
+
+TEST(MemoryGuard, TheLimitIsWhatWasAskedFor)
+{
+  std::optional<MemoryGuard> guard;
+  guard.emplace(std::uint64_t{1} << 30);
+  const rlim_t most = limitNow();
+  guard.reset();
+  guard.emplace(std::uint64_t{1} << 20);
+  EXPECT_LT(limitNow() + (rlim_t{1} << 29), most);
 }
 
 TEST(MemoryGuard, AllocationFailsWithAnException) { EXPECT_TRUE(MemoryGuard::isSafe()); }

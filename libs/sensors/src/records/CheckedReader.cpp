@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
-#include "records/MemoryGuard.h"
+#include "quadmap/sensors/MemoryGuard.h"
 #include "records/RecordBytes.h"
 #include "records/RecordCheck.h"
 

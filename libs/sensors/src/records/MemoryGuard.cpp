@@ -1,4 +1,4 @@
-#include "records/MemoryGuard.h"
+#include "quadmap/sensors/MemoryGuard.h"
 
 #include <mrpt/core/aligned_allocator.h>
 #include <sys/resource.h>
@@ -15,9 +15,6 @@ namespace quadmap
 {
 namespace
 {
-/** More than any stock observation has; the other threads of a run take less in that time. */
-constexpr rlim_t kMore = rlim_t{1} << 28;  // [bytes]
-
 /** Private memory of the process [bytes]; 0 when the system does not tell. */
 rlim_t memoryNow()
 {
@@ -37,7 +34,7 @@ rlimit limitWithoutGuards{};
 rlim_t recentMemory()
 {
   using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::milliseconds kMoment(1);  // allocates less than kMore by far
+  constexpr std::chrono::milliseconds kMoment(1);  // allocates less than the limit by far
   static Clock::time_point askedAt;
   static rlim_t answer = 0;
   if (const auto now = Clock::now(); answer == 0 || now - askedAt > kMoment)
@@ -49,14 +46,14 @@ rlim_t recentMemory()
 }
 }  // namespace
 
-MemoryGuard::MemoryGuard()
+MemoryGuard::MemoryGuard(std::uint64_t mostBytesMore)
 {
   const std::lock_guard<std::mutex> lock(mutex);
   if (guards++ == 0) ::getrlimit(RLIMIT_DATA, &limitWithoutGuards);
   const rlim_t now = recentMemory();
   if (now == 0) return;
   rlimit limit = limitWithoutGuards;
-  limit.rlim_cur = std::min(limitWithoutGuards.rlim_cur, now + kMore);
+  limit.rlim_cur = std::min(limitWithoutGuards.rlim_cur, now + mostBytesMore);
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 

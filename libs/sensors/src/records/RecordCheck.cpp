@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "records/MemoryGuard.h"
+#include "quadmap/sensors/MemoryGuard.h"
 #include "records/ReadableClasses.h"
 #include "records/RecordLayouts.h"
 #include "records/RecordStream.h"

@@ -1,14 +1,21 @@
 #pragma once
 
+#include <cstdint>
+
 namespace quadmap
 {
 /** While it lives, the process may take only so much more memory than it has; then allocation
- * fails with an exception. It is for reading objects whose layout is not known here. Several may
- * live at once, in any threads: the limit of the process goes with the last one. */
+ * fails with an exception. It is for readers of others, which take whatever a file states. Several
+ * may live at once, in any threads: the limit is that of the one that was made last, and goes with
+ * the last one. */
 class MemoryGuard
 {
  public:
-  MemoryGuard();
+  /** More than any stock observation of MRPT has; the other threads of a run take less in that time
+   * [bytes]. */
+  static constexpr std::uint64_t kForObservations = std::uint64_t{1} << 28;
+
+  explicit MemoryGuard(std::uint64_t mostBytesMore = kForObservations);
   ~MemoryGuard();
   MemoryGuard(const MemoryGuard&) = delete;
   MemoryGuard& operator=(const MemoryGuard&) = delete;
