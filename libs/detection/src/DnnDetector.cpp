@@ -12,10 +12,12 @@
 #include "ObjectMasks.h"
 #include "Suppression.h"
 #include "model/ModelFolder.h"
+#include "model/OnnxTensors.h"
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/StderrCapture.h"
 #include "quadmap/folders/ClassNames.h"
 #include "quadmap/obs/CObservationObjects.h"
+#include "quadmap/sensors/MemoryGuard.h"
 
 namespace quadmap
 {
@@ -48,13 +50,29 @@ void requireAllWeights(cv::dnn::Net& net, const ModelFiles& files)
         mrpt::format("has %ju bytes, but %s takes %ju", bytes, files.network.c_str(), expected));
 }
 
-cv::dnn::Net loadNet(const ModelFiles& files)
+/** Most memory that loading a network may take, and as much again its first run [bytes]. Networks
+ * take some copies of their weights, and less than a hundred numbers for each pixel of the input.
+ * But a few bytes of a file can state a tensor of any size. */
+std::uint64_t mostMemory(const DetectorModel& model, const ModelFiles& files)
+{
+  constexpr std::uint64_t kAlways = std::uint64_t{1} << 28, kCopies = 4, kPerPixel = 400;
+  const auto pixels =
+      static_cast<std::uint64_t>(model.width) * static_cast<std::uint64_t>(model.height);
+  return kAlways + kCopies * std::filesystem::file_size(files.weights) + kPerPixel * pixels;
+}
+
+cv::dnn::Net loadNet(const DetectorModel& model, const ModelFiles& files)
 {
   try
   {
     if (std::filesystem::file_size(files.weights) == 0) throw std::runtime_error("is empty");
     const StderrCapture capture;  // OpenCV also prints what it throws
-    if (files.network.empty()) return cv::dnn::readNetFromONNX(files.weights);
+    const MemoryGuard guard(mostMemory(model, files));
+    if (files.network.empty())
+    {
+      requireAllNumbers(files.weights);
+      return cv::dnn::readNetFromONNX(files.weights);
+    }
     cv::dnn::Net net = cv::dnn::readNetFromDarknet(files.network, files.weights);
     requireAllWeights(net, files);
     return net;
@@ -100,7 +118,7 @@ DnnDetector::DnnDetector(const DetectorModel& model, const ModelFiles& files) :
     model_(model),
     files_(files),
     labels_(readClassNames(files.labels)),
-    net_(loadNet(files)),
+    net_(loadNet(model, files)),
     outputNames_(net_.getUnconnectedOutLayersNames()),
     input_(formatOf(model))
 {
@@ -113,6 +131,7 @@ DnnDetector::DnnDetector(const DetectorModel& model, const ModelFiles& files) :
   request.labels = labels_.size();
   {
     const StderrCapture capture;
+    const MemoryGuard guard(mostMemory(model, files));
     for (const Tensor& output : run()) request.shapes.push_back(output.shape);
   }
   try
