@@ -2,9 +2,11 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/CommandLine.h"
+#include "common/KeptFiles.h"
 #include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/dense/DenseCloud.h"
@@ -120,7 +122,26 @@ SelfCheck selfCheck(const std::string& result, const std::optional<std::string>&
       [&](double share) { bar(share); });
 }
 
-void run(Cli& cli)
+/** \exception UsageError For an output that would replace what is read, or would be taken for it.
+ */
+void checkOutputs(Cli& cli)
+{
+  cli::KeptFiles kept;
+  kept.add(cli.estimate.getValue(), "report.html");  // to be written anew with the figures
+  for (Cli::Text* input : {&cli.objects, &cli.trajectory, &cli.config})
+    if (input->isSet()) kept.add(input->getValue(), "report.html");
+  for (const auto& [output, ending] : {
+           std::pair(&cli.json, ".json"), {&cli.html, ".html"}
+  })
+  {
+    if (!output->isSet()) continue;
+    cli::requireNoOtherEnding(output->getName(), output->getValue(), ending);
+    kept.requireNone(output->getName(), output->getValue());
+  }
+}
+
+/** \exception UsageError For arguments that do not go together. */
+void checkUsage(Cli& cli)
 {
   const bool hasTruth = cli.objects.isSet() || cli.trajectory.isSet();
   if (!hasTruth && !cli.self.getValue())
@@ -132,9 +153,15 @@ void run(Cli& cli)
     throw cli::UsageError("--config: belongs to --self");
   if (!(cli.maxTimeDifference.getValue() >= 0))
     throw cli::UsageError("--max-time-difference: must be >= 0");
-
   if (cli.html.isSet() && std::filesystem::is_regular_file(cli.estimate.getValue()))
     throw cli::UsageError("--html: needs a folder that quadmap-slam wrote");
+  checkOutputs(cli);
+}
+
+void run(Cli& cli)
+{
+  checkUsage(cli);
+  const bool hasTruth = cli.objects.isSet() || cli.trajectory.isSet();
   EvaluationInput input;
   input.estimate = cli.estimate.getValue();
   input.mapObjects = mapObjectsOf(input.estimate);

@@ -3,10 +3,12 @@
 #include <optional>
 #include <regex>
 #include <string>
+#include <utility>
 
 #include "DenseExport.h"
 #include "ExportInput.h"
 #include "common/CommandLine.h"
+#include "common/KeptFiles.h"
 #include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/dense/DenseCloud.h"
@@ -129,6 +131,29 @@ void requirePngName(TCLAP::ValueArg<std::string>& argument)
     throw cli::UsageError("--" + argument.getName() + ": the name must end in .png");
 }
 
+/** \exception UsageError For an output that would replace what is read, or would be taken for it.
+ */
+void checkOutputs(Cli& cli)
+{
+  const std::pair<Cli::Text*, const char*> endings[] = {
+      { &cli.html,    ".html"},
+      {&cli.scene, ".3Dscene"},
+      {  &cli.ply,     ".ply"},
+      {  &cli.glb,     ".glb"},
+      { &cli.json,    ".json"}
+  };
+  for (const auto& [output, ending] : endings)
+    if (output->isSet()) cli::requireNoOtherEnding(output->getName(), output->getValue(), ending);
+  cli::KeptFiles kept;
+  kept.add(cli.input.getValue());
+  for (Cli::Text* input : {&cli.truth, &cli.trajectory, &cli.compare, &cli.config})
+    if (input->isSet()) kept.add(input->getValue());
+  for (Cli::Text* output :
+       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
+        &cli.cloud})
+    if (output->isSet()) kept.requireNone(output->getName(), output->getValue());
+}
+
 void checkUsage(Cli& cli)
 {
   pictureSizeFrom(cli.size.getValue());
@@ -147,6 +172,7 @@ void checkUsage(Cli& cli)
     throw cli::UsageError("--cloud: the name must end in .pcd or .ply");
   if (cli.config.isSet() && !cli.cloud.isSet() && !cli.objectClouds.isSet())
     throw cli::UsageError("--config: belongs to --cloud and --object-clouds");
+  checkOutputs(cli);
   for (const auto* output :
        {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
         &cli.frames, &cli.cloud, &cli.objectClouds})

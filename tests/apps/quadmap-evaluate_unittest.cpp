@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "FolderContents.h"
 #include "MappedRoom.h"
 #include "quadmap/obs/ObjectList.h"
 #include "quadmap/obs/Trajectory.h"
@@ -120,6 +121,30 @@ TEST_F(QuadmapEvaluate, WritesTheReportOfTheRunWithTheFigures)
 
   const auto alone = run("DIR/trajectory.tum --trajectory DIR/gt.tum --html DIR/x.html");
   EXPECT_EQ(alone.status, 2);
+}
+
+TEST_F(QuadmapEvaluate, ReplacesNoFileThatItReadsButTheReportPage)
+{
+  folder_.write("report.json", R"({"input": {"file": "room.rawlog"}})");
+  std::filesystem::copy(folder_.path("trajectory.tum"), folder_.path("trajectory_odometry.tum"));
+  std::filesystem::create_symlink("report.json", folder_.path("figures"));
+  const auto before = contentsOf(folder_.folder());
+  for (const char* output :
+       {"--json DIR/objects.json", "--json DIR/gt.json", "--json DIR/figures",
+        "--json DIR/report.json", "--html DIR/trajectory.tum", "--html DIR/new.quadmap",
+        "--json DIR/report.html"})
+  {
+    const auto result = run("DIR --objects DIR/gt.json --in-place " + std::string(output));
+    EXPECT_EQ(result.status, 2) << output;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  }
+  EXPECT_EQ(
+      run("DIR/objects.json --objects DIR/gt.json --in-place --json DIR/report.json").status, 2);
+  EXPECT_EQ(contentsOf(folder_.folder()), before);
+  folder_.write("report.html", "as quadmap-slam wrote it");
+  const auto page = run("DIR --objects DIR/gt.json --in-place --html DIR/report.html");
+  EXPECT_EQ(page.status, 0) << page.err;
+  EXPECT_NE(readFile(folder_.path("report.html")).find("recall"), kNotFound);
 }
 
 TEST_F(QuadmapEvaluate, WritesTheAteWithAllItsDigits)

@@ -8,6 +8,7 @@
 
 #include "../obs/FileSizeLimit.h"
 #include "../review/SampleScene.h"
+#include "FolderContents.h"
 #include "MappedRoom.h"
 #include "SampleMap.h"
 #include "quadmap/obs/Trajectory.h"
@@ -43,6 +44,15 @@ class QuadmapExport : public ::testing::Test
   {
     ::unsetenv("DISPLAY");
     return runProgram("quadmap-export", replaced(arguments, "DIR", folder_.folder().string()));
+  }
+
+  void expectRefusal(const std::string& arguments, const std::string& why) const
+  {
+    const std::string name = folder_.folder().filename().string();
+    const auto result = run(replaced(arguments, "REST", name));
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(why), kNotFound) << arguments << "\n" << result.err;
   }
 
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path(name)); }
@@ -377,6 +387,29 @@ TEST_F(QuadmapExport, NamesTheFileItCannotWrite)
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
     EXPECT_NE(result.err.find("/nonexistent/x"), kNotFound) << result.err;
   }
+}
+
+TEST_F(QuadmapExport, ReplacesNoFileThatItReads)
+{
+  folder_.write("report.json", "{}");
+  simpleMapOfSample().saveToFile(folder_.path("objects.simplemap"));
+  writeObjectsJson(folder_.path("gt.json"), sampleMap().toRecords());
+  std::filesystem::create_symlink("objects.quadmap", folder_.path("page"));
+  std::filesystem::create_hard_link(folder_.path("trajectory.tum"), folder_.path("mesh"));
+  const auto before = contentsOf(folder_.folder());
+  for (const char* arguments :
+       {"DIR --json DIR/report.json", "DIR --html DIR/page", "DIR --glb DIR/mesh",
+        "DIR/objects.quadmap --html DIR/page", "DIR/objects.quadmap --json DIR/report.json",
+        "DIR --json DIR/gt.json --truth DIR/gt.json --in-place",
+        "DIR --json DIR/../REST/report.json"})
+    expectRefusal(arguments, "is read and stays as it is");
+  for (const char* output :
+       {"--html DIR/objects.quadmap", "--ply DIR/objects.simplemap", "--scene DIR/map.simplemap",
+        "--glb DIR/new.quadmap", "--json DIR/new.tum", "--html DIR/report.json",
+        "--json DIR/new.rawlog.gz"})
+    expectRefusal("DIR " + std::string(output), "files of this kind end in");
+  EXPECT_EQ(contentsOf(folder_.folder()), before);
+  EXPECT_EQ(run("DIR --json DIR/objects.txt --ply DIR/mesh2 --no-cloud").status, 0);
 }
 
 TEST_F(QuadmapExport, FullDiskLeavesNoTruncatedScene)

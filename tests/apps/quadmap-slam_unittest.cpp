@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../../apps/common/ResultFiles.h"
 #include "../slam/SyntheticRoom.h"
 #include "RunProgram.h"
 #include "quadmap/obs/ObjectList.h"
@@ -89,10 +90,11 @@ TEST_F(QuadmapSlam, MapsTheRoomAndNamesItsFiles)
   EXPECT_TRUE(result.err.empty()) << "no progress bar when redirected: " << result.err;
   EXPECT_NE(result.out.find("suitcase"), kNotFound) << result.out;
   EXPECT_NE(result.out.find("6 frames, 6 keyframes, 6 boxes, 1 objects"), kNotFound) << result.out;
-  for (const auto* name :
-       {"objects.quadmap", "objects.json", "trajectory.tum", "trajectory_odometry.tum",
-        "map.simplemap", "objects.simplemap", "pose-graph.graph", "report.json", "report.html",
-        "scene.3Dscene"})
+  std::set<std::string> written;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path("out")))
+    written.insert(entry.path().filename().string());
+  EXPECT_EQ(written, cli::resultFiles()) << "which other programs do not write over";
+  for (const auto& name : cli::resultFiles())
   {
     EXPECT_NE(result.out.find("wrote " + folder_.path("out/") + name), kNotFound) << name;
     EXPECT_GT(std::filesystem::file_size(folder_.path("out/") + name), 0u) << name;
