@@ -60,7 +60,8 @@ inline void receiveStopSignals(sigset_t signals)
 }
 
 /** To be called before any other thread starts: they inherit which signals they do not receive. A
- * limit on the size of files makes their writing fail, as a full disk does. */
+ * limit on the size of files makes their writing fail, as a full disk does, and so does the end of
+ * whoever reads what is printed: the files of a run matter more than its messages. */
 inline void watchStopSignals()
 {
   sigset_t signals;
@@ -71,6 +72,7 @@ inline void watchStopSignals()
     if (!isIgnored(signal)) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   std::thread(receiveStopSignals, signals).detach();
 }
 

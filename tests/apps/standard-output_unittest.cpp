@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
+#include "../folders/SampleRecording.h"
 #include "RunProgram.h"
 #include "SampleMap.h"
 
@@ -13,6 +15,23 @@ namespace
 ProgramResult printing(const std::string& to, const std::string& program)
 {
   return runCommand("( '" + std::string(QUADMAP_BIN_DIR) + "'/" + program + " " + to + " )");
+}
+
+/** Runs a program with output into a pipe that nobody reads any more.
+ * \param closed As typed in a shell, with &9 for the pipe. */
+ProgramResult printingIntoClosedPipe(const std::string& closed, const std::string& program)
+{
+  int pipe[2];
+  EXPECT_EQ(::pipe(pipe), 0);
+  constexpr int kNumber = 9;  // shells know one digit
+  const int before = ::dup(kNumber);
+  EXPECT_EQ(::dup2(pipe[1], kNumber), kNumber);
+  ::close(pipe[0]);
+  ::close(pipe[1]);
+  const ProgramResult result = printing(closed, program);
+  before < 0 ? ::close(kNumber) : ::dup2(before, kNumber);
+  if (before >= 0) ::close(before);
+  return result;
 }
 }  // namespace
 
@@ -44,4 +63,23 @@ TEST(StandardOutput, ThatIsClosedGoesIntoNoFile)
   const std::string expected = readFile(scene);
   printing(">&-", write);
   EXPECT_EQ(readFile(scene), expected);
+}
+
+TEST(StandardOutput, ThatNobodyReadsAnyMoreLeavesTheFilesAsTheyShouldBe)
+{
+  const SampleRecording recording;
+  std::filesystem::remove(recording.files.path("rgb/f3.png"));  // which is told
+  for (const auto& [closed, status] : {
+           std::pair("2>&9", 0), {     ">&9", 1},
+             {">&9 2>&9", 1}
+  })
+  {
+    const TemporaryFolder out;
+    const auto result = printingIntoClosedPipe(
+        closed,
+        "quadmap-import tum " + recording.folder() + " --keep-going -o " + out.path("x.rawlog"));
+    EXPECT_EQ(result.status, status) << closed << result.err;
+    EXPECT_EQ(out.fileCount(), 2u) << closed << ": rawlog and boxes";
+    EXPECT_TRUE(std::filesystem::is_regular_file(out.path("x.rawlog"))) << closed;
+  }
 }
