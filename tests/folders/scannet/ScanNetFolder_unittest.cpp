@@ -80,6 +80,38 @@ TEST_F(ScanNetFolder, ScalesTheCalibrationOfImagesThatWereScaled)
   EXPECT_TRUE(tells);
 }
 
+TEST_F(ScanNetFolder, TakesTheSizeThatMostImagesHave)
+{
+  const double fx = openFrameFolder("scannet", folder()).camera().color.fx();
+  const auto expectOthersGood = [&](const std::string& spoilt)
+  {
+    const FrameFolder scene = openFrameFolder("scannet", folder());
+    EXPECT_DOUBLE_EQ(scene.camera().color.fx(), fx) << spoilt;
+    EXPECT_NE(errorOf([&] { scene.scan(0); }).find(spoilt), std::string::npos);
+    for (std::size_t good : {1u, 2u}) EXPECT_EQ(scene.scan(good)->rangeImage.cols(), 640);
+  };
+  for (const std::string first : {"color/0.jpg", "depth/0.png"})
+  {
+    const std::string whole = readFile(files_.path(first));
+    for (const std::size_t length : {whole.size() / 2, std::size_t(150), std::size_t(0)})
+    {
+      files_.write(first, whole.substr(0, length));
+      expectOthersGood(first);
+    }
+    std::filesystem::remove(files_.path(first));
+    std::filesystem::create_directory(files_.path(first));
+    expectOthersGood(first);
+    std::filesystem::remove(files_.path(first));
+    files_.write(first, whole);
+  }
+  writeColor(0, 640, 480);
+  expectOthersGood("color/0.jpg: is 640x480, intrinsic/ is for 1296x968");
+  for (int i : {0, 1, 10}) files_.write(mrpt::format("color/%d.jpg", i), "");
+  EXPECT_NE(
+      errorOf([&] { openFrameFolder("scannet", folder()); }).find("color/0.jpg: "),
+      std::string::npos);
+}
+
 TEST_F(ScanNetFolder, FramesWithoutAKnownPoseHaveNone)
 {
   files_.write(

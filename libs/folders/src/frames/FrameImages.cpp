@@ -2,9 +2,11 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "frames/DepthRegistration.h"
 #include "frames/FrameRectification.h"
@@ -56,6 +58,43 @@ cv::Mat registered(cv::Mat depth, const std::string& file, const FolderCamera& c
   if (!camera.depth) return depth;
   return registeredDepth(depth, *camera.depth, rectifiedCameraOf(camera), camera.depthFactor);
 }
+
+constexpr std::size_t kSampledImages = 9;  //!< Enough that four damaged ones decide nothing
+
+/** Counts sizes of images. */
+class ImageSizes
+{
+ public:
+  void add(const std::string& file)
+  try
+  {
+    const cv::Size size = loadImage(file, cv::IMREAD_UNCHANGED).size();
+    const auto same = [&](const auto& counted) { return counted.first == size; };
+    const auto it = std::find_if(counts_.begin(), counts_.end(), same);
+    if (it == counts_.end())
+      counts_.emplace_back(size, 1);
+    else
+      ++it->second;
+  }
+  catch (const std::exception& e)  // who imports this image meets the same error
+  {
+    if (problem_.empty()) problem_ = e.what();
+  }
+
+  bool isEmpty() const { return counts_.empty(); }
+
+  /** \exception std::runtime_error If no image could be read: why the first could not. */
+  cv::Size mostFrequent() const
+  {
+    if (counts_.empty()) throw std::runtime_error(problem_);
+    const auto rarer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    return std::max_element(counts_.begin(), counts_.end(), rarer)->first;
+  }
+
+ private:
+  std::vector<std::pair<cv::Size, int>> counts_;  // in the order of their first images
+  std::string problem_;
+};
 }  // namespace
 
 FrameImages loadImages(const FolderFrame& frame, const FolderContent& content)
@@ -72,9 +111,14 @@ FrameImages loadImages(const FolderFrame& frame, const FolderContent& content)
   return images;
 }
 
-cv::Size sizeOfImage(const std::string& file)
+cv::Size sizeOfImages(const std::vector<FolderFrame>& frames, std::string FolderFrame::*file)
 {
-  return loadImage(file, cv::IMREAD_UNCHANGED).size();
+  ImageSizes sizes;
+  const std::size_t sampled = std::min(kSampledImages, frames.size());
+  for (std::size_t i = 0; i < sampled; ++i)
+    sizes.add(frames[i * (frames.size() - 1) / std::max<std::size_t>(sampled - 1, 1)].*file);
+  for (std::size_t i = 0; i < frames.size() && sizes.isEmpty(); ++i) sizes.add(frames[i].*file);
+  return sizes.mostFrequent();
 }
 
 cv::Mat loadDepth(const FolderFrame& frame, const FolderCamera& camera)

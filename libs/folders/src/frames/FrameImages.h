@@ -29,9 +29,11 @@ class FrameImageReader
  * another size than the camera, or depth is no depth image. The message names the file. */
 FrameImages loadImages(const FolderFrame& frame, const FolderContent& content);
 
-/** The size of an image file. \exception std::runtime_error If it cannot be read. Names the file.
- */
-cv::Size sizeOfImage(const std::string& file);
+/** The size that most of the images of a recording have: of a few of them, spread over all of it,
+ * those that can be read count. The first wins a tie.
+ * \param file The colour or the depth image of a frame.
+ * \exception std::runtime_error If none of all images can be read. Names the first file. */
+cv::Size sizeOfImages(const std::vector<FolderFrame>& frames, std::string FolderFrame::*file);
 
 /** Only the depth image, from its file. \exception std::runtime_error As loadImages(). */
 cv::Mat loadDepth(const FolderFrame& frame, const FolderCamera& camera);

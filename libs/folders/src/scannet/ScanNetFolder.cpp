@@ -61,7 +61,7 @@ void followScaling(FolderContent& content, Eigen::Matrix4d& K, cv::Size size)
 }
 
 /** The camera of intrinsic/. */
-void readCamera(FolderContent& content, const FolderFrame& first)
+void readCamera(FolderContent& content)
 {
   if (!fs::is_directory(fs::path(content.folder) / "intrinsic"))
     throw std::runtime_error(
@@ -70,7 +70,8 @@ void readCamera(FolderContent& content, const FolderFrame& first)
   auto& camera = content.camera;
   camera.origin = "intrinsic/";
   camera.depthFactor = kScanNetDepthFactor;
-  const cv::Size colorSize = sizeOfImage(first.color), depthSize = sizeOfImage(first.depth);
+  const cv::Size colorSize = sizeOfImages(content.frames, &FolderFrame::color),
+                 depthSize = sizeOfImages(content.frames, &FolderFrame::depth);
   Eigen::Matrix4d K = matrixOf(content.folder, "intrinsic_color.txt");
   followScaling(content, K, colorSize);
   camera.color = cameraOf(K, colorSize, content.folder + "/intrinsic/intrinsic_color.txt");
@@ -111,7 +112,7 @@ FolderContent readScanNetFolder(const std::string& folder, const FrameFolderOpti
   content.folder = folder;
   framesByName(content, "color", "depth", kScanNetImagesPerSecond);
   if (options.camera.empty())
-    readCamera(content, content.frames.front());
+    readCamera(content);
   else
     content.camera = cameraOfFolder(folder, options, "", kScanNetDepthFactor);
   content.camera.posesAreOfDepth = content.camera.depth.has_value();
