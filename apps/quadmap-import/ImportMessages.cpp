@@ -16,6 +16,14 @@ void reportBoxesOfOtherImages(const FrameFolder& folder, bool keepGoing)
   std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
 }
 
+void reportUnpaired(const FrameFolder& folder)
+{
+  if (folder.unpaired() > 0)
+    std::cerr << "quadmap-import: warning: left out: " << folder.unpaired()
+              << " images without a partner (colour or depth), the first is "
+              << oneLine(folder.firstUnpaired()) << "\n";
+}
+
 void reportMissingDetections(const FolderImportReport& report, bool keepGoing)
 {
   if (report.withoutDetections == 0) return;

@@ -13,6 +13,9 @@ namespace quadmap
  *  \exception std::runtime_error If it is so, unless the import is to go on. */
 void reportBoxesOfOtherImages(const FrameFolder& folder, bool keepGoing);
 
+/** Half a pair is no frame. */
+void reportUnpaired(const FrameFolder& folder);
+
 /** Images without a file of boxes were not seen by the detector, or the files have other names.
  *  \exception std::runtime_error If no image has one, unless the import is to go on. */
 void reportMissingDetections(const FolderImportReport& report, bool keepGoing);

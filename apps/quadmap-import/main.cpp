@@ -36,6 +36,7 @@ void import(const FrameFolder& folder, ImportCli& cli)
   tellDropped(report);
   if (report.frames == 0)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
+  reportUnpaired(folder);
   reportMissingDetections(report, options.keepGoing);
   if (options.posesAs != PosesAs::None && !folder.poses().empty())
     reportMissingPoses(folder.poses(), report);

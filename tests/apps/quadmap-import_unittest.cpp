@@ -137,6 +137,20 @@ TEST_F(QuadmapImport, TellsWhichImagesHaveNoFileOfBoxes)
       << result.err;
 }
 
+TEST_F(QuadmapImport, TellsWhichImagesHaveNoPartner)
+{
+  std::filesystem::remove(recording_.files.path("associations.txt"));
+  for (const char* image : {"depth/f2.png", "rgb/f1.png"})
+    std::filesystem::remove(recording_.files.path(image));
+  const auto result = run("icl IN -o OUT/x.rawlog");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string what =
+      "warning: left out: 2 images without a partner (colour or depth), the "
+      "first is " +
+      recording_.files.path("rgb/f2.png\n");
+  EXPECT_NE(result.err.find(what), kNotFound) << result.err;
+}
+
 TEST_F(QuadmapImport, WritesExternalImages)
 {
   ASSERT_EQ(run("tum IN -o OUT/x.rawlog --external").status, 0);

@@ -161,6 +161,7 @@ TEST_F(IclFolder, PairsByNumberWithoutAssociations)
   const FrameFolder room = openFrameFolder("icl", folder());
   ASSERT_EQ(room.frames().size(), 3u);
   EXPECT_EQ(room.unpaired(), 1u);
+  EXPECT_EQ(room.firstUnpaired(), files_.path("rgb/1.png"));
   EXPECT_DOUBLE_EQ(room.frames()[1].time, 2) << "as in the trajectory";
   EXPECT_EQ(room.posesCount(), 2u);
 }

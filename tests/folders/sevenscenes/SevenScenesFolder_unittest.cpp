@@ -81,6 +81,7 @@ TEST_F(SevenScenes, CountsWhatIsMissing)
   const FrameFolder sequence = openFrameFolder("7scenes", folder());
   EXPECT_EQ(sequence.frames().size(), 2u);
   EXPECT_EQ(sequence.unpaired(), 1u);
+  EXPECT_EQ(sequence.firstUnpaired(), files_.path("frame-000001.color.png"));
   EXPECT_EQ(sequence.posesCount(), 1u);
   for (int i : {0, 3}) std::filesystem::remove(files_.path(mrpt::format("frame-%06d.pose.txt", i)));
   std::filesystem::remove(files_.path("frame-000001.pose.txt"));

@@ -132,7 +132,8 @@ TEST(TumFolder, PairsByTimeWithoutAssociations)
   const FrameFolder dataset = openFrameFolder("tum", recording.folder());
   const auto& frames = dataset.frames();
   ASSERT_EQ(frames.size(), 2u);
-  EXPECT_EQ(dataset.unpaired(), 3u) << "f0 and f3 of colour, f2 of depth";
+  EXPECT_EQ(dataset.unpaired(), 3u) << "f2 and f3 of colour, f2 of depth";
+  EXPECT_EQ(dataset.firstUnpaired(), recording.files.path("rgb/f2.png"));
   EXPECT_DOUBLE_EQ(frames[0].time, 0.99) << "the time of the depth image";
   EXPECT_EQ(frames[1].color, recording.files.path("rgb/f1.png"));
   EXPECT_EQ(frames[1].depth, recording.files.path("depth/f1.png"));

@@ -134,7 +134,7 @@ void framesByName(
     throw std::runtime_error(
         content.folder + ": has no images of equal numbers in " + colorFolder + "/ and " +
         depthFolder + "/");
-  content.unpaired = colors.size() + depths.size() - 2 * content.frames.size();
+  addUnpaired(content, colors, depths);
   content.pairing = "of equal numbers";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "quadmap/folders/FrameFolder.h"
@@ -46,6 +47,19 @@ void framesByName(
     const std::string& colorFolder,
     const std::string& depthFolder,
     double rate);
+
+/** Adds the images of two folders that have no partner of the same number. */
+template <typename Number>
+void addUnpaired(
+    FolderContent& content,
+    const std::map<Number, std::string>& colors,
+    const std::map<Number, std::string>& depths)
+{
+  for (const auto& [number, file] : colors)
+    if (depths.count(number) == 0) content.addUnpaired(file);
+  for (const auto& [number, file] : depths)
+    if (colors.count(number) == 0) content.addUnpaired(file);
+}
 
 /** The pose of a text file with the 4x4 matrix of the camera in the world; nothing when it says by
  * numbers that are not finite, or all zero, that it is not known.

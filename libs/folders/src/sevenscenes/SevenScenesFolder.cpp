@@ -93,7 +93,7 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
   if (content.frames.empty())
     throw std::runtime_error(
         folder + ": has no pair of frame-*.color.png (or .jpg) and frame-*.depth.png");
-  content.unpaired = colors.size() + depths.size() - 2 * content.frames.size();
+  addUnpaired(content, colors, depths);
   content.pairing = "of equal numbers";
   if (const auto poses = filesOf(folder, ".pose.txt"); !poses.empty())
     readPoses(content, poses);

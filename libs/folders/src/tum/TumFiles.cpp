@@ -47,8 +47,12 @@ std::vector<ListedImage> readImageList(const std::string& path)
   return images;
 }
 
-std::vector<FolderFrame> associate(
-    const std::vector<ListedImage>& colors, const std::vector<ListedImage>& depths, double maxDelay)
+/** Adds the frames of images that are near each other in time. */
+void associate(
+    const std::vector<ListedImage>& colors,
+    const std::vector<ListedImage>& depths,
+    double maxDelay,
+    FolderContent& content)
 {
   struct Pair
   {
@@ -84,14 +88,18 @@ std::vector<FolderFrame> associate(
       used[pair.depth] = true;
       depthOf[pair.color] = pair.depth;
     }
-  std::vector<FolderFrame> frames;
+  const auto path = [&](const ListedImage& image)
+  { return (fs::path(content.folder) / image.file).string(); };
   for (std::size_t c = 0; c < colors.size(); ++c)
     if (depthOf[c] < depths.size())
     {
       const auto& depth = depths[depthOf[c]];
-      frames.push_back({depth.time, colors[c].file, depth.file, colors[c].place, {}});
+      content.frames.push_back({depth.time, colors[c].file, depth.file, colors[c].place, {}});
     }
-  return frames;
+    else
+      content.addUnpaired(path(colors[c]));
+  for (std::size_t d = 0; d < depths.size(); ++d)
+    if (!used[d]) content.addUnpaired(path(depths[d]));
 }
 
 /** A line of associations.txt: colour first, or depth first as in ICL-NUIM, which the names of the
@@ -120,9 +128,8 @@ void readTumFrames(FolderContent& content, double maxDelay)
   else if (fs::exists(in("rgb.txt")) && fs::exists(in("depth.txt")))
   {
     const auto colors = readImageList(in("rgb.txt")), depths = readImageList(in("depth.txt"));
-    frames = associate(colors, depths, maxDelay);
+    associate(colors, depths, maxDelay, content);
     content.pairing = mrpt::format("by time, at most %g ms apart", 1e3 * maxDelay);
-    content.unpaired = colors.size() + depths.size() - 2 * frames.size();
   }
   else
     throw std::runtime_error(

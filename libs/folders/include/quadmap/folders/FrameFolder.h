@@ -39,9 +39,15 @@ struct FolderContent
   std::string posesProblem;        //!< Why a file with all poses cannot be used; names it
   std::string pairing;             //!< How colour and depth images were paired
   std::size_t unpaired = 0;        //!< Number of images of which no pair could be made
+  std::string firstUnpaired;       //!< The file of the first of them
   std::vector<std::string> notes;  //!< What a user should know, although it is no error
   /** Reads the images of a frame; when it is null, they are image files. */
   std::shared_ptr<const FrameImageReader> images;
+
+  void addUnpaired(const std::string& file)
+  {
+    if (unpaired++ == 0) firstUnpaired = file;
+  }
 };
 
 /** How a folder is read. */
@@ -87,7 +93,9 @@ class FrameFolder
   const mrpt::img::TCamera& rectifiedCamera() const { return rectified_; }
   const std::vector<FolderFrame>& frames() const { return content_.frames; }
   const std::string& pairing() const { return content_.pairing; }
+  /** Number of colour images without a depth image, and the other way round. */
   std::size_t unpaired() const { return content_.unpaired; }
+  const std::string& firstUnpaired() const { return content_.firstUnpaired; }  //!< Its file
   std::size_t posesCount() const;                              //!< Number of frames with a pose
   const std::string& poses() const { return content_.poses; }  //!< Where they are from
   /** Why the file that has the poses cannot be used; names file and line, "" when it can. The
