@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "../obs/FileSizeLimit.h"
 #include "../obs/TemporaryFolder.h"
 #include "SampleScene.h"
 #include "quadmap/obs/LabelColor.h"
@@ -131,4 +132,24 @@ TEST_F(SceneRendererTest, WritesPicturesCompletelyOrNotAtAll)
       std::string::npos);
   EXPECT_FALSE(errorOf([&] { writePicture(picture, folder.path("a.xyz")); }).empty());
   EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST_F(SceneRendererTest, AFullDiskIsOneErrorWithoutALineOfTheLibraries)
+{
+  const TemporaryFolder folder;
+  mrpt::img::CImage picture(64, 64, mrpt::img::CH_RGB);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) picture.setPixel(x, y, static_cast<std::size_t>(40503 * x * y));
+  for (const std::string& path : {folder.path("a.png"), folder.path("a.jpg")})
+  {
+    ::testing::internal::CaptureStderr();
+    const auto error = [&]
+    {
+      const FileSizeLimit limit(500);
+      return errorOf([&] { writePicture(picture, path); });
+    }();
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << path;
+    EXPECT_NE(error.find(path + ": cannot be written: "), std::string::npos) << error;
+  }
+  EXPECT_EQ(folder.fileCount(), 0u);
 }

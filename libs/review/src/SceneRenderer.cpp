@@ -3,6 +3,8 @@
 #include <mrpt/core/format.h>
 #include <mrpt/opengl/CFBORender.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <vector>
@@ -68,20 +70,20 @@ mrpt::img::CImage SceneRenderer::render(
 
 void writePicture(const mrpt::img::CImage& picture, const std::string& path)
 {
-  OutputFile output(path);
   const std::vector<int> smallest = {cv::IMWRITE_PNG_COMPRESSION, 9};  // MRPT has no such option
-  bool written = false;
+  // In memory first, as libpng and libjpeg print why a file cannot be written, and do not tell us.
+  std::vector<std::uint8_t> bytes;
+  bool encoded = false;
   try
   {
-    written = cv::imwrite(output.temporaryPath(), picture.asCvMatRef(), smallest);
+    const std::string extension = std::filesystem::path(path).extension().string();
+    encoded = cv::imencode(extension, picture.asCvMatRef(), bytes, smallest);
   }
   catch (const cv::Exception&)  // for an extension that OpenCV does not know
   {
   }
-  if (!written)
-    throw std::runtime_error(
-        pathAfterCommit(output.finalPath()) + ": the picture cannot be written");
-  output.commit();
+  if (!encoded) throw std::runtime_error(pathAfterCommit(path) + ": the picture cannot be written");
+  writeTextFile(path, {bytes.begin(), bytes.end()});
 }
 
 }  // namespace quadmap
