@@ -292,11 +292,26 @@ TEST_F(Results, NameTheFileThatIsBroken)
   EXPECT_TRUE(contains(error(), "report.json")) << error();
 }
 
+TEST_F(Results, SayOnWhichMachineTheyWereMade)
+{
+  addRun("simulated home 1 rgbd rawlog", 0.010, 0.02);
+  for (const char* text :
+       {"{}", "[]", "null", "7", R"({"format": 1, "processor": "abacus"})", R"({"processor": 8})",
+        R"({"format": "quadmap-machine", "version": 2, "processor": "abacus"})"})
+  {
+    folder_.write("runs/simulated.home.1.rgbd.rawlog/machine.json", text);
+    const auto error = errorOf([&] { readBenchmarkResults(folder_.folder().string()); });
+    EXPECT_TRUE(contains(error, "rawlog/machine.json: ")) << text << error;
+  }
+}
+
 TEST_F(Results, OfDifferentCommitsAreNotMixed)
 {
   addRun("simulated home 1 rgbd rawlog", 0.010, 0.02);
   addRun("simulated home 2 rgbd rawlog", 0.010, 0.02);
-  folder_.write("runs/simulated.home.2.rgbd.rawlog/machine.json", R"({"commit": "decade"})");
+  folder_.write(
+      "runs/simulated.home.2.rgbd.rawlog/machine.json",
+      R"({"processor": "abacus", "commit": "decade"})");
   const auto error = errorOf([&] { readBenchmarkResults(folder_.folder().string()); });
   EXPECT_TRUE(contains(error, "different commits (c0ffee, decade)")) << error;
   EXPECT_FALSE(contains(error, "\n")) << error;

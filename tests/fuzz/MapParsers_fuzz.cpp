@@ -192,7 +192,7 @@ TEST(Fuzz, BenchmarkResults)
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path("runs/a"));
   folder.write("runs/a/job.txt", "simulated home 1 rgbd rawlog\n");
-  folder.write("runs/a/machine.json", "{\"commit\": \"1234567\"}\n");
+  folder.write("runs/a/machine.json", "{\"processor\": \"abacus\", \"commit\": \"1234567\"}\n");
   folder.write("runs/a/report.json", "{\"objects\": 0}\n");
   FuzzRun run;
   run.words = {"null", "[]", "{}", "\"label\":", "1e999", ","};

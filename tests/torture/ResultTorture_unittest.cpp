@@ -166,7 +166,8 @@ TEST_F(ResultTorture, BenchmarkResults)
       "0.1} ]}\n";
   std::filesystem::create_directories(folder_.path("results/runs/a"));
   folder_.write("results/runs/a/job.txt", "simulated home 1 rgbd rawlog\n");
-  folder_.write("results/runs/a/machine.json", "{\"commit\": \"1234567\"}\n");
+  folder_.write(
+      "results/runs/a/machine.json", "{\"processor\": \"abacus\", \"commit\": \"1234567\"}\n");
   folder_.write("results/runs/a/report.json", "{\"objects\": 0}\n");
   const Cases cases = cuts(evaluation, 6) + flips(evaluation, 12) + wrongWords(evaluation, 8);
   judge(

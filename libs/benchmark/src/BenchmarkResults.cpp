@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -14,6 +15,8 @@ namespace quadmap
 namespace
 {
 namespace fs = std::filesystem;
+
+const char* const kMachineFormat = "quadmap-machine";
 
 void addNumbers(const Json& json, const std::string& prefix, Figures& out)
 {
@@ -54,6 +57,23 @@ void requireOneCommit(const std::string& folder, const std::vector<BenchmarkResu
       folder + ": results of different commits (" + list + "); each needs a folder of its own");
 }
 
+/** On what machine and of which commit a result was made: texts by their names.
+ * \exception std::runtime_error If the file does not say so. */
+std::map<std::string, std::string> machineOf(const std::string& path)
+{
+  const Json json = readJson(path);
+  if (!json.is_object() || json.value("format", Json(kMachineFormat)) != kMachineFormat ||
+      json.value("version", Json(1)) != 1)
+    throw std::runtime_error(path + ": is no " + kMachineFormat + " of version 1");
+  if (!json.value("processor", Json()).is_string())
+    throw std::runtime_error(path + ": has no text \"processor\"");
+  std::map<std::string, std::string> machine;
+  for (const auto& [key, value] : json.items())
+    if (key != "format" && key != "version")
+      machine[key] = value.is_string() ? value.get<std::string>() : jsonText(value);
+  return machine;
+}
+
 void readRun(const fs::path& folder, BenchmarkResult& result)
 {
   const Json evaluation = readJson((folder / "evaluation.json").string());
@@ -70,10 +90,7 @@ BenchmarkResult readResult(const fs::path& folder)
   BenchmarkResult result;
   result.folder = folder.string();
   result.job = BenchmarkJob::fromLine(firstLine(folder / "job.txt"));
-  const Json machine = readJson((folder / "machine.json").string());
-  for (const auto& [key, value] : machine.items())
-    if (key != "format" && key != "version")
-      result.machine[key] = value.is_string() ? value.get<std::string>() : jsonText(value);
+  result.machine = machineOf((folder / "machine.json").string());
   if (result.job.kind == BenchmarkKind::Observed)
   {
     const Json observation = readJson((folder / "observation.json").string());
