@@ -1,8 +1,10 @@
 #include "quadmap/base/OutputFile.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "../obs/FileSizeLimit.h"
@@ -106,6 +108,48 @@ TEST(OutputFile, TwoWritersOfOneNameDoNotShareATemporaryFile)
   const TemporaryFolder folder;
   OutputFile a(folder.path("x.json")), b(folder.path("x.json"));
   EXPECT_NE(a.temporaryPath(), b.temporaryPath());
+}
+
+TEST(OutputFile, TheNextProgramRemovesWhatAKilledOneLeft)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.path("a.txt");
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const auto startWriter = [&]
+  {
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      OutputFile output(path);
+      std::ofstream(output.temporaryPath()) << "half";
+      if (::write(ready[1], "x", 1) == 1) ::pause();
+      ::_exit(1);
+    }
+    char c = 0;
+    EXPECT_EQ(::read(ready[0], &c, 1), 1);
+    return child;
+  };
+  const auto killWriter = [](pid_t child)
+  {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  };
+  const std::string others[] = {".a.txt.12x.tmp.txt", ".b.txt.12.tmp.txt", ".a.txt.12.tmp"};
+  for (const auto& name : others) folder.write(name, "of somebody else");
+  killWriter(startWriter());
+  ASSERT_EQ(folder.fileCount(), 4u);
+  const pid_t living = startWriter();
+  EXPECT_EQ(folder.fileCount(), 4u) << "that of the killed one gave way";
+  writeTextFile(path, "whole");
+  EXPECT_EQ(folder.fileCount(), 5u) << "that of the living one stays";
+  killWriter(living);
+  writeTextFile(path, "again");
+  EXPECT_EQ(folder.fileCount(), 4u);
+  EXPECT_EQ(readFile(path), "again");
+  for (const auto& name : others) EXPECT_TRUE(fs::exists(folder.path(name))) << name;
+  ::close(ready[0]);
+  ::close(ready[1]);
 }
 
 TEST(OutputFile, FoldersThatDoNotExistOrCannotBeWrittenAreNamed)

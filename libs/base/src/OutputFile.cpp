@@ -1,6 +1,7 @@
 #include "quadmap/base/OutputFile.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -9,6 +10,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "FileSystem.h"
 #include "quadmap/base/OutputSet.h"
@@ -22,20 +25,78 @@ namespace fs = std::filesystem;
 /** Less free space than this means that the last write may have failed [bytes]. */
 constexpr unsigned long long kFullDisk = 4096;
 
-/** `.objects.json.4711.tmp.json` for objects.json; compressed files keep both extensions. */
+/** What the names of the temporary files of one final name begin and end with, around the number
+ * of the process. Compressed files keep both extensions. */
+struct TemporaryName
+{
+  explicit TemporaryName(const fs::path& finalPath)
+  {
+    std::string extension = finalPath.extension().string();
+    if (extension == ".gz") extension = finalPath.stem().extension().string() + extension;
+    begin = "." + finalPath.filename().string() + ".";
+    end = ".tmp" + extension;
+  }
+
+  /** Is it the name of a temporary file, of whichever process? */
+  bool matches(const std::string& name) const
+  {
+    if (name.size() <= begin.size() + end.size() || name.compare(0, begin.size(), begin) != 0 ||
+        name.compare(name.size() - end.size(), end.size(), end) != 0)
+      return false;
+    const std::string middle = name.substr(begin.size(), name.size() - begin.size() - end.size());
+    return middle.find_first_not_of("0123456789-") == std::string::npos;
+  }
+
+  std::string begin, end;
+};
+
+/** `.objects.json.4711.tmp.json` for objects.json. */
 fs::path temporaryFor(const fs::path& finalPath, unsigned attempt)
 {
-  std::string extension = finalPath.extension().string();
-  if (extension == ".gz") extension = finalPath.stem().extension().string() + extension;
-  std::string name = "." + finalPath.filename().string() + "." + std::to_string(::getpid());
-  if (attempt > 0) name += "-" + std::to_string(attempt);
-  return finalPath.parent_path() / (name + ".tmp" + extension);
+  const TemporaryName name(finalPath);
+  std::string process = std::to_string(::getpid());
+  if (attempt > 0) process += "-" + std::to_string(attempt);
+  return finalPath.parent_path() / (name.begin + process + name.end);
 }
 
-/** Creates an empty file that did not exist before, next to its final name.
+/** Locks a file. \return False when another program has locked it, or it lost its name meanwhile.
+ * \param unlockable What to return where files cannot be locked. */
+bool lockNamed(int file, const std::string& path, bool unlockable)
+{
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK && unlockable;
+  struct stat locked, named;
+  return ::fstat(file, &locked) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         locked.st_ino == named.st_ino && locked.st_dev == named.st_dev;
+}
+
+/** Removes the temporary files of programs that were killed: those that nobody has locked. */
+void removeLeftOver(const fs::path& finalPath)
+{
+  if (pathAfterCommit(finalPath.string()) != finalPath) return;  // OutputSet empties its folder
+  const TemporaryName name(finalPath);
+  const fs::path folder = finalPath.parent_path();
+  std::error_code error;
+  for (fs::directory_iterator it(folder.empty() ? "." : folder, error), end; !error && it != end;
+       it.increment(error))
+  {
+    std::error_code ignored;
+    if (!name.matches(it->path().filename().string()) ||
+        it->symlink_status(ignored).type() != fs::file_type::regular)
+      continue;
+    const std::string path = it->path().string();
+    const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    if (lockNamed(file, path, false)) ::unlink(path.c_str());
+    ::close(file);
+  }
+}
+
+/** Creates an empty file that did not exist before, next to its final name, and locks it.
  *  \param permissions Of the file that it will replace, if there is one: what others may not read
- *  they may not read while it is written either. */
-std::string createTemporary(const fs::path& finalPath, std::optional<mode_t> permissions)
+ *  they may not read while it is written either.
+ *  \return Its path, and the descriptor that has the lock. */
+std::pair<std::string, int> createTemporary(
+    const fs::path& finalPath, std::optional<mode_t> permissions)
 {
   constexpr unsigned kAttempts = 100;
   for (unsigned attempt = 0; attempt < kAttempts; ++attempt)
@@ -45,10 +106,11 @@ std::string createTemporary(const fs::path& finalPath, std::optional<mode_t> per
     if (file >= 0)
     {
       if (permissions) ::fchmod(file, *permissions | S_IWUSR);  // writers open it by its name
-      ::close(file);
-      return path;
+      if (lockNamed(file, path, true)) return {path, file};
+      ::close(file);  // another program was faster, and removes it
     }
-    if (errno != EEXIST) failToWrite(finalPath.string(), errno);
+    else if (errno != EEXIST)
+      failToWrite(finalPath.string(), errno);
   }
   failToWrite(finalPath.string(), EEXIST);
 }
@@ -87,8 +149,15 @@ OutputFile::OutputFile(std::string finalPath)
   if (isDevice(target)) return;
   permissions_ = permissionsOf(target);
   const auto pause = Temporary::pause();
-  temporaryPath_ = createTemporary(target, permissions_);
+  removeLeftOver(target);
+  std::tie(temporaryPath_, lock_) = createTemporary(target, permissions_);
   temporary_.emplace(temporaryPath_);
+}
+
+OutputFile::~OutputFile()
+{
+  temporary_.reset();
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void OutputFile::commit()

@@ -11,7 +11,9 @@ namespace quadmap
 {
 /** A file that appears complete or not at all: write to temporaryPath(), then commit(). Without
  * commit() the destructor, or a signal that ends the program, removes the temporary file and the
- * final name stays untouched.
+ * final name stays untouched. What a program that was killed has left is removed by the next one
+ * that writes the same file.
+ * The temporary file is locked: write it under its name, and put no other file in its place.
  * A final name that is a link stands for what it points to; a device or pipe (/dev/null) cannot be
  * renamed onto and is written directly. */
 class OutputFile
@@ -19,6 +21,7 @@ class OutputFile
  public:
   /** \exception std::runtime_error If the directory is missing or not writable. */
   explicit OutputFile(std::string finalPath);
+  ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
@@ -35,7 +38,8 @@ class OutputFile
 
  private:
   std::string finalPath_, target_, temporaryPath_;
-  std::optional<mode_t> permissions_;   //!< Of the file that is replaced, if there is one
+  std::optional<mode_t> permissions_;  //!< Of the file that is replaced, if there is one
+  int lock_ = -1;                      //!< Descriptor of the locked temporary file, if there is one
   std::optional<Temporary> temporary_;  //!< Empty for a device, and after commit()
 };
 
