@@ -119,6 +119,22 @@ TEST(RawlogErrors, ScansNobodyCanUse)
         [&](Scan& s) { s.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(ticks)); });
 }
 
+TEST(RawlogErrors, TimesOfPosesThatNoRecordingHas)
+{
+  const TemporaryFolder folder;
+  const auto far = std::numeric_limits<mrpt::Clock::rep>::max();
+  for (const mrpt::Clock::rep ticks : {mrpt::Clock::rep{1}, far / 2, far})
+    for (const char* track : {"odometry", "ground_truth"})
+    {
+      const auto last = samplePose(kStart + 1, {});
+      last->sensorLabel = track;
+      last->timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(ticks));
+      expectProblem(
+          writeObjects(folder.path("x.rawlog"), {samplePose(kStart, {}), sampleScan(kStart), last}),
+          {std::string("x.rawlog: record 2 (") + track + "): has the time ", "absurd"}, 1);
+    }
+}
+
 TEST(RawlogErrors, PosesNobodyCanUse)
 {
   const TemporaryFolder folder;

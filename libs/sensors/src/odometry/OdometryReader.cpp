@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "quadmap/sensors/RawlogNames.h"
+#include "records/RecordTime.h"
 
 namespace quadmap
 {
@@ -93,12 +94,6 @@ std::optional<Movement> movementIn(const mrpt::obs::CActionCollection& actions)
 }
 
 bool isIncrement(const std::string& kind) { return kind.rfind("CActionRobotMovement", 0) == 0; }
-
-double secondsOf(const mrpt::obs::CObservation& observation)
-{
-  if (observation.timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
-  return mrpt::Clock::toDouble(observation.timestamp);
-}
 }  // namespace
 
 bool OdometryReader::accept(const std::string& kind)
@@ -120,14 +115,14 @@ std::vector<StrayRecord> OdometryReader::read(
   {
     if (!accept("CObservationOdometry " + odometry->sensorLabel)) return {};
     const CPose3DPDFGaussian pose(mrpt::poses::CPose3D(odometry->odometry));
-    return odometry_.add({secondsOf(*odometry), pose, record});
+    return odometry_.add({timeOfRecord(*odometry), pose, record});
   }
   const auto* pose = dynamic_cast<const CObservationRobotPose*>(&observation);
   if (!pose) return {};
   if (pose->sensorLabel == kGroundTruthLabel)
-    return truth_.add({secondsOf(*pose), CPose3DPDFGaussian(pose->pose.mean), record});
+    return truth_.add({timeOfRecord(*pose), CPose3DPDFGaussian(pose->pose.mean), record});
   if (!accept("CObservationRobotPose " + pose->sensorLabel)) return {};
-  return odometry_.add({secondsOf(*pose), withFiniteCovariance(pose->pose), record});
+  return odometry_.add({timeOfRecord(*pose), withFiniteCovariance(pose->pose), record});
 }
 
 void OdometryReader::read(const mrpt::obs::CActionCollection& actions)

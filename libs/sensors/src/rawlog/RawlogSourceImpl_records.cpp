@@ -9,9 +9,9 @@
 
 #include "InputError.h"
 #include "quadmap/base/ErrorText.h"
-#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/RgbdScan.h"
 #include "rawlog/RawlogSourceImpl.h"
+#include "records/RecordTime.h"
 
 namespace quadmap
 {
@@ -104,13 +104,10 @@ std::vector<StrayRecord> RawlogSource::Impl::addScan(
     std::size_t record, const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
 {
   if (!options.sensorLabel.empty() && scan->sensorLabel != options.sensorLabel) return {};
-  if (scan->timestamp == INVALID_TIMESTAMP) throw std::runtime_error("has no time stamp");
+  const double time = timeOfRecord(*scan);
   PendingFrame pending{{}, odometry.sumOfActions(), imageBytesOf(*scan)};
   pending.frame.record = record;
   pending.frame.scan = scan;
-  const double time = pending.frame.time();
-  if (!(std::abs(time) <= kLatestTime))
-    throw std::runtime_error(mrpt::format("has the time %g s, which is absurd", time));
   RecordClock& clock = clocks_[scan->sensorLabel];
   const double last = clock.lastBefore(time);
   if (time == last) throw std::runtime_error("has the time of the scan before");
