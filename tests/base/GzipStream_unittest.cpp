@@ -17,12 +17,10 @@ namespace
 CObservationObjects largeObject()
 {
   CObservationObjects object;
-  ObjectMask mask;
-  mask.width = mask.height = 1024;
-  for (std::size_t i = 0; i < std::size_t{mask.width} * mask.height; ++i)
-    mask.pixels.push_back(i * i / 77 % 2 != 0);
-  object.objects.resize(16);
-  for (auto& detected : object.objects) detected.mask = mask;
+  CoarseDepth& coarse = object.coarseDepth;
+  coarse.columns = coarse.rows = 1024;
+  for (std::size_t i = 0; i < std::size_t{coarse.columns} * coarse.rows; ++i)
+    coarse.depth.push_back(static_cast<float>(i * i / 77 % 1000));
   return object;
 }
 }  // namespace
