@@ -20,7 +20,9 @@ using Room = std::vector<MapObject>;
 MapObject objectAt(ObjectId id, const std::string& label, const CPose3D& pose, bool oriented = true)
 {
   const Eigen::Vector3d size = labels().properties(label).typicalSize;
-  MapObject object{id, Ellipsoid(pose, size / 2), {}, {}, 0, 0, 0, true, 0, false, {}, {}};
+  MapObject object;
+  object.id = id;
+  object.object = Ellipsoid(pose, size / 2);
   object.covariance = UprightCovariance::Identity() * 0.02 * 0.02;
   object.labelCounts[label] = 10;
   object.completeCount = 10;
