@@ -145,6 +145,11 @@ TEST(ViewWeight, ACuboidThatIsTurnedSaysLittleThoughItLiesWithinTheObject)
   EXPECT_GT(weightAt(0.2 + M_PI / 2), 0.99) << "the axes have other names";
   EXPECT_GT(weightAt(0.2 + 0.05), 0.99) << "an honest error";
   EXPECT_LT(weightAt(0.2 - 0.63), 0.05) << "a chair at the table";
+  view.faces[0].kind = FaceKind::Measured;
+  view.center = {0.1 + 0.7 * std::cos(0.2), 0.7 * std::sin(0.2), 0.37};
+  EXPECT_GT(weightAt(0.2 - 0.2), 0.9) << "it agrees by a side, and its pose has drifted";
+  view.faces[0].kind = FaceKind::AtLeast;
+  view.center = {0.1, 0.1, 0.37};
   view.yawDefined = false;
   EXPECT_GT(weightAt(0.2 - 0.63), 0.99) << "without a heading";
 }

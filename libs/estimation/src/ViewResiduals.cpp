@@ -1,5 +1,6 @@
 #include "quadmap/estimation/ViewResiduals.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace quadmap
@@ -34,10 +35,15 @@ void addViewResiduals(
 
 namespace
 {
-/** How far the measured heading moves the ends of the object [m]. */
+/** How far the heading of a cuboid without any measured side moves the ends of the object [m]. Its
+ * sides are bounds, and lie within the object when it is another thing's. Where a side was measured
+ * it tells, and a heading may differ as the pose has drifted. */
 double turnedBy(const ObjectView& view, const UprightState& reference)
 {
-  if (!view.complete || !view.yawDefined) return 0;
+  const auto end = view.faces.begin() + 4;
+  const bool hasSide = std::any_of(
+      view.faces.begin(), end, [](const FaceMeasurement& face) { return isEquality(face.kind); });
+  if (!view.complete || !view.yawDefined || hasSide) return 0;
   const double half = std::exp(reference.segment<2>(4).maxCoeff());
   return half * (nearestEquivalentYaw(view.yaw, reference[3]) - reference[3]);
 }
