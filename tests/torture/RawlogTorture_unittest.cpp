@@ -287,7 +287,9 @@ TEST_F(RawlogTorture, WrongClocks)
             samplePose(kStart + 0.1 * i + (i >= 3 && i < 3 + burst ? ahead : 0.0), {}));
       cases.push_back(
           {mrpt::format("%d poses %g s ahead", burst, ahead), bytesOf(records), true,
-           "x.rawlog: record 4 (odometry): the time "});
+           // An hour before the start it is not yet 1970, a time that stamps do not have.
+           std::string("x.rawlog: record 4 (odometry): ") + (ahead < 0 ? "has the" : "the") +
+               " time "});
     }
   judgeRawlogs(cases);
 }
