@@ -38,7 +38,7 @@ std::uint64_t mostBytesIn(std::uint64_t fileBytes)
 
 std::uint64_t mostRecordsIn(std::uint64_t fileBytes)
 {
-  constexpr std::uint64_t kAlways = 1000000, kLeastBytes = 8;  // of a record, beyond the first ones
+  constexpr std::uint64_t kAlways = 500000, kLeastBytes = 8;  // of a record, beyond the first ones
   return kAlways + fileBytes / kLeastBytes;
 }
 }  // namespace
