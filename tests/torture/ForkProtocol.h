@@ -12,7 +12,8 @@ namespace quadmap::torture
 {
 constexpr int kRequests = 198, kEndings = 199;  //!< Descriptors of the pipes, in the program
 
-constexpr unsigned kSeconds = 10;             //!< Longest run
+constexpr unsigned kSeconds = 10;             //!< Longest run, of CPU time: others run beside it
+constexpr unsigned kSecondsWaiting = 30;      //!< Longest run by the clock, as one that hangs
 constexpr rlim_t kMachine = rlim_t{8} << 30;  //!< Most memory, so that a failing case harms nobody
 
 /** How a run ended. */

@@ -36,7 +36,9 @@ int run(const std::vector<std::string>& words, char** environment)
   redirect(STDERR_FILENO, words[1]);
   const rlimit limit{kMachine, kMachine};
   ::setrlimit(RLIMIT_AS, &limit);
-  ::alarm(kSeconds);
+  const rlimit time{kSeconds, kSeconds};
+  ::setrlimit(RLIMIT_CPU, &time);
+  ::alarm(kSecondsWaiting);
   std::vector<char*> arguments;
   for (std::size_t i = 2; i < words.size(); ++i)
     arguments.push_back(const_cast<char*>(words[i].c_str()));

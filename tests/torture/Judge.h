@@ -28,8 +28,8 @@ struct Reader
 };
 
 /** Gives each case to the program and judges how it ends: by itself with status 0 or 1, within ten
- * seconds and 1 GB; when it failed, with one line of its own that names the file, and with no
- * result. The rest of the folder is not changed. */
+ * seconds of CPU time and 1 GB; when it failed, with one line of its own that names the file, and
+ * with no result. The rest of the folder is not changed. */
 void judge(const TemporaryFolder& folder, const Reader& reader, const std::vector<Case>& cases);
 
 }  // namespace quadmap::torture
