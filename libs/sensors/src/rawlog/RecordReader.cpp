@@ -27,18 +27,18 @@ std::string classNameIn(const std::string& head)
 }
 
 /** What a rawlog may hold [bytes], and in how many records. Recordings of images compress to a
- * third, boxes to a fourteenth, and the poses of a robot that stands still to a hundredth, with a
- * record in four bytes: these stay within the first 512 MB. A file that holds more was made to
- * keep its reader busy: 13 MB can hold 13 GB, or 60 million records. */
+ * third, boxes to a fourteenth, and the poses of a robot that stands still to a fiftieth, with a
+ * record in five bytes: an hour of these stays within what is always read. A file that holds more
+ * was made to keep its reader busy: 13 MB can hold 13 GB, or 60 million records. */
 std::uint64_t mostBytesIn(std::uint64_t fileBytes)
 {
-  constexpr std::uint64_t kAlways = std::uint64_t{1} << 29, kMostPerByte = 20;
+  constexpr std::uint64_t kAlways = std::uint64_t{1} << 27, kMostPerByte = 20;
   return kAlways + kMostPerByte * fileBytes;
 }
 
 std::uint64_t mostRecordsIn(std::uint64_t fileBytes)
 {
-  constexpr std::uint64_t kAlways = 500000, kLeastBytes = 8;  // of a record, beyond the first ones
+  constexpr std::uint64_t kAlways = 200000, kLeastBytes = 8;  // of a record, beyond the first ones
   return kAlways + fileBytes / kLeastBytes;
 }
 }  // namespace

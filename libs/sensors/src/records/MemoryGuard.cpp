@@ -27,10 +27,22 @@ rlim_t memoryNow()
 /** The limit belongs to the process, and so do these. */
 std::mutex mutex;
 int guards = 0;
-rlimit limitWithoutGuards{};
+
+/** It is asked for once: a small record takes as long to read as a call to the system, and a file
+ * may have a million of them. */
+const rlimit& limitWithoutGuards()
+{
+  static const rlimit limit = []
+  {
+    rlimit now{};
+    ::getrlimit(RLIMIT_DATA, &now);
+    return now;
+  }();
+  return limit;
+}
 
 /** The memory of the process as it was a moment ago [bytes]. To ask the system takes ten times as
- * long as to read a small record, of which a file may have millions. */
+ * long as to read a small record. */
 rlim_t recentMemory()
 {
   using Clock = std::chrono::steady_clock;
@@ -49,18 +61,18 @@ rlim_t recentMemory()
 MemoryGuard::MemoryGuard(std::uint64_t mostBytesMore)
 {
   const std::lock_guard<std::mutex> lock(mutex);
-  if (guards++ == 0) ::getrlimit(RLIMIT_DATA, &limitWithoutGuards);
+  rlimit limit = limitWithoutGuards();
+  ++guards;
   const rlim_t now = recentMemory();
   if (now == 0) return;
-  rlimit limit = limitWithoutGuards;
-  limit.rlim_cur = std::min(limitWithoutGuards.rlim_cur, now + mostBytesMore);
+  limit.rlim_cur = std::min(limit.rlim_cur, now + mostBytesMore);
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 
 MemoryGuard::~MemoryGuard()
 {
   const std::lock_guard<std::mutex> lock(mutex);
-  if (--guards == 0) ::setrlimit(RLIMIT_DATA, &limitWithoutGuards);
+  if (--guards == 0) ::setrlimit(RLIMIT_DATA, &limitWithoutGuards());
 }
 
 bool MemoryGuard::isSafe()

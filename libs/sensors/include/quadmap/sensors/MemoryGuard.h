@@ -7,7 +7,7 @@ namespace quadmap
 /** While it lives, the process may take only so much more memory than it has; then allocation
  * fails with an exception. It is for readers of others, which take whatever a file states. Several
  * may live at once, in any threads: the limit is that of the one that was made last, and goes with
- * the last one. */
+ * the last one. Then the process has the limit again that it had before the first of all. */
 class MemoryGuard
 {
  public:
