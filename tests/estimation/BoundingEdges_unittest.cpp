@@ -42,6 +42,7 @@ std::size_t edgesOf(const DetectedObject& d, const mrpt::poses::CPose3D& T_map_s
 }
 
 constexpr std::size_t kLeft = 0, kBottom = 3;
+constexpr std::size_t kLeftFace = 2;  // +y
 }  // namespace
 
 TEST(BoundingEdges, BesideAHiddenLowerEndTheyBoundOnlyWhatIsSeen)
@@ -67,6 +68,43 @@ TEST(BoundingEdges, TheLowerEndOfACameraOnItsSideIsASideOfTheImage)
   const mrpt::poses::CPose3D leftIsUp(0, 0, 1.5, 0, 0, M_PI / 2);
   EXPECT_EQ(edgesOf(d, leftIsDown), 1u);
   EXPECT_EQ(edgesOf(d, leftIsUp), 3u);
+}
+
+TEST(BoundingEdges, AFaceAtTheImagesBorderIsCut)
+{
+  const mrpt::poses::CPose3D level(0, 0, 1.5, 0, 0, 0);
+  for (const auto kind : {FaceKind::Measured, FaceKind::AtLeast})
+    for (const auto state : {EdgeState::Usable, EdgeState::NearImageBorder, EdgeState::Occluded})
+      for (const double reach : {0.46, 0.2})  // [m] to the left; the left edge is 0.45 m away
+      {
+        DetectedObject d = partial();
+        d.measurement.kind = MeasurementKind::Complete;
+        CompleteMeasurement cuboid;
+        cuboid.object_sensor = Ellipsoid(
+            mrpt::poses::CPose3D(2, 0.5 * (reach - 0.2), 0, 0, 0, 0),
+            {0.02, 0.5 * (reach + 0.2), 0.2});
+        cuboid.faces.fill({FaceKind::Measured, 0.01});
+        cuboid.faces[kLeftFace].kind = kind;
+        cuboid.yawDefined = true;
+        d.measurement.complete = cuboid;
+        const auto planes = boxEdgePlanes(kCamera, {201.4, 160, 380, 320});
+        (*d.measurement.edges)[kLeft].plane_sensor = planes[kLeft].transformed(T_sensor_optical());
+        (*d.measurement.edges)[kLeft].state = state;
+        const auto view = viewOf(d, level, chair(), PoseNoise());
+        ASSERT_TRUE(view && view->complete);
+        const bool reaches = reach > 0.4;
+        EXPECT_EQ(
+            view->isCutByImage[kLeftFace],
+            reaches && kind == FaceKind::AtLeast && state == EdgeState::NearImageBorder);
+        EXPECT_EQ(
+            view->faces[kLeftFace].kind == FaceKind::AtLeast,
+            kind == FaceKind::AtLeast || (reaches && state != EdgeState::Usable));
+        for (std::size_t f = 0; f < kFaces; ++f)
+          if (f != kLeftFace)
+          {
+            EXPECT_FALSE(view->isCutByImage[f]);
+          }
+      }
 }
 
 TEST(BoundingEdges, WithAHiddenLowerEndTheMiddleMayBeMuchLowerThanWhatIsSeen)

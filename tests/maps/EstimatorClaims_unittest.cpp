@@ -114,6 +114,90 @@ TEST_P(ContradictedSide, IsClaimedToBeUncertain)
 
 INSTANTIATE_TEST_SUITE_P(ObjectEstimator, ContradictedSide, ::testing::Values(0, 1));
 
+namespace
+{
+/** Views that agree on all sides but the one along +x, which the image cuts in each of them. */
+std::vector<ObjectView> cutViews(const TrueObject& truth, double seen)
+{
+  SyntheticCamera camera(23);
+  auto views = viewsAround(camera, truth, 20);
+  for (ObjectView& view : views)
+  {
+    view.center = truth.object.center();
+    view.halfSizes = truth.object.semiAxes();
+    view.yaw = uprightStateOf(truth.object)[3];
+    view.edges.clear();
+    for (auto& face : view.faces) face = {FaceKind::Measured, 0.01};
+    const double less = 2 * truth.object.semiAxes().x() - seen;
+    view.center -= 0.5 * less * view.faceNormal(0);
+    view.halfSizes.x() -= 0.5 * less;
+    view.faces[0].kind = FaceKind::AtLeast;
+    view.isCutByImage[0] = true;
+  }
+  return views;
+}
+
+Eigen::Vector3d normalOfFirst(const UprightState& x) { return {std::cos(x[3]), std::sin(x[3]), 0}; }
+}  // namespace
+
+TEST(ObjectEstimator, ClaimsHowFarAnObjectMayReachBeyondTheImages)
+{
+  // The label says what sizes there are. Of these the ones are drawn that are larger than what
+  // the images show.
+  const auto label = boxy("suitcase");
+  std::mt19937 random(3);
+  std::normal_distribution<double> size(std::log(label.typicalSize.x()), label.sizeSpread);
+  for (const double seen : {0.62, 0.9, 1.2})  // [m]
+  {
+    const auto estimator = estimatorOf(cutViews(kCabinet, seen), {});
+    const UprightState at = estimator.estimate({}, label, {}).state;
+    const double estimated = 2 * std::exp(at[4]);
+    ASSERT_NEAR(estimated, seen, 0.03);
+    double squares = 0;
+    int count = 0;
+    while (count < 20000)
+    {
+      const double drawn = size(random);
+      if (drawn < std::log(estimated)) continue;
+      squares += std::pow(drawn - std::log(estimated), 2);
+      ++count;
+    }
+    const double end = estimated * std::sqrt(squares / count);  // [m], to first order
+    const UprightCovariance P = estimator.openEnds(at, label, {});
+    const Eigen::Vector3d n = normalOfFirst(at);
+    EXPECT_NEAR(std::sqrt(n.dot(P.topLeftCorner<3, 3>() * n)), 0.5 * end, 0.02 * end) << seen;
+    UprightState otherSide = UprightState::Zero();  // was measured
+    otherSide.head<3>() = n;
+    otherSide[4] = -std::exp(at[4]);
+    EXPECT_NEAR(otherSide.dot(P * otherSide), 0, 1e-12);
+  }
+}
+
+TEST(ObjectEstimator, ASizeBeyondAllBoundsIsTheLabelsAndAsUncertain)
+{
+  const auto label = boxy("suitcase");
+  const auto estimator = estimatorOf(cutViews(kCabinet, 0.2), {});
+  const auto result = estimator.estimate({}, label, {});
+  EXPECT_NEAR(2 * std::exp(result.state[4]), label.typicalSize.x(), 0.03);
+  EXPECT_GT(std::sqrt(result.covariance(4, 4)), 0.9 * label.sizeSpread);
+  EXPECT_TRUE(estimator.openEnds(result.state, label, {}).isZero(0));
+}
+
+TEST(ObjectEstimator, OneViewOfAnEndIsEnough)
+{
+  const auto label = boxy("suitcase");
+  auto views = cutViews(kCabinet, 0.78);
+  const auto claimOf = [&]
+  {
+    const auto estimator = estimatorOf(views, {});
+    return estimator.openEnds(estimator.estimate({}, label, {}).state, label, {}).norm();
+  };
+  EXPECT_GT(claimOf(), 0.01);
+  views[4].faces[0].kind = FaceKind::Measured;
+  views[4].isCutByImage[0] = false;
+  EXPECT_EQ(claimOf(), 0);
+}
+
 TEST(ObjectEstimator, ClaimsWhatViewsErrByTogether)
 {
   // Views from all around whose sides err by one standard normal number for all views of a side,

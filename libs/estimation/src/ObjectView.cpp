@@ -82,19 +82,25 @@ void weakenCutFaces(
       view.halfSizes);
   const Eigen::Matrix<double, 3, 8> corners = cuboid.cuboidCorners();
   const double range = (view.center - view.camera).norm();
+  const auto measured = view.faces;
   for (const auto& edge : edges)
   {
     if (edge.state == EdgeState::Usable) continue;
     const Plane plane = edge.plane_sensor.transformed(T_map_sensor);
     for (std::size_t f = 0; f < kFaces; ++f)
     {
-      if (view.faces[f].kind != FaceKind::Measured) continue;
+      const FaceKind kind = measured[f].kind;
+      if (kind != FaceKind::Measured && kind != FaceKind::AtLeast) continue;
       if (!looksOver(plane, view.faceNormal(f))) continue;
       double nearest = std::numeric_limits<double>::infinity();
       for (Eigen::Index c = 0; c < 8; ++c)
         if (view.faceNormal(f).dot(corners.col(c)) > view.faceOffset(f) - 1e-6)
           nearest = std::min(nearest, plane.signedDistance(corners.col(c)));
-      if (nearest < kReaches * range) view.faces[f].kind = FaceKind::AtLeast;
+      if (nearest >= kReaches * range) continue;
+      view.faces[f].kind = FaceKind::AtLeast;
+      // Where a part of the rim was seen, the object ends nearby.
+      if (kind == FaceKind::AtLeast && edge.state == EdgeState::NearImageBorder)
+        view.isCutByImage[f] = true;
     }
   }
 }

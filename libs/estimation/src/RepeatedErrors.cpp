@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadmap/estimation/LabelPrior.h"
 #include "quadmap/estimation/RobustKernel.h"
 
 namespace quadmap
@@ -43,6 +44,17 @@ double shareOf(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const Estimat
                                         std::exp(-(a - b).norm() / options.repeatedAngle);
 }
 
+constexpr double kOneView = 0.5;  // weight of a view that is more likely right than wrong
+
+/** E[(x - a)^2] of a standard normal variable x that is at least a. */
+double squareBeyond(double a)
+{
+  const double tail = 0.5 * std::erfc(a / std::sqrt(2.0));
+  constexpr double kFar = 8;  // the density decays like an exponential there
+  if (a > kFar) return 2 / (a * a);
+  const double density = std::exp(-0.5 * a * a) / std::sqrt(2 * M_PI);
+  return 1 + a * a - a * density / tail;
+}
 }  // namespace
 
 double repeatedShare(
@@ -115,9 +127,11 @@ void RepeatedErrors::addFaces(
     const double fromCamera = view.faceOffset(f) - normals[f].dot(view.camera);  // along the normal
     const double w = weight * kernel.weight(row.r / face.sigma) / (face.sigma * face.sigma);
     byDepth_ += w * fromCamera * row.byUprightState();
+    Side& side = sides_[sideAlong(object_, normals[f])];
+    if (std::abs(row.r) <= kContradicts * face.sigma)
+      (view.isCutByImage[f] ? side.cut : side.ends) += weight;
     // Supports are surfaces of the room, which many frames have measured already.
     if (face.kind == FaceKind::Support) continue;
-    Side& side = sides_[sideAlong(object_, normals[f])];
     addRow(row, {face.sigma, common}, kernel, weight, place, side);
     side.weights += weight;
     if (face.kind == FaceKind::AtLeast && row.r > kContradicts * face.sigma)
@@ -163,6 +177,16 @@ UprightCovariance RepeatedErrors::crossTerms() const
   return X + sigma * sigma * byDepth_ * byDepth_.transpose();  // (11.24)
 }
 
+/** How the state changes by a metre of one of its sides alone. */
+UprightState RepeatedErrors::moveOfSide(std::size_t face) const
+{
+  const auto axis = static_cast<Eigen::Index>(face / 2);
+  UprightState move = UprightState::Zero();
+  move.head<3>() = (face % 2 == 0 ? 0.5 : -0.5) * object_.R.col(axis);
+  move[4 + axis] = 0.5 / object_.s[axis];
+  return move;
+}
+
 UprightCovariance RepeatedErrors::contradictions() const
 {
   UprightCovariance P = UprightCovariance::Zero();
@@ -170,11 +194,26 @@ UprightCovariance RepeatedErrors::contradictions() const
   {
     const auto side = sides_.find(static_cast<int>(f));
     if (side == sides_.end() || side->second.squaredGaps <= 0) continue;
-    const auto axis = static_cast<Eigen::Index>(f / 2);
-    UprightState move = UprightState::Zero();  // of the state, by a metre of that side
-    move.head<3>() = (f % 2 == 0 ? 0.5 : -0.5) * object_.R.col(axis);
-    move[4 + axis] = 0.5 / object_.s[axis];
+    const UprightState move = moveOfSide(f);
     P += side->second.squaredGaps / side->second.weights * move * move.transpose();
+  }
+  return P;
+}
+
+UprightCovariance RepeatedErrors::openEnds(const LabelProperties& label) const
+{
+  const auto prior = labelPriorRows(object_.s.array().log(), label, options_);
+  UprightCovariance P = UprightCovariance::Zero();
+  for (std::size_t f = 0; f < kFaces; ++f)
+  {
+    const auto side = sides_.find(static_cast<int>(f));
+    if (side == sides_.end() || side->second.cut <= 0 || side->second.ends >= kOneView) continue;
+    const auto axis = static_cast<Eigen::Index>(f / 2);
+    const double spread = 1 / prior[f / 2].d_logSizes[axis];
+    const double beyond =
+        2 * object_.s[axis] * spread * std::sqrt(squareBeyond(prior[f / 2].r));  // [m]
+    const UprightState move = moveOfSide(f);
+    P += beyond * beyond * move * move.transpose();
   }
   return P;
 }

@@ -97,15 +97,16 @@ const UprightCovariance& CQuadricObjectMap::sharedError(ObjectId id) const
   return objects_.at(id).estimator.sharedError();
 }
 
-void CQuadricObjectMap::claimContradictions()
+void CQuadricObjectMap::claimDoubts()
 {
   for (auto& [id, object] : objects_)
   {
-    object.covariance -= object.contradicted;
-    object.contradicted = object.estimator.contradictions(
-        uprightStateOf(object.object), labels().properties(object.label()),
-        insertionOptions.estimator);
-    object.covariance += object.contradicted;
+    object.covariance -= object.doubts;
+    const UprightState at = uprightStateOf(object.object);
+    const LabelProperties label = labels().properties(object.label());
+    object.doubts = object.estimator.contradictions(at, label, insertionOptions.estimator) +
+                    object.estimator.openEnds(at, label, insertionOptions.estimator);
+    object.covariance += object.doubts;
   }
 }
 
@@ -129,7 +130,7 @@ void CQuadricObjectMap::place(ObjectId id, const Ellipsoid& object)
   entry.estimator = ObjectEstimator::fromEstimate(
       {uprightStateOf(entry.object), entry.covariance, 0, entry.orientationDefined},
       labels().properties(entry.label()), insertionOptions.estimator);
-  entry.contradicted.setZero();  // the estimator knows no more than the whole covariance says
+  entry.doubts.setZero();  // the estimator knows no more than the whole covariance says
 }
 
 void CQuadricObjectMap::remove(ObjectId id)
@@ -153,7 +154,7 @@ void CQuadricObjectMap::estimate(Entry& object, bool restart)
       insertionOptions.estimator, restart || object.observations() < kFewMeasurements);
   object.object = ellipsoidOf(result.state);
   object.covariance = result.covariance;
-  object.contradicted.setZero();
+  object.doubts.setZero();
   object.orientationDefined = result.orientationDefined;
   object.isRound = result.isRound;
   object.estimator.setRound(result.isRound);

@@ -135,7 +135,7 @@ bool CQuadricObjectMap::isConfirmed(const Entry& object) const
       object.observations() >= static_cast<unsigned>(existence.minPartial) &&
       sizeDeviation(object.object, labels().properties(object.label()), ObjectFreedom::Upright) <=
           existence.maxSizeDeviation;
-  const UprightState variances = (object.covariance - object.contradicted).diagonal();
+  const UprightState variances = (object.covariance - object.doubts).diagonal();
   const double centerSigma = std::sqrt(variances.head<3>().maxCoeff());
   const double sizeSigma =
       variances.tail<3>().cwiseSqrt().cwiseProduct(object.object.semiAxes()).maxCoeff();

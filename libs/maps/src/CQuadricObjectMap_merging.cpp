@@ -32,7 +32,7 @@ MergedMap CQuadricObjectMap::contents() const
     all.objects.push_back(
         {object, object.estimator.summary(
                      uprightStateOf(object.object), labels().properties(object.label()),
-                     insertionOptions.estimator, object.contradicted)});
+                     insertionOptions.estimator, object.doubts)});
   return all;
 }
 

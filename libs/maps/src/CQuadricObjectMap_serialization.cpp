@@ -192,7 +192,7 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
     writePrior(
         out, object.estimator.summary(
                  uprightStateOf(object.object), labels().properties(object.label()),
-                 insertionOptions.estimator, object.contradicted));
+                 insertionOptions.estimator, object.doubts));
   }
   out.WriteAs<std::uint32_t>(objectOfInstance_.size());
   for (const auto& [instance, object] : objectOfInstance_) out << instance << object;

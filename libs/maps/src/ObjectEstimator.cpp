@@ -225,6 +225,12 @@ UprightCovariance ObjectEstimator::contradictions(
   return evidenceAt(at, label, options).repeated(at).contradictions();
 }
 
+UprightCovariance ObjectEstimator::openEnds(
+    const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
+{
+  return evidenceAt(at, label, options).repeated(at).openEnds(label);
+}
+
 void ObjectEstimator::absorb(
     const ObjectEstimator& other,
     const UprightState& here,
@@ -248,7 +254,7 @@ InformationPrior ObjectEstimator::summary(
     const UprightState& at,
     const LabelProperties& label,
     const EstimatorOptions& options,
-    const UprightCovariance& contradicted) const
+    const UprightCovariance& doubts) const
 {
   constexpr double kLeast = 1e-9;  // of what nothing is known about
   const ObjectEvidence evidence = evidenceAt(at, label, options);
@@ -261,7 +267,7 @@ InformationPrior ObjectEstimator::summary(
   if (!repeated.isZero(0.0))  // what a file knew stays as it is, to the last bit
     share = (eq.H + repeated + kLeast * UprightCovariance::Identity()).ldlt().solve(eq.H);
   const Eigen::PartialPivLU<UprightCovariance> weaken(
-      UprightCovariance::Identity() + eq.H * share * (sharedError_ + contradicted));
+      UprightCovariance::Identity() + eq.H * share * (sharedError_ + doubts));
   const UprightCovariance L = weaken.solve(UprightCovariance(eq.H * share));
   all.L = 0.5 * (L + L.transpose());
   all.xi = weaken.solve(UprightState(share.transpose() * (eq.H * at - eq.g)));

@@ -172,7 +172,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bo
   warnOfOpenLoop();
   warnOfThingsNotFoundAgain();
   if (earlier) continueFrom(*earlier);
-  result_.map.claimContradictions();
+  result_.map.claimDoubts();
 }
 
 void ObjectSlam::continueFrom(const CQuadricObjectMap& map)

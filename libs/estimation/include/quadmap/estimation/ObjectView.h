@@ -39,6 +39,8 @@ struct ObjectView : MeasuredGeometry
   bool hasOwnDepth = true;  //!< False: the depth is more likely another thing's (see measurementOf)
   double yaw = 0;           //!< Of the cuboid's x axis [rad]; the cuboid is turned upright
   std::vector<Edge> edges;  //!< The usable box edges
+  /** The faces where the image ends: nobody could see how much farther the object reaches. */
+  std::array<bool, kFaces> isCutByImage = {};
 
   /** Outward normal of face 0..5 (+x, -x, +y, -y, +z, -z) in the map. */
   Eigen::Vector3d faceNormal(std::size_t face) const { return faceNormals()[face]; }

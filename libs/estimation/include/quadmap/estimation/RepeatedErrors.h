@@ -45,6 +45,10 @@ class RepeatedErrors
    * \return A covariance. */
   UprightCovariance contradictions() const;
 
+  /** What the estimate errs by because no image shows where the object ends, (11.27).
+   * \return A covariance. */
+  UprightCovariance openEnds(const LabelProperties& label) const;
+
  private:
   struct Sigmas
   {
@@ -63,10 +67,12 @@ class RepeatedErrors
     double found = 0, claimed = 0;  // of headings: sums of squared own errors
     double weights = 0;             // of all views of a face
     double squaredGaps = 0;         // of the faces that contradict, times their weights [m^2]
+    double cut = 0, ends = 0;       // weights of the faces near by that the image cuts, and others
 
     double excess() const;  // by which headings scatter more than they claim, >= 1
   };
 
+  UprightState moveOfSide(std::size_t face) const;
   void addFaces(
       const ObjectView& view,
       double weight,

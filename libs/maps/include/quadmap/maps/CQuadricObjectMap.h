@@ -156,7 +156,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
     ObjectEstimator estimator;
     ExistenceLooks looks;
     unsigned estimatedFrom = 0;  // number of measurements of the latest estimate
-    UprightCovariance contradicted = UprightCovariance::Zero();  // part of the covariance
+    UprightCovariance doubts = UprightCovariance::Zero();  // part of the covariance
   };
   using Objects = std::map<ObjectId, Entry>;
 
@@ -241,11 +241,11 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   const UprightCovariance& sharedError(ObjectId id) const;
 
   /** Adds to the covariance of each object what it errs by in case those measurements are right
-   * that saw it reach farther than it says (doc/mathematics.md, (11.25)). For the end of a run: the
-   * next estimate of an object leaves it out again, because so wide a covariance would let the
-   * boxes of neighbours join it. Which objects are confirmed stays as it is. A stored map keeps it
-   * as a part of what is known. */
-  void claimContradictions();
+   * that saw it reach farther than it says, and where no image shows its end (doc/mathematics.md,
+   * (11.25) and (11.27)). For the end of a run: the next estimate of an object leaves it out again,
+   * because so wide a covariance would let the boxes of neighbours join it. Which objects are
+   * confirmed stays as it is. A stored map keeps it as a part of what is known. */
+  void claimDoubts();
 
   /** Makes all measurements of an object say this label, in its canonical spelling.
    *  \exception std::out_of_range If there is no such object.

@@ -58,6 +58,11 @@ class ObjectEstimator
   UprightCovariance contradictions(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
+  /** What an estimate errs by because no image shows where the object ends, (11.27). estimate()
+   * leaves it out, and gives the most probable ends. */
+  UprightCovariance openEnds(
+      const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
+
   /** Takes over everything another estimator of the same object knows, but for redundant
    * measurements beyond the limit.
    *  \param here, there The states of this and of the other one; axes are matched between them. */
@@ -73,12 +78,12 @@ class ObjectEstimator
   const UprightCovariance& sharedError() const { return sharedError_; }
 
   /** Everything as one prior, linearised at a state: what a file keeps.
-   * \param contradicted What else the state may err by. */
+   * \param doubts What else the state may err by. */
   InformationPrior summary(
       const UprightState& at,
       const LabelProperties& label,
       const EstimatorOptions& options,
-      const UprightCovariance& contradicted = UprightCovariance::Zero()) const;
+      const UprightCovariance& doubts = UprightCovariance::Zero()) const;
   static ObjectEstimator fromSummary(const InformationPrior& prior);
 
   /** An estimator whose estimate(), started there, returns this state, and this covariance unless
@@ -91,7 +96,7 @@ class ObjectEstimator
   UprightState pullOfSummary(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
-  /** How summary() and contradictions() take the object; estimate() finds out. */
+  /** How summary(), contradictions() and openEnds() take the object; estimate() finds out. */
   void setRound(bool isRound) { isRound_ = isRound; }
 
   const std::deque<ObjectView>& views() const { return views_; }
