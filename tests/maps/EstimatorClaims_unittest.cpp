@@ -183,6 +183,30 @@ TEST(ObjectEstimator, ASizeBeyondAllBoundsIsTheLabelsAndAsUncertain)
   EXPECT_TRUE(estimator.openEnds(result.state, label, {}).isZero(0));
 }
 
+TEST(ObjectEstimator, WhatAFileKnewHoldsItsOpenEnds)
+{
+  const auto label = boxy("suitcase");
+  const auto views = cutViews(kCabinet, 0.9);
+  const auto first = estimatorOf(views, {});
+  const auto result = first.estimate({}, label, {});
+  const UprightCovariance doubts = first.openEnds(result.state, label, {});
+  auto second = ObjectEstimator::fromSummary(first.summary(result.state, label, {}, doubts));
+  const Eigen::Vector3d n = normalOfFirst(result.state);
+  const auto sigmaOf = [&](const ObjectEstimator& e)
+  {
+    const auto again = e.estimate(result.state, label, {});
+    EXPECT_TRUE(e.openEnds(again.state, label, {}).isZero(0));
+    return std::sqrt(n.dot(again.covariance.topLeftCorner<3, 3>() * n));
+  };
+  const double claimed = std::sqrt(n.dot(doubts.topLeftCorner<3, 3>() * n));
+  EXPECT_GT(sigmaOf(second), 0.5 * claimed) << "the label alone knows something of the size";
+  auto whole = views.front();
+  whole.faces[0].kind = FaceKind::Measured;
+  whole.isCutByImage[0] = false;
+  second.add(whole, {});
+  EXPECT_LT(sigmaOf(second), 0.1 * claimed);
+}
+
 TEST(ObjectEstimator, OneViewOfAnEndIsEnough)
 {
   const auto label = boxy("suitcase");

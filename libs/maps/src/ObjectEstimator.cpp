@@ -228,6 +228,7 @@ UprightCovariance ObjectEstimator::contradictions(
 UprightCovariance ObjectEstimator::openEnds(
     const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
 {
+  if (!prior_.empty()) return UprightCovariance::Zero();  // a file may know ends that no view shows
   return evidenceAt(at, label, options).repeated(at).openEnds(label);
 }
 

@@ -59,7 +59,8 @@ class ObjectEstimator
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
   /** What an estimate errs by because no image shows where the object ends, (11.27). estimate()
-   * leaves it out, and gives the most probable ends. */
+   * leaves it out, and gives the most probable ends. Nothing when a file knew the object: what that
+   * claims holds it already. */
   UprightCovariance openEnds(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
