@@ -2,6 +2,7 @@
 #include <zlib.h>
 
 #include <filesystem>
+#include <random>
 
 #include "RawlogProblems.h"
 #include "quadmap/sensors/RawlogWriter.h"
@@ -181,8 +182,13 @@ TEST(RawlogErrors, WaitingImagesTakeLimitedMemory)
   const std::string path = folder.path("x.rawlog");
   constexpr std::size_t kScans = 15;
   const auto scan = sampleScan(kStart);
-  scan->rangeImageOtherLayers["second"].resize(4096, 4000);  // 33 MB, and 12 of them 400 MB
-  scan->rangeImageOtherLayers["second"].fill(0);
+  auto& layer = scan->rangeImageOtherLayers["second"];
+  layer.resize(4096, 4000);  // 33 MB, and 12 of them 400 MB
+  layer.fill(0);
+  // A file of so much must not be too small for it.
+  std::mt19937 random(1);
+  for (int i = 0; i < layer.rows(); i += 16)
+    for (int j = 0; j < layer.cols(); ++j) layer(i, j) = static_cast<std::uint16_t>(random());
   {
     mrpt::io::CFileGZOutputStream file(path, mrpt::io::OpenMode::TRUNCATE, 1);
     auto archive = mrpt::serialization::archiveFrom(file);
