@@ -24,6 +24,22 @@ TEST(ReadJson, NamesTheFileAndThePlaceOfWhatIsWrong)
       errorOf([&] { readJson("/nowhere/x.json"); }).find("cannot be read"), std::string::npos);
 }
 
+TEST(ReadJson, RefusesKeysThatStandTwice)
+{
+  const TemporaryFolder folder;
+  const auto errorIn = [&](const std::string& text)
+  {
+    const auto path = folder.write("a.json", text);
+    return errorOf([&] { readJson(path); });
+  };
+  for (const char* text :
+       {R"({"a": [{"id": 1}, {"id": 2}], "b": {"a": 1}, "c": {}})", R"([{"a": {"a": {"a": 1}}}])"})
+    EXPECT_EQ(errorIn(text), "") << text;
+  for (const char* text :
+       {R"({"id": 1, "b": {"id": 2}, "id": 3})", R"([{"a": 1}, {"id": [], "id": []}])"})
+    EXPECT_EQ(errorIn(text), folder.path("a.json") + ": the key 'id' stands twice in an object");
+}
+
 TEST(ReadJson, RefusesTreesThatTakeMoreMemoryThanTheirText)
 {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 #include "quadmap/base/OutputFile.h"
 
 #include <gtest/gtest.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
@@ -230,6 +231,21 @@ TEST(OutputFile, DevicesAreWrittenDirectlyAndStayDevices)
 {
   writeTextFile("/dev/null", "gone");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(OutputFile, APipeNeedsAReader)
+{
+  const TemporaryFolder folder;
+  const auto pipe = folder.path("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(errorOf([&] { writeTextFile(pipe, "text"); }), pipe + ": nobody reads this pipe");
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  writeTextFile(pipe, "text");
+  char bytes[8];
+  EXPECT_EQ(::read(reader, bytes, sizeof bytes), 4);
+  EXPECT_EQ(::read(reader, bytes, sizeof bytes), 0) << "the reader would wait for more";
+  ::close(reader);
 }
 
 TEST(WriteTextFile, WritesTheBytesGiven)

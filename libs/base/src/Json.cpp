@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "quadmap/base/InputFile.h"
@@ -35,10 +37,16 @@ class TreeLimit : public nlohmann::json_sax<Json>
 
   bool key(string_t& text) override
   {
+    constexpr std::size_t kShownText = 60;
     constexpr std::size_t kMostComparisons = 200'000'000;  // 20,000 short keys of one object
-    comparisons_ += keys_.back()++ * (1 + text.size() / 64);
+    auto& keys = keys_.back();
+    comparisons_ += keys.size() * (1 + text.size() / 64);
     if (comparisons_ > kMostComparisons)
       throw std::runtime_error("has too many keys in its objects");
+    // The parser would take the last value and lose the others.
+    if (!keys.insert(text).second)
+      throw std::runtime_error(
+          "the key '" + text.substr(0, kShownText) + "' stands twice in an object");
     return true;
   }
 
@@ -60,7 +68,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
   {
     constexpr std::size_t kDeepest = 64;
     if (keys_.size() >= kDeepest) throw std::runtime_error("is nested too deeply");
-    keys_.push_back(0);
+    keys_.emplace_back();
     return countValue();
   }
 
@@ -71,7 +79,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
   }
 
   std::size_t values_ = 0, comparisons_ = 0;
-  std::vector<std::size_t> keys_;  // of each open object or array, so far
+  std::vector<std::unordered_set<std::string>> keys_;  // of each open object or array, so far
 };
 }  // namespace
 

@@ -135,6 +135,15 @@ int flushToDisk(const std::string& path)
   return error;
 }
 
+/** Opening a pipe that nobody reads would wait without end. \return Its descriptor: while that is
+ * open, the reader does not take the pipe to be at its end. */
+int openPipe(const std::string& path)
+{
+  const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0 && errno == ENXIO) throw std::runtime_error(path + ": nobody reads this pipe");
+  if (file < 0) failToWrite(path, errno);
+  return file;
+}
 }  // namespace
 
 OutputFile::OutputFile(std::string finalPath)
@@ -146,7 +155,11 @@ OutputFile::OutputFile(std::string finalPath)
   target_ = target.string();
   finalPath_ = pathAfterCommit(target_);
   temporaryPath_ = target_;
-  if (isDevice(target)) return;
+  if (isDevice(target))
+  {
+    if (fs::is_fifo(target, ignored)) lock_ = openPipe(finalPath);
+    return;
+  }
   permissions_ = permissionsOf(target);
   const auto pause = Temporary::pause();
   removeLeftOver(target);
