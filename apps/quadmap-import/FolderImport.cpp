@@ -61,6 +61,19 @@ catch (const std::exception& e)
   drop(report, options, rootMessage(e));
   return std::nullopt;
 }
+/** Whether the two frames that follow agree with all before, but not with this one: its time is
+ * wrong, and not that of all others. */
+bool isAheadOfNext(
+    const std::vector<FolderFrame>& frames,
+    std::size_t i,
+    std::size_t every,
+    const std::optional<double>& lastTime)
+{
+  const std::size_t next = i + every, afterNext = next + every;
+  if (afterNext >= frames.size()) return false;
+  const double a = frames[next].time, b = frames[afterNext].time;
+  return a < b && b <= frames[i].time && (!lastTime || a > *lastTime);
+}
 }  // namespace
 
 FolderImportReport importFolder(
@@ -77,6 +90,15 @@ FolderImportReport importFolder(
   for (std::size_t i = 0; i < frames.size(); i += options.every)
   {
     progress(static_cast<double>(i) / static_cast<double>(frames.size()));
+    if (isAheadOfNext(frames, i, options.every, lastTime))
+    {
+      drop(
+          report, options,
+          mrpt::format(
+              "%s: time %.6f s is after those of the frames behind it", frames[i].listed.c_str(),
+              frames[i].time));
+      continue;
+    }
     if (lastTime && frames[i].time <= *lastTime)
     {
       drop(

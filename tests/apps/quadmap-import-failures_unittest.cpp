@@ -75,6 +75,28 @@ TEST_F(QuadmapImport, KeepsGoingAndSaysWhatItDropped)
   EXPECT_EQ(frames[1].objects->objects.size(), 1u);
 }
 
+TEST_F(QuadmapImport, OneWrongTimeLosesOneFrame)
+{
+  for (const int wrong : {0, 2})
+  {
+    std::string list;
+    for (int i = 0; i < SampleRecording::kFrames; ++i)
+      list += SampleRecording::line(
+          i, i == wrong ? 1e9 : SampleRecording::kStart + SampleRecording::kInterval * i);
+    recording_.files.write("associations.txt", list);
+    const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(
+        result.err.find(mrpt::format(
+            "associations.txt:%d: time 1000000000.000000 s is after those of the frames behind it",
+            wrong + 1)),
+        kNotFound)
+        << result.err;
+    EXPECT_EQ(readAll(out_.path("x.rawlog")).size(), std::size_t{SampleRecording::kFrames - 1});
+    std::filesystem::remove(out_.path("x.rawlog"));
+  }
+}
+
 TEST_F(QuadmapImport, KeepGoingWithoutAnyFrameIsAFailure)
 {
   std::filesystem::remove_all(recording_.files.path("rgb"));

@@ -196,6 +196,9 @@ TEST_F(ScanNetFolder, RefusesWhatItCannotUse)
   expect(
       "intrinsic/intrinsic_depth.txt", "0 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
       ": the focal length");
+  for (const char* matrix :
+       {"5 1 3 0\n0 5 2 0\n0 0 1 0\n0 0 0 1\n", "5 0 3 7\n0 5 2 0\n0 0 2 0\n0 0 0 1\n"})
+    expect("intrinsic/intrinsic_depth.txt", matrix, ": is no camera matrix");
   expect("intrinsic/extrinsic_color.txt", "3 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", ": is no rigid");
   std::filesystem::remove_all(files_.path("depth"));
   EXPECT_NE(

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <sstream>
 
 #include "../../obs/TestData.h"
 #include "../SampleRecording.h"
@@ -311,6 +312,9 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
       "associations.txt:2: expected 4 columns, got 3");
   expect("associations.txt", "one rgb/f0.png 1.0 d\n", "associations.txt:1: 'one' is not a number");
   expect("associations.txt", "1 rgb/f0.png nan d\n", "associations.txt:1: the time nan must be");
+  expect(
+      "associations.txt", "100 rgb/f0.png 0.1 depth/f0.png\n",
+      "associations.txt:1: the times of the two images are 99.9 s apart");
   EXPECT_EQ(errorOf([] { openFrameFolder("tum", "/no/such"); }), "/no/such: no such folder");
   const SampleRecording recording;
   FrameFolderOptions options;
@@ -318,6 +322,23 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
   expectInOneLine(
       errorOf([&] { openFrameFolder("tum", recording.folder(), options); }),
       "/no/such: no such folder");
+}
+
+TEST(TumFolder, ReadsTextsOfOtherSystems)
+{
+  const SampleRecording recording;
+  const auto& files = recording.files;
+  std::istringstream unixLines(readFile(files.path("calibration.yaml")));
+  std::string lines;
+  for (std::string line; std::getline(unixLines, line);) lines += line + "\r\n";
+  files.write("calibration.yaml", lines);
+  files.write("associations.txt", "\xef\xbb\xbf" + SampleRecording::line(0, 100.0));
+  const auto dataset = openFrameFolder("tum", recording.folder());
+  EXPECT_TRUE(dataset.scan(0));
+  std::string wide = SampleRecording::line(0, 100.0);
+  for (std::size_t i = wide.size(); i > 0; --i) wide.insert(i, 1, '\0');
+  files.write("associations.txt", wide);
+  expectInOneLine(errorOfOpening(recording), "associations.txt:1: is no text (UTF-16?)");
 }
 
 TEST(TumFolder, TellsWhyItsPosesCannotBeUsed)
@@ -365,6 +386,21 @@ TEST(TumFolder, RejectsBadImages)
       [](const R& r)
       { cv::imwrite(r.files.path("depth/f1.png"), cv::Mat(48, 64, CV_8UC1, cv::Scalar(9))); },
       "depth/f1.png: is no depth image (one channel of 16 bits)");
+  expect(
+      [](const R& r)
+      {
+        std::filesystem::copy_file(
+            r.files.path("depth/f1.png"), r.files.path("rgb/f1.png"),
+            std::filesystem::copy_options::overwrite_existing);
+      },
+      "rgb/f1.png: is no colour image (8 bits a channel)");
+  expect(
+      [](const R& r)
+      {
+        std::filesystem::remove(r.files.path("rgb/f1.png"));
+        std::filesystem::create_directory(r.files.path("rgb/f1.png"));
+      },
+      "rgb/f1.png: is no file");
 }
 
 TEST(TumFolder, RejectsMalformedDetections)
@@ -379,6 +415,14 @@ TEST(TumFolder, RejectsMalformedDetections)
   expect("56 chair 0.8 1 2 3\n", "detections/f1.txt:1: expected 7 columns, got 6");
   expect("56 chair 0.8 1 2 3 x4\n", "detections/f1.txt:1: 'x4' is not a number");
   expect("\n56 chair 0,8 1 2 3 4\n", "detections/f1.txt:2: '0,8' is not a number");
+  expect("5.5 chair 0.8 1 2 3 4\n", "detections/f1.txt:1: the number of a class is '5.5'");
+  expect(
+      "56 " + std::string(70000, 'z') + " 0.8 1 2 3 4\n",
+      "detections/f1.txt:1: the name of a class has 70000 bytes, at most 200");
+  expect("56 ch\x1b[31mair 0.8 1 2 3 4\n", "detections/f1.txt:1: the name of a class has control");
+  expect(
+      "56 cup 0.8 1 2 3 4\n56 chair 0.8 -1e300 0 1e300 4\n",
+      "detections/f1.txt:2: the box lies far outside the image");
 }
 
 TEST(TumFolder, ReadsTheRealRecordings)

@@ -66,6 +66,28 @@ ImageBox boundsOfOutline(const TextLine& line)
   return bounds;
 }
 
+/** Detectors draw boxes beyond the image, but not by ten times its size. A number that is none is
+ * told of with all that is wrong with a box. */
+bool isNearImage(const ImageBox& box, const mrpt::img::TCamera& camera)
+{
+  constexpr double kFarthest = 10;
+  const double far = kFarthest * std::max(camera.ncols, camera.nrows);
+  const auto isFar = [&](double x) { return std::abs(x) > far; };
+  return !isFar(box.x1) && !isFar(box.y1) && !isFar(box.x2) && !isFar(box.y2);
+}
+
+void requireName(const std::string& name, const std::string& place)
+{
+  constexpr std::size_t kLongest = 200;  // [bytes]
+  const auto isControl = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+  if (name.size() > kLongest)
+    throw std::runtime_error(mrpt::format(
+        "%s: the name of a class has %zu bytes, at most %zu can be used", place.c_str(),
+        name.size(), kLongest));
+  if (std::any_of(name.begin(), name.end(), isControl))
+    throw std::runtime_error(place + ": the name of a class has control characters");
+}
+
 /** Text files beside each other, one per image. */
 class BoxLines : public BoxReader
 {
@@ -78,7 +100,12 @@ class BoxLines : public BoxReader
     const std::string file = fileOf(frame);
     if (!fs::exists(file)) return std::nullopt;
     std::vector<DetectedObject> objects;
-    for (const auto& line : readTextLines(file)) objects.push_back(boxIn(line, camera));
+    for (const auto& line : readTextLines(file))
+    {
+      objects.push_back(boxIn(line, camera));
+      if (const auto& box = objects.back().box; !isNearImage(box, camera))
+        throw std::runtime_error(line.place + ": the box lies far outside the image");
+    }
     requireFewBoxes(objects.size(), file);
     return objects;
   }
@@ -115,11 +142,15 @@ class NamedBoxes : public BoxLines
   {
     constexpr std::size_t kColumns = 7, kBehindName = 5;
     if (line.words.size() < kColumns) requireColumns(line, kColumns);
-    numberIn(line, 0);
+    const double id = numberIn(line, 0);
+    if (!(id >= 0 && id == std::floor(id)))
+      throw std::runtime_error(
+          line.place + ": the number of a class is '" + line.words[0] + "', not a whole one");
     const std::size_t end = line.words.size() - kBehindName;
     DetectedObject object;
     object.label = line.words[1];
     for (std::size_t i = 2; i < end; ++i) object.label += " " + line.words[i];
+    requireName(object.label, line.place);
     if (end == 2 && isNumber(line, 1))
       throw std::runtime_error(
           line.place + ": the name of a class is '" + object.label +

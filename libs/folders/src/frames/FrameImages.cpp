@@ -23,7 +23,8 @@ auto readNamed(const std::string& path, const Read& read)
 {
   std::error_code ignored;  // of names that are too long
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw std::runtime_error(path + ": no such file");
+    throw std::runtime_error(
+        path + (std::filesystem::exists(path, ignored) ? ": is no file" : ": no such file"));
   try
   {
     return read();
@@ -46,6 +47,14 @@ void requireSize(
 cv::Mat loadImage(const std::string& path, int flags)
 {
   return readNamed(path, [&] { return decodeImageFile(path, flags, RecordLimits().imagePixels); });
+}
+
+cv::Mat loadColor(const std::string& path)
+{
+  const cv::Mat image = loadImage(path, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH);
+  if (image.type() != CV_8UC3)
+    throw std::runtime_error(path + ": is no colour image (8 bits a channel)");
+  return image;
 }
 
 cv::Mat registered(cv::Mat depth, const std::string& file, const FolderCamera& camera)
@@ -104,7 +113,7 @@ FrameImages loadImages(const FolderFrame& frame, const FolderContent& content)
   if (content.images)
     images = content.images->read(frame);
   else
-    images.color = loadImage(frame.color, cv::IMREAD_COLOR);
+    images.color = loadColor(frame.color);
   requireSize(images.color.size(), frame.color, camera.color, camera.origin);
   images.depth =
       content.images ? registered(images.depth, frame.depth, camera) : loadDepth(frame, camera);

@@ -40,6 +40,8 @@ mrpt::img::TCamera cameraOf(const Eigen::Matrix4d& K, cv::Size size, const std::
 {
   if (!K.allFinite() || !(K(0, 0) > 0) || K(1, 1) == 0)
     throw std::runtime_error(place + ": the focal length fx must be > 0, fy not 0");
+  if (K(0, 1) != 0 || K(1, 0) != 0 || K.row(2) != Eigen::RowVector4d(0, 0, 1, 0))
+    throw std::runtime_error(place + ": is no camera matrix");
   mrpt::img::TCamera camera;
   camera.setIntrinsicParamsFromValues(K(0, 0), K(1, 1), K(0, 2), K(1, 2));
   camera.ncols = static_cast<unsigned>(size.width);

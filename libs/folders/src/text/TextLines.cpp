@@ -5,6 +5,7 @@
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "quadmap/base/InputFile.h"
 
@@ -14,6 +15,8 @@ namespace
 {
 /** In memory a line takes many times its length. */
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 24;
+/** Some editors put it before UTF-8. */
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 }  // namespace
 
 std::vector<TextLine> readTextLines(const std::string& path)
@@ -23,7 +26,10 @@ std::vector<TextLine> readTextLines(const std::string& path)
   std::size_t number = 0;
   for (std::string text; std::getline(file, text);)
   {
-    ++number;
+    if (++number == 1 && text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
+      text.erase(0, kByteOrderMark.size());
+    if (text.find('\0') != std::string::npos)
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": is no text (UTF-16?)");
     std::istringstream words(text.substr(0, text.find('#')));
     TextLine line{path + ":" + std::to_string(number), {}};
     for (std::string word; words >> word;) line.words.push_back(word);

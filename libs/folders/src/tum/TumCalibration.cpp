@@ -37,6 +37,7 @@ class FlatYaml
     for (std::string line; std::getline(file, line);)
     {
       ++number;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
       line = withoutComment(line);
       const std::string text = trim(line);
       if (text.empty() || line[0] == '%' || text == "---" || text == "...") continue;

@@ -20,6 +20,9 @@ constexpr double kTumDepthFactor = 5000;
 /** Most depth images that may be near one colour image: those of a camera at 2.5 kHz. */
 constexpr std::ptrdiff_t kMostCandidates = 100;
 
+/** Images that someone has paired are at most so far apart in time [s]. */
+constexpr double kFarthestPair = 1;
+
 struct ListedImage
 {
   double time;  // [s]
@@ -110,8 +113,11 @@ FolderFrame pairIn(const TextLine& line)
   const auto isDepth = [&](std::size_t column)
   { return line.words[column].find("depth") != std::string::npos; };
   const std::size_t depth = isDepth(1) && !isDepth(3) ? 0 : 2, color = 2 - depth;
-  timeIn(line, color);
-  return {timeIn(line, depth), fileIn(line, color + 1), fileIn(line, depth + 1), line.place, {}};
+  const double time = timeIn(line, depth), apart = std::abs(timeIn(line, color) - time);
+  if (apart > kFarthestPair)
+    throw std::runtime_error(
+        mrpt::format("%s: the times of the two images are %g s apart", line.place.c_str(), apart));
+  return {time, fileIn(line, color + 1), fileIn(line, depth + 1), line.place, {}};
 }
 }  // namespace
 
