@@ -28,19 +28,25 @@ namespace
 using namespace quadmap;
 namespace fs = std::filesystem;
 
-std::vector<std::string> itemsOf(const std::string& list)
+/** The items of a list; none of an empty one. */
+std::vector<std::string> itemsOf(const std::string& option, const std::string& list)
 {
   std::vector<std::string> items;
-  std::istringstream text(list);
+  std::istringstream text(list + (list.empty() ? "" : ","));
   for (std::string item; std::getline(text, item, ',');)
-    if (!item.empty()) items.push_back(item);
+  {
+    if (item.empty()) throw cli::UsageError(option + ": \"" + list + "\" has an empty item");
+    if (std::find(items.begin(), items.end(), item) != items.end())
+      throw cli::UsageError(option + ": \"" + item + "\" stands there twice");
+    items.push_back(item);
+  }
   return items;
 }
 
 std::vector<std::uint64_t> wholeNumbersOf(const std::string& option, const std::string& list)
 {
   std::vector<std::uint64_t> seeds;
-  for (const auto& item : itemsOf(list))
+  for (const auto& item : itemsOf(option, list))
   {
     if (item.size() > 18 || item.find_first_not_of("0123456789") != std::string::npos)
       throw cli::UsageError(option + ": \"" + item + "\" is not a whole number");
@@ -64,7 +70,7 @@ unsigned roomsOf(const std::string& count)
 std::vector<std::string> knownMethods(const std::string& list)
 {
   std::vector<std::string> known;
-  for (const auto& method : itemsOf(list)) try
+  for (const auto& method : itemsOf("--methods", list)) try
     {
       slamMethodFrom(method);
       known.push_back(method);
@@ -108,9 +114,9 @@ void jobsCommand(int argc, char** argv)
       line.args()};
   if (!line.parse(argc, argv)) return;
   BenchmarkPlan plan{
-      itemsOf(scenes->getValue()),
-      itemsOf(observed->getValue()),
-      itemsOf(recordings->getValue()),
+      itemsOf("--scenes", scenes->getValue()),
+      itemsOf("--observed", observed->getValue()),
+      itemsOf("--recordings", recordings->getValue()),
       wholeNumbersOf("--seeds", seeds->getValue()),
       knownMethods(methods->getValue()),
       scenes->isSet() && !rooms.isSet() ? 0 : roomsOf(rooms.getValue())};

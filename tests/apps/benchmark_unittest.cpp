@@ -391,6 +391,9 @@ TEST_F(BenchmarkScripts, AnswerWrongUsageWithStatus2)
   EXPECT_EQ(run("--sceens home").status, 2);
   EXPECT_EQ(run("--scenes").status, 2);
   EXPECT_EQ(runProgram("quadmap-benchmark", "jobs --seeds one").status, 2);
+  EXPECT_EQ(runProgram("quadmap-benchmark", "jobs --seeds 1,,2").status, 2);
+  EXPECT_EQ(runProgram("quadmap-benchmark", "jobs --scenes home,office,home").status, 2);
+  EXPECT_EQ(runProgram("quadmap-benchmark", "jobs --methods rgbd,").status, 2);
   EXPECT_EQ(runProgram("quadmap-benchmark", "merge").status, 2);
   EXPECT_EQ(runProgram("quadmap-benchmark", "").status, 2);
   const auto nothing = runProgram("quadmap-benchmark", "merge /nonexistent");
