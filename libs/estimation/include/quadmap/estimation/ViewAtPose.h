@@ -27,8 +27,9 @@ enum class RowDerivatives
 struct RowKernels
 {
   double threshold;  //!< [sigmas], > 0
-  /** An edge far from the object pulls at it the less the farther it is. Else it pulls as any other
-   * row: a search that starts far from the edges finds them so. */
+  /** An edge far from the object pulls at it the less the farther it is, doc/mathematics.md,
+   * (11.28). Else it pulls as any other row: a search that starts far from the edges finds them so,
+   * and a graph whose poses have drifted. */
   bool edgesFade = true;
 
   RobustKernel ofEdges() const
