@@ -99,9 +99,7 @@ TEST(ViewFactor, AgreesWithTheObjectMapAtFixedPoses)
           poseBlock(sample.T_map_robot),
           objectBlock(guess(ObjectFreedom::Upright), ObjectFreedom::Upright)};
       NormalEquations eq;
-      const BoxMeasurement placed = measurementInMap(sample.inMap, options);
-      const ViewAtPose inMap(placed, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
-      addViewResiduals(inMap, ObjectShape(x), 1.3, {options.huber, false}, 0.6, eq);
+      addViewResiduals(sample.inMap, x, 1.3, options, 0.6, eq);
 
       const Eigen::VectorXd r = residualsOf(*factor, blocks);
       EXPECT_NEAR(0.5 * r.squaredNorm(), eq.cost, 1e-9 * (1 + eq.cost));

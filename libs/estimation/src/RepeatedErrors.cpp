@@ -90,13 +90,13 @@ void RepeatedErrors::add(
   const double common = std::hypot(view.pose.position, range * view.pose.angle);
   const auto place = placeOf(view.camera, object_.t);
   const double weight = measurement.weight;
-  const RowKernels kernels{options_.huber};
+  const auto huber = RobustKernel::huber(options_.huber);
   if (view.complete) addFaces(view, weight, common, place, placed);
   if (view.complete && view.yawDefined)
   {
     const ResidualRow row = placed.yaw(object_);
     const Sigmas sigmas{view.yawSigma, view.pose.angle};
-    addRow(row, sigmas, RobustKernel::huber(kernels.threshold), weight, place, sides_[kYaw]);
+    addRow(row, sigmas, huber, weight, place, sides_[kYaw]);
     sides_[kYaw].found += weight * (row.r * row.r - sigmas.common * sigmas.common);
     sides_[kYaw].claimed += weight * sigmas.own2();
   }
@@ -104,8 +104,7 @@ void RepeatedErrors::add(
   {
     Side& side = sides_[sideOf(edge)];
     const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
-    const Sigmas sigmas{edge.sigma, std::hypot(common, edge.shared)};
-    addRow(row, sigmas, kernels.ofEdges(), weight, place, side);
+    addRow(row, {edge.sigma, std::hypot(common, edge.shared)}, huber, weight, place, side);
   }
 }
 

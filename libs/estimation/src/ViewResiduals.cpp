@@ -9,12 +9,12 @@ void addViewResiduals(
     const ViewAtPose& view,
     const ObjectShape& object,
     double q,
-    const RowKernels& kernels,
+    double huber,
     double weight,
     NormalEquations& eq)
 {
   view.forEachRow(
-      object, q, kernels,
+      object, q, huber,
       [&](const ResidualRow& row, double sigma, const RobustKernel& kernel)
       { eq.add(row.r / sigma, row.byUprightState() / sigma, kernel, weight); });
 }
@@ -30,7 +30,7 @@ void addViewResiduals(
   const BoxMeasurement measurement = measurementInMap(view, options);
   const ViewAtPose inMap(
       measurement, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
-  addViewResiduals(inMap, ObjectShape(x), shapeExponent, {options.huber}, weight, eq);
+  addViewResiduals(inMap, ObjectShape(x), shapeExponent, options.huber, weight, eq);
 }
 
 namespace

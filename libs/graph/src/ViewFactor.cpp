@@ -43,10 +43,8 @@ class ViewFactor : public ceres::CostFunction
       if (jacobians[0]) derivatives = RowDerivatives::OfObjectAndPose;
     }
     const ViewAtPose view(measurement_, robotPoseOf(blocks[0]), freedom_, derivatives);
-    // An edge that is far off may be seen from a pose that has drifted, and pulls it back.
-    constexpr bool kEdgesFade = false;
     view.forEachRow(
-        shapeOf(blocks[1], freedom_), shapeExponent_, {huber_, kEdgesFade},
+        shapeOf(blocks[1], freedom_), shapeExponent_, huber_,
         [&](const ResidualRow& row, double sigma, const RobustKernel& kernel)
         { out.add(row, sigma, kernel.row(row.r / sigma, measurement_.weight)); });
     return true;

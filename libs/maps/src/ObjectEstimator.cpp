@@ -78,28 +78,19 @@ ObjectEstimator::Estimate minimum(
     const LabelProperties& label,
     const EstimatorOptions& options)
 {
-  bool edgesFade = true;
   const auto linearise = [&](const UprightState& x)
   {
-    NormalEquations eq = evidence.at(x, edgesFade);
+    NormalEquations eq = evidence.at(x);
     addLabelPrior(x, label, options, eq);
     return eq;
   };
-  // At first edges pull from afar, or a search would not find them. Then wrong ones let go.
-  const auto search = [&](UprightState& x)
-  {
-    edgesFade = false;
-    minimise(linearise, x, options.maxIterations);
-    edgesFade = true;
-    return minimise(linearise, x, options.maxIterations);
-  };
   UprightState x = start;
-  NormalEquations best = search(x);
+  NormalEquations best = minimise(linearise, x, options.maxIterations);
   if (otherStart)
   {
     UprightState other = *otherStart;
     other[3] = nearestEquivalentYaw(other[3], x[3], 2 * M_PI);
-    const NormalEquations there = search(other);
+    const NormalEquations there = minimise(linearise, other, options.maxIterations);
     if (there.cost < best.cost)
     {
       best = there;

@@ -39,14 +39,13 @@ ObjectEvidence::ObjectEvidence(
         measurement, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
 }
 
-NormalEquations ObjectEvidence::at(const UprightState& x, bool edgesFade) const
+NormalEquations ObjectEvidence::at(const UprightState& x) const
 {
   NormalEquations eq;
   const ObjectShape object(x);
   for (std::size_t i = 0; i < placed_.size(); ++i)
     addViewResiduals(
-        placed_[i], object, shapeExponent_, {options_.huber, edgesFade}, measurements_[i].weight,
-        eq);
+        placed_[i], object, shapeExponent_, options_.huber, measurements_[i].weight, eq);
   if (!prior_.empty()) addPrior(prior_, x, eq);
   return eq;
 }
@@ -55,7 +54,7 @@ double ObjectEvidence::costOfEqualViews(const UprightState& x) const
 {
   NormalEquations eq;
   for (const ViewAtPose& view : placed_)
-    addViewResiduals(view, ObjectShape(x), shapeExponent_, {options_.huber}, 1.0, eq);
+    addViewResiduals(view, ObjectShape(x), shapeExponent_, options_.huber, 1.0, eq);
   if (!prior_.empty()) addPrior(prior_, x, eq);
   return eq.cost;
 }

@@ -28,8 +28,7 @@ class ObjectEvidence
       const EstimatorOptions& options,
       std::optional<double> shapeExponent);
 
-  /** \param edgesFade See RowKernels. */
-  NormalEquations at(const UprightState& x, bool edgesFade = true) const;
+  NormalEquations at(const UprightState& x) const;
   /** Of all views with the same weight: how well a shape explains them must not depend on which of
    * them it has made little of. */
   double costOfEqualViews(const UprightState& x) const;

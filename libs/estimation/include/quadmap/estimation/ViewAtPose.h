@@ -23,21 +23,6 @@ enum class RowDerivatives
   OfObjectAndPose
 };
 
-/** The robust kernels of a measurement's rows. */
-struct RowKernels
-{
-  double threshold;  //!< [sigmas], > 0
-  /** An edge far from the object pulls at it the less the farther it is, doc/mathematics.md,
-   * (11.28). Else it pulls as any other row: a search that starts far from the edges finds them so,
-   * and a graph whose poses have drifted. */
-  bool edgesFade = true;
-
-  RobustKernel ofEdges() const
-  {
-    return edgesFade ? RobustKernel::cauchy(threshold) : RobustKernel::huber(threshold);
-  }
-};
-
 /** A measurement as it is seen from one pose of the robot: the rows of the sum (11.1) of
  * doc/mathematics.md, of the map and of the factor graph alike. All rows have their exact
  * derivatives. */
@@ -55,20 +40,20 @@ class ViewAtPose
   static std::size_t rowCount(const BoxMeasurement& measurement, ObjectFreedom freedom);
 
   /** Calls add(row, sigma, kernel) for each row: faces, heading or angles, edges, seed.
-   * \param object With the same freedom. \param q Of the label, for the box edges. */
+   * \param object With the same freedom. \param q Of the label, for the box edges.
+   * \param huber Threshold of the kernels [sigmas], > 0. */
   template <typename Add>
-  void forEachRow(
-      const ObjectShape& object, double q, const RowKernels& kernels, const Add& add) const
+  void forEachRow(const ObjectShape& object, double q, double huber, const Add& add) const
   {
-    const RobustKernel kernel = RobustKernel::huber(kernels.threshold);
+    const RobustKernel kernel = RobustKernel::huber(huber);
     for (std::size_t f = 0; m_.complete && f < kFaces; ++f)
       if (m_.faces[f].kind != FaceKind::Unknown)
-        add(face(f, object), m_.faces[f].sigma, kernelOf(m_.faces[f].kind, kernels.threshold));
+        add(face(f, object), m_.faces[f].sigma, kernelOf(m_.faces[f].kind, huber));
     if (hasYawRow(m_, freedom_)) add(yaw(object), m_.yawSigma, kernel);
     for (int i = 0; i < tiltRows(m_, freedom_); ++i) add(tilt(i), m_.tiltSigma, kernel);
     for (int i = 0; i < turnRows(m_, freedom_); ++i)
       add(turn(i, object), i < 2 ? m_.tiltSigma : m_.yawSigma, kernel);
-    for (const auto& e : m_.edges) add(edge(e, object, q), e.sigma, kernels.ofEdges());
+    for (const auto& e : m_.edges) add(edge(e, object, q), e.sigma, kernel);
     for (int i = 0; m_.hasSeed && i < 3; ++i) add(seed(i, object), 1.0, kernel);
   }
 
