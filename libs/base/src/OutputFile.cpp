@@ -157,20 +157,20 @@ OutputFile::OutputFile(std::string finalPath)
   temporaryPath_ = target_;
   if (isDevice(target))
   {
-    if (fs::is_fifo(target, ignored)) lock_ = openPipe(finalPath);
+    if (fs::is_fifo(target, ignored)) descriptor_ = openPipe(finalPath);
     return;
   }
   permissions_ = permissionsOf(target);
   const auto pause = Temporary::pause();
   removeLeftOver(target);
-  std::tie(temporaryPath_, lock_) = createTemporary(target, permissions_);
+  std::tie(temporaryPath_, descriptor_) = createTemporary(target, permissions_);
   temporary_.emplace(temporaryPath_);
 }
 
 OutputFile::~OutputFile()
 {
   temporary_.reset();
-  if (lock_ >= 0) ::close(lock_);
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void OutputFile::commit()

@@ -40,7 +40,7 @@ class OutputFile
  private:
   std::string finalPath_, target_, temporaryPath_;
   std::optional<mode_t> permissions_;  //!< Of the file that is replaced, if there is one
-  int lock_ = -1;  //!< Descriptor of the locked temporary file, or of a pipe, if there is one
+  int descriptor_ = -1;  //!< Descriptor of the locked temporary file, or of a pipe, if there is one
   std::optional<Temporary> temporary_;  //!< Empty for a device, and after commit()
 };
 
