@@ -180,6 +180,10 @@ TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
   expect("0 0.5 0.5 0.5 0.5x\n", "1: '0.5x' is not a number");
   expect("0 0.1 0.1 0.2 0.1 0.2 0.2 0.1 1.2\n", "1: expected 5 columns, got 9");
   expectIn(errorOfReading("a.png", "", files_.path("no.names")), "no.names: cannot be read");
+  files_.write("my.names", "cup\n" + std::string(201, 'x') + "\n");
+  expectIn(
+      errorOfReading("a.png", "", files_.path("my.names")),
+      "my.names:2: the name of a class has 201 bytes, at most 200");
 }
 
 TEST_F(BoxFiles, CocoDataSetsHaveTheirOwnNames)

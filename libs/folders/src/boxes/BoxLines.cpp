@@ -76,18 +76,6 @@ bool isNearImage(const ImageBox& box, const mrpt::img::TCamera& camera)
   return !isFar(box.x1) && !isFar(box.y1) && !isFar(box.x2) && !isFar(box.y2);
 }
 
-void requireName(const std::string& name, const std::string& place)
-{
-  constexpr std::size_t kLongest = 200;  // [bytes]
-  const auto isControl = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-  if (name.size() > kLongest)
-    throw std::runtime_error(mrpt::format(
-        "%s: the name of a class has %zu bytes, at most %zu can be used", place.c_str(),
-        name.size(), kLongest));
-  if (std::any_of(name.begin(), name.end(), isControl))
-    throw std::runtime_error(place + ": the name of a class has control characters");
-}
-
 /** Text files beside each other, one per image. */
 class BoxLines : public BoxReader
 {
@@ -150,7 +138,7 @@ class NamedBoxes : public BoxLines
     DetectedObject object;
     object.label = line.words[1];
     for (std::size_t i = 2; i < end; ++i) object.label += " " + line.words[i];
-    requireName(object.label, line.place);
+    requireClassName(object.label, line.place);
     if (end == 2 && isNumber(line, 1))
       throw std::runtime_error(
           line.place + ": the name of a class is '" + object.label +

@@ -184,9 +184,13 @@ class CocoBoxes : public BoxReader
         added.size.emplace(
             valueOf<double>(image, "width", place), valueOf<double>(image, "height", place));
     }
+    const std::string place = file_ + ": a category";
     for (const auto& category : valueOf<Json>(json, "categories", file_))
-      names[wholeNumberOf(category, "id", file_ + ": a category")] =
-          valueOf<std::string>(category, "name", file_ + ": a category");
+    {
+      auto name = valueOf<std::string>(category, "name", place);
+      requireClassName(name, place);
+      names[wholeNumberOf(category, "id", place)] = std::move(name);
+    }
     std::size_t number = 0;
     for (const auto& annotation : valueOf<Json>(json, "annotations", file_))
     {
