@@ -61,18 +61,26 @@ catch (const std::exception& e)
   drop(report, options, rootMessage(e));
   return std::nullopt;
 }
-/** Whether the two frames that follow agree with all before, but not with this one: its time is
- * wrong, and not that of all others. */
-bool isAheadOfNext(
+
+/** Why the time of a frame cannot be used. When the two frames that follow agree with all before,
+ * but not with this one, its time is wrong, and not that of all others.
+ * \param lastTime Of the frame before [s], if there is one. */
+std::optional<std::string> whyOutOfOrder(
     const std::vector<FolderFrame>& frames,
     std::size_t i,
     std::size_t every,
     const std::optional<double>& lastTime)
 {
+  const double time = frames[i].time;
+  const auto because = [&](const char* why)
+  { return mrpt::format("%s: time %.6f s is %s", frames[i].listed.c_str(), time, why); };
+  if (lastTime && time <= *lastTime) return because("not after the frame before");
   const std::size_t next = i + every, afterNext = next + every;
-  if (afterNext >= frames.size()) return false;
+  if (afterNext >= frames.size()) return std::nullopt;
   const double a = frames[next].time, b = frames[afterNext].time;
-  return a < b && b <= frames[i].time && (!lastTime || a > *lastTime);
+  if (a < b && b <= time && (!lastTime || a > *lastTime))
+    return because("after those of the frames behind it");
+  return std::nullopt;
 }
 }  // namespace
 
@@ -90,22 +98,9 @@ FolderImportReport importFolder(
   for (std::size_t i = 0; i < frames.size(); i += options.every)
   {
     progress(static_cast<double>(i) / static_cast<double>(frames.size()));
-    if (isAheadOfNext(frames, i, options.every, lastTime))
+    if (const auto why = whyOutOfOrder(frames, i, options.every, lastTime))
     {
-      drop(
-          report, options,
-          mrpt::format(
-              "%s: time %.6f s is after those of the frames behind it", frames[i].listed.c_str(),
-              frames[i].time));
-      continue;
-    }
-    if (lastTime && frames[i].time <= *lastTime)
-    {
-      drop(
-          report, options,
-          mrpt::format(
-              "%s: time %.6f s is not after the frame before", frames[i].listed.c_str(),
-              frames[i].time));
+      drop(report, options, *why);
       continue;
     }
     const auto loaded = load(folder, i, options, report);
