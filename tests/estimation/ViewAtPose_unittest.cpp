@@ -181,7 +181,7 @@ TEST(ViewAtPose, GivesAsManyRowsAsItSays)
           std::size_t count = 0;
           const State s = stateOf(freedom);
           viewAt(m, s).forEachRow(
-              s.object(), 1.3, 1.5,
+              s.object(), 1.3, {1.5},
               [&](const ResidualRow&, double sigma, const RobustKernel&)
               {
                 EXPECT_GT(sigma, 0);
@@ -189,6 +189,35 @@ TEST(ViewAtPose, GivesAsManyRowsAsItSays)
               });
           EXPECT_EQ(count, ViewAtPose::rowCount(m, freedom));
         }
+}
+
+TEST(ViewAtPose, EdgesThatContradictLetGo)
+{
+  BoxMeasurement m = measurement();
+  m.complete = m.hasSeed = false;
+  ASSERT_FALSE(m.edges.empty());
+  const State s = stateOf(ObjectFreedom::Upright);
+  const auto pullOfFirst = [&](const RowKernels& kernels, double sigma)
+  {
+    m.edges.resize(1);
+    m.edges[0].sigma = sigma;
+    double pull = 0;
+    viewAt(m, s).forEachRow(
+        s.object(), 1.3, kernels,
+        [&](const ResidualRow& row, double, const RobustKernel& kernel)
+        { pull = std::abs(kernel.weight(row.r / sigma) * row.r / sigma); });
+    return pull;
+  };
+  double gap = 0;
+  viewAt(m, s).forEachRow(
+      s.object(), 1.3, {1.5},
+      [&](const ResidualRow& row, double, const RobustKernel&)
+      {
+        if (gap == 0) gap = std::abs(row.r);
+      });
+  ASSERT_GT(gap, 0);
+  EXPECT_LT(pullOfFirst({1.5, true}, gap / 20), 0.25 * pullOfFirst({1.5, true}, gap / 2));
+  EXPECT_DOUBLE_EQ(pullOfFirst({1.5, false}, gap / 20), 1.5);
 }
 
 TEST(ViewAtPose, WithoutThePosesDerivativesTheRestIsTheSame)
@@ -199,11 +228,11 @@ TEST(ViewAtPose, WithoutThePosesDerivativesTheRestIsTheSame)
     const State s = stateOf(freedom);
     std::vector<ResidualRow> all, ofObject;
     viewAt(m, s).forEachRow(
-        s.object(), 1.3, 1.5,
+        s.object(), 1.3, {1.5},
         [&](const ResidualRow& row, double, const RobustKernel&) { all.push_back(row); });
     ViewAtPose(m, s.pose, freedom, RowDerivatives::OfObject)
         .forEachRow(
-            s.object(), 1.3, 1.5,
+            s.object(), 1.3, {1.5},
             [&](const ResidualRow& row, double, const RobustKernel&) { ofObject.push_back(row); });
     ASSERT_EQ(all.size(), ofObject.size());
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -153,6 +153,70 @@ TEST(ObjectEstimator, UnseenSidesAreLowerBounds)
   EXPECT_GT(far, largest - 0.02);
 }
 
+namespace
+{
+/** Views of the cabinet whose top is not measured: the upper edge of the box alone tells of it. */
+std::vector<ObjectView> viewsWithUpperEdges(SyntheticCamera& camera, int count)
+{
+  auto views = viewsAround(camera, kCabinet, count);
+  for (auto& view : views)
+  {
+    view.faces[4].kind = FaceKind::Unknown;
+    const auto lowest = [](const ObjectView::Edge& a, const ObjectView::Edge& b)
+    { return a.plane.n.z() < b.plane.n.z(); };
+    view.edges = {*std::min_element(view.edges.begin(), view.edges.end(), lowest)};
+  }
+  return views;
+}
+
+double heightOf(const ObjectEstimator::Estimate& e) { return 2 * std::exp(e.state[6]); }
+}  // namespace
+
+TEST(ObjectEstimator, BoxesOfAPartDoNotCutAnObject)
+{
+  // In a few images the upper part is hidden, and the box ends there. In the others the image cuts
+  // it, and the label knows better.
+  SyntheticCamera camera(6);
+  auto views = viewsWithUpperEdges(camera, 20);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    if (i >= 3)
+    {
+      views[i].edges.clear();
+      continue;
+    }
+    Plane& plane = views[i].edges[0].plane;
+    const Eigen::Vector3d lower = kCabinet.object.center() - Eigen::Vector3d(0, 0, 0.2);
+    const Eigen::Vector3d along = lower - views[i].camera;
+    plane.n = (plane.n - along * (along.dot(plane.n) / along.squaredNorm())).normalized();
+    plane.d = -plane.n.dot(views[i].camera);
+  }
+  auto label = boxy("suitcase");
+  label.typicalSize = {0.78, 0.43, 0.56};
+  label.sizeSpread = 0.15;
+  auto estimator = estimatorOf(views, {});
+  const auto first = estimator.estimate({}, label, {});
+  EXPECT_LT(heightOf(first), 0.45) << "they pull while the poses may be wrong";
+  EXPECT_TRUE(estimator.setPosesFinal());
+  EXPECT_FALSE(estimator.setPosesFinal()) << "once is enough";
+  const auto last = estimator.estimate(first.state, label, {});
+  EXPECT_NEAR(heightOf(last), 0.56, 0.07);  // some of their pull is left
+
+  estimator.add(views.front(), {});
+  EXPECT_LT(heightOf(estimator.estimate(last.state, label, {})), 0.45) << "all is open again";
+}
+
+TEST(ObjectEstimator, EdgesAreFoundFromAfar)
+{
+  // A state from which they are ten and more sigmas away, as after views that saw less.
+  SyntheticCamera camera(6);
+  const auto views = viewsWithUpperEdges(camera, 20);
+  UprightState start = uprightStateOf(kCabinet.object);
+  start[2] = 0.75;
+  start[6] = std::log(0.75);  // 1.5 m high
+  EXPECT_NEAR(heightOf(estimatorOf(views, {}).estimate(start, boxy("suitcase"), {})), 0.56, 0.06);
+}
+
 TEST(ObjectEstimator, FewLowerBoundsBehindTheObjectDoNotStretchIt)
 {
   // Seen from one side; in every fourth view the wall behind was taken for the object's end.

@@ -84,13 +84,13 @@ TEST(Contradictions, AreClaimedOnceAndOnlyUntilTheNextEstimate)
   map.consolidate();
   const MapObject before = onlyObject(map);
   ASSERT_TRUE(before.confirmed);
-  map.claimDoubts();
+  map.conclude();
   const UprightCovariance more = onlyObject(map).covariance - before.covariance;
   EXPECT_GT(more.trace(), 0);
   EXPECT_GE(more.diagonal().minCoeff(), 0);
   EXPECT_EQ((onlyObject(map).object.center() - before.object.center()).norm(), 0);
   EXPECT_TRUE(onlyObject(map).confirmed);
-  map.claimDoubts();
+  map.conclude();
   EXPECT_LT((onlyObject(map).covariance - before.covariance - more).norm(), 1e-15);
 
   // They take no part in what is confirmed, whoever asks.

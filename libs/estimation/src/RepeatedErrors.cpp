@@ -78,8 +78,14 @@ void shareEdgeErrors(std::vector<BoxMeasurement>& views)
 }
 
 RepeatedErrors::RepeatedErrors(
-    const UprightState& state, double shapeExponent, const EstimatorOptions& options) :
-    object_(state), shapeExponent_(shapeExponent), options_(options)
+    const UprightState& state,
+    double shapeExponent,
+    const EstimatorOptions& options,
+    bool edgesFade) :
+    object_(state),
+    shapeExponent_(shapeExponent),
+    options_(options),
+    kernels_{options.huber, edgesFade}
 {
 }
 
@@ -90,13 +96,12 @@ void RepeatedErrors::add(
   const double common = std::hypot(view.pose.position, range * view.pose.angle);
   const auto place = placeOf(view.camera, object_.t);
   const double weight = measurement.weight;
-  const auto huber = RobustKernel::huber(options_.huber);
   if (view.complete) addFaces(view, weight, common, place, placed);
   if (view.complete && view.yawDefined)
   {
     const ResidualRow row = placed.yaw(object_);
     const Sigmas sigmas{view.yawSigma, view.pose.angle};
-    addRow(row, sigmas, huber, weight, place, sides_[kYaw]);
+    addRow(row, sigmas, RobustKernel::huber(kernels_.threshold), weight, place, sides_[kYaw]);
     sides_[kYaw].found += weight * (row.r * row.r - sigmas.common * sigmas.common);
     sides_[kYaw].claimed += weight * sigmas.own2();
   }
@@ -104,7 +109,8 @@ void RepeatedErrors::add(
   {
     Side& side = sides_[sideOf(edge)];
     const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
-    addRow(row, {edge.sigma, std::hypot(common, edge.shared)}, huber, weight, place, side);
+    const Sigmas sigmas{edge.sigma, std::hypot(common, edge.shared)};
+    addRow(row, sigmas, kernels_.ofEdges(), weight, place, side);
   }
 }
 

@@ -9,12 +9,12 @@ void addViewResiduals(
     const ViewAtPose& view,
     const ObjectShape& object,
     double q,
-    double huber,
+    const RowKernels& kernels,
     double weight,
     NormalEquations& eq)
 {
   view.forEachRow(
-      object, q, huber,
+      object, q, kernels,
       [&](const ResidualRow& row, double sigma, const RobustKernel& kernel)
       { eq.add(row.r / sigma, row.byUprightState() / sigma, kernel, weight); });
 }
@@ -30,7 +30,7 @@ void addViewResiduals(
   const BoxMeasurement measurement = measurementInMap(view, options);
   const ViewAtPose inMap(
       measurement, RobotPose(), ObjectFreedom::Upright, RowDerivatives::OfObject);
-  addViewResiduals(inMap, ObjectShape(x), shapeExponent, options.huber, weight, eq);
+  addViewResiduals(inMap, ObjectShape(x), shapeExponent, {options.huber}, weight, eq);
 }
 
 namespace

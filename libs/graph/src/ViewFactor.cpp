@@ -44,7 +44,7 @@ class ViewFactor : public ceres::CostFunction
     }
     const ViewAtPose view(measurement_, robotPoseOf(blocks[0]), freedom_, derivatives);
     view.forEachRow(
-        shapeOf(blocks[1], freedom_), shapeExponent_, huber_,
+        shapeOf(blocks[1], freedom_), shapeExponent_, {huber_},
         [&](const ResidualRow& row, double sigma, const RobustKernel& kernel)
         { out.add(row, sigma, kernel.row(row.r / sigma, measurement_.weight)); });
     return true;

@@ -97,10 +97,11 @@ const UprightCovariance& CQuadricObjectMap::sharedError(ObjectId id) const
   return objects_.at(id).estimator.sharedError();
 }
 
-void CQuadricObjectMap::claimDoubts()
+void CQuadricObjectMap::conclude()
 {
   for (auto& [id, object] : objects_)
   {
+    if (object.estimator.setPosesFinal()) estimate(object, false);
     object.covariance -= object.doubts;
     const UprightState at = uprightStateOf(object.object);
     const LabelProperties label = labels().properties(object.label());

@@ -50,7 +50,7 @@ CQuadricObjectMap mapAnew(const std::string& simpleMapPath)
       simpleMapPath, [&](const CObservationObjects& boxes, const mrpt::poses::CPose3D& T_map_robot)
       { map.insertObservation(boxes, T_map_robot); });
   map.consolidate();
-  map.claimDoubts();
+  map.conclude();
   return map;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "FreeInformation.h"
@@ -145,7 +146,15 @@ UprightState InformationPrior::inItsTurn(const UprightState& x) const
 void ObjectEstimator::add(ObjectView view, const EstimatorOptions& options)
 {
   views_.push_back(std::move(view));
+  posesAreFinal_ = false;
   limitViews(options);
+}
+
+bool ObjectEstimator::setPosesFinal()
+{
+  const bool wereFinal = std::exchange(posesAreFinal_, true);
+  const auto hasEdges = [](const ObjectView& view) { return !view.edges.empty(); };
+  return !wereFinal && std::any_of(views_.begin(), views_.end(), hasEdges);
 }
 
 void ObjectEstimator::limitViews(const EstimatorOptions& options)
@@ -175,7 +184,8 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   }
   const bool hasHeading = defined > 0 && defined >= kYawShare * complete;
 
-  const ObjectEvidence angular(views_, prior_, reference, options, label.shapeExponent);
+  const ObjectEvidence angular(
+      views_, prior_, reference, options, label.shapeExponent, posesAreFinal_);
   Estimate best = minimum(angular, from, other, label, options);
   if (label.dominantDirection && label.levelTop && !hasHeading && complete >= kFewComplete)
   {
@@ -187,7 +197,7 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
       const Estimate there = minimum(angular, turned, std::nullopt, label, options);
       if (there.cost < best.cost) best = there;
     }
-    const ObjectEvidence circular(views_, prior_, reference, options, std::nullopt);
+    const ObjectEvidence circular(views_, prior_, reference, options, std::nullopt, posesAreFinal_);
     const Estimate round = minimum(circular, from, other, label, options);
     const auto cost = [&](const ObjectEvidence& evidence, const Estimate& e)
     { return evidence.costOfEqualViews(e.state) + labelCost(e.state, label, options); };
@@ -206,8 +216,12 @@ ObjectEvidence ObjectEstimator::evidenceAt(
     const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const
 {
   return {
-      views_, prior_, at, options,
-      isRound_ ? std::nullopt : std::optional<double>(label.shapeExponent)};
+      views_,
+      prior_,
+      at,
+      options,
+      isRound_ ? std::nullopt : std::optional<double>(label.shapeExponent),
+      posesAreFinal_};
 }
 
 UprightCovariance ObjectEstimator::contradictions(

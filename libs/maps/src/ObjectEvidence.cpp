@@ -18,11 +18,13 @@ ObjectEvidence::ObjectEvidence(
     const InformationPrior& prior,
     const UprightState& reference,
     const EstimatorOptions& options,
-    std::optional<double> shapeExponent) :
+    std::optional<double> shapeExponent,
+    bool edgesFade) :
     views_(views),
     prior_(prior),
     options_(options),
-    shapeExponent_(shapeExponent.value_or(kCylinder))
+    shapeExponent_(shapeExponent.value_or(kCylinder)),
+    kernels_{options.huber, edgesFade}
 {
   measurements_.reserve(views.size());  // the placed ones refer to them
   placed_.reserve(views.size());
@@ -44,8 +46,7 @@ NormalEquations ObjectEvidence::at(const UprightState& x) const
   NormalEquations eq;
   const ObjectShape object(x);
   for (std::size_t i = 0; i < placed_.size(); ++i)
-    addViewResiduals(
-        placed_[i], object, shapeExponent_, options_.huber, measurements_[i].weight, eq);
+    addViewResiduals(placed_[i], object, shapeExponent_, kernels_, measurements_[i].weight, eq);
   if (!prior_.empty()) addPrior(prior_, x, eq);
   return eq;
 }
@@ -54,14 +55,14 @@ double ObjectEvidence::costOfEqualViews(const UprightState& x) const
 {
   NormalEquations eq;
   for (const ViewAtPose& view : placed_)
-    addViewResiduals(view, ObjectShape(x), shapeExponent_, options_.huber, 1.0, eq);
+    addViewResiduals(view, ObjectShape(x), shapeExponent_, kernels_, 1.0, eq);
   if (!prior_.empty()) addPrior(prior_, x, eq);
   return eq.cost;
 }
 
 RepeatedErrors ObjectEvidence::repeated(const UprightState& x) const
 {
-  RepeatedErrors errors(x, shapeExponent_, options_);
+  RepeatedErrors errors(x, shapeExponent_, options_, kernels_.edgesFade);
   for (std::size_t i = 0; i < placed_.size(); ++i)
     errors.add(views_[i], measurements_[i], placed_[i]);
   return errors;

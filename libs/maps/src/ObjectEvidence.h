@@ -20,13 +20,15 @@ class ObjectEvidence
 {
  public:
   /** \param reference The weights of the views are taken there. \param prior, options Must outlive
-   * it, as must the views. \param shapeExponent Of the label; nothing when the object is round. */
+   * it, as must the views. \param shapeExponent Of the label; nothing when the object is round.
+   * \param edgesFade See RowKernels. */
   ObjectEvidence(
       const std::deque<ObjectView>& views,
       const InformationPrior& prior,
       const UprightState& reference,
       const EstimatorOptions& options,
-      std::optional<double> shapeExponent);
+      std::optional<double> shapeExponent,
+      bool edgesFade);
 
   NormalEquations at(const UprightState& x) const;
   /** Of all views with the same weight: how well a shape explains them must not depend on which of
@@ -40,6 +42,7 @@ class ObjectEvidence
   const InformationPrior& prior_;
   const EstimatorOptions& options_;
   double shapeExponent_;
+  RowKernels kernels_;
   std::vector<BoxMeasurement> measurements_;
   std::vector<ViewAtPose> placed_;
 };

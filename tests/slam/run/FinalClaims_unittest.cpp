@@ -29,7 +29,7 @@ TEST(FinalClaims, OfARunHoldWhatContradictsItsObjects)
   EXPECT_GT(widest, 1.5)
       << "the recording has an object that was seen larger than it is said to be";
 
-  anew.claimDoubts();
+  anew.conclude();
   for (const auto& [id, object] : given.objects())
   {
     if (!object.confirmed) continue;

@@ -172,7 +172,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bo
   warnOfOpenLoop();
   warnOfThingsNotFoundAgain();
   if (earlier) continueFrom(*earlier);
-  result_.map.claimDoubts();
+  result_.map.conclude();
 }
 
 void ObjectSlam::continueFrom(const CQuadricObjectMap& map)

@@ -31,8 +31,13 @@ void shareEdgeErrors(std::vector<BoxMeasurement>& views);
 class RepeatedErrors
 {
  public:
-  /** \param state Of the object, about which everything is linearised. */
-  RepeatedErrors(const UprightState& state, double shapeExponent, const EstimatorOptions& options);
+  /** \param state Of the object, about which everything is linearised. \param edgesFade See
+   * RowKernels. */
+  RepeatedErrors(
+      const UprightState& state,
+      double shapeExponent,
+      const EstimatorOptions& options,
+      bool edgesFade = false);
 
   /** Takes one view. \param measurement Made of it, in the map. \param placed Made of that. */
   void add(const ObjectView& view, const BoxMeasurement& measurement, const ViewAtPose& placed);
@@ -90,6 +95,7 @@ class RepeatedErrors
   ObjectShape object_;
   double shapeExponent_;
   const EstimatorOptions& options_;
+  RowKernels kernels_;
   std::map<int, Side> sides_;
   UprightState byDepth_ =
       UprightState::Zero();  // of the gradient, by a relative error of all depth

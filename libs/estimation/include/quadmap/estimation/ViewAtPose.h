@@ -23,6 +23,20 @@ enum class RowDerivatives
   OfObjectAndPose
 };
 
+/** The robust kernels of a measurement's rows. */
+struct RowKernels
+{
+  double threshold;  //!< [sigmas], > 0
+  /** An edge far from the object pulls at it the less the farther it is, doc/mathematics.md,
+   * (11.28). Else it pulls as any other row, as it has to while it may be a pose that is wrong. */
+  bool edgesFade = false;
+
+  RobustKernel ofEdges() const
+  {
+    return edgesFade ? RobustKernel::cauchy(threshold) : RobustKernel::huber(threshold);
+  }
+};
+
 /** A measurement as it is seen from one pose of the robot: the rows of the sum (11.1) of
  * doc/mathematics.md, of the map and of the factor graph alike. All rows have their exact
  * derivatives. */
@@ -40,20 +54,20 @@ class ViewAtPose
   static std::size_t rowCount(const BoxMeasurement& measurement, ObjectFreedom freedom);
 
   /** Calls add(row, sigma, kernel) for each row: faces, heading or angles, edges, seed.
-   * \param object With the same freedom. \param q Of the label, for the box edges.
-   * \param huber Threshold of the kernels [sigmas], > 0. */
+   * \param object With the same freedom. \param q Of the label, for the box edges. */
   template <typename Add>
-  void forEachRow(const ObjectShape& object, double q, double huber, const Add& add) const
+  void forEachRow(
+      const ObjectShape& object, double q, const RowKernels& kernels, const Add& add) const
   {
-    const RobustKernel kernel = RobustKernel::huber(huber);
+    const RobustKernel kernel = RobustKernel::huber(kernels.threshold);
     for (std::size_t f = 0; m_.complete && f < kFaces; ++f)
       if (m_.faces[f].kind != FaceKind::Unknown)
-        add(face(f, object), m_.faces[f].sigma, kernelOf(m_.faces[f].kind, huber));
+        add(face(f, object), m_.faces[f].sigma, kernelOf(m_.faces[f].kind, kernels.threshold));
     if (hasYawRow(m_, freedom_)) add(yaw(object), m_.yawSigma, kernel);
     for (int i = 0; i < tiltRows(m_, freedom_); ++i) add(tilt(i), m_.tiltSigma, kernel);
     for (int i = 0; i < turnRows(m_, freedom_); ++i)
       add(turn(i, object), i < 2 ? m_.tiltSigma : m_.yawSigma, kernel);
-    for (const auto& e : m_.edges) add(edge(e, object, q), e.sigma, kernel);
+    for (const auto& e : m_.edges) add(edge(e, object, q), e.sigma, kernels.ofEdges());
     for (int i = 0; m_.hasSeed && i < 3; ++i) add(seed(i, object), 1.0, kernel);
   }
 

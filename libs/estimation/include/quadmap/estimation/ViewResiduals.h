@@ -8,13 +8,12 @@
 namespace quadmap
 {
 /** Adds all rows of a measurement that is placed in the map, times its weight.
- * \param q Of the label, for the box edges. \param huber Threshold of the kernels [sigmas], > 0.
- * \param weight Of the whole measurement, > 0. */
+ * \param q Of the label, for the box edges. \param weight Of the whole measurement, > 0. */
 void addViewResiduals(
     const ViewAtPose& view,
     const ObjectShape& object,
     double q,
-    double huber,
+    const RowKernels& kernels,
     double weight,
     NormalEquations& eq);
 

@@ -240,12 +240,13 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   /** \exception std::out_of_range If there is no such object. */
   const UprightCovariance& sharedError(ObjectId id) const;
 
-  /** Adds to the covariance of each object what it errs by in case those measurements are right
-   * that saw it reach farther than it says, and where no image shows its end (doc/mathematics.md,
-   * (11.25) and (11.27)). For the end of a run: the next estimate of an object leaves it out again,
-   * because so wide a covariance would let the boxes of neighbours join it. Which objects are
-   * confirmed stays as it is. A stored map keeps it as a part of what is known. */
-  void claimDoubts();
+  /** For the end of a run, when the poses are no longer in doubt. Estimates each object once more,
+   * and lets go of box edges that contradict all else (doc/mathematics.md, (11.28)). Adds to its
+   * covariance what it errs by in case those measurements are right that saw it reach farther than
+   * it says, and where no image shows its end ((11.25) and (11.27)). The next estimate leaves these
+   * out again, because so wide a covariance would let the boxes of neighbours join it. A stored map
+   * keeps them as a part of what is known. */
+  void conclude();
 
   /** Makes all measurements of an object say this label, in its canonical spelling.
    *  \exception std::out_of_range If there is no such object.

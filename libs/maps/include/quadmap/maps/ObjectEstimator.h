@@ -97,6 +97,11 @@ class ObjectEstimator
   UprightState pullOfSummary(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
+  /** Says that the poses of the measurements are no longer in doubt, until the next measurement:
+   * box edges that contradict all else let go then, (11.28). Else it may be a pose that is wrong,
+   * and has to be found by them. \return Whether this may change what estimate() gives. */
+  bool setPosesFinal();
+
   /** How summary(), contradictions() and openEnds() take the object; estimate() finds out. */
   void setRound(bool isRound) { isRound_ = isRound; }
 
@@ -109,7 +114,7 @@ class ObjectEstimator
 
   std::deque<ObjectView> views_;
   InformationPrior prior_;
-  bool isRound_ = false;
+  bool isRound_ = false, posesAreFinal_ = false;
   UprightCovariance sharedError_ = UprightCovariance::Zero();
 };
 
