@@ -101,7 +101,9 @@ void CQuadricObjectMap::conclude()
 {
   for (auto& [id, object] : objects_)
   {
+    const bool wasConfirmed = object.confirmed;
     if (object.estimator.setPosesFinal()) estimate(object, false);
+    object.confirmed = wasConfirmed;  // by what all its edges said together
     object.covariance -= object.doubts;
     const UprightState at = uprightStateOf(object.object);
     const LabelProperties label = labels().properties(object.label());

@@ -244,8 +244,9 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
    * and lets go of box edges that contradict all else (doc/mathematics.md, (11.28)). Adds to its
    * covariance what it errs by in case those measurements are right that saw it reach farther than
    * it says, and where no image shows its end ((11.25) and (11.27)). The next estimate leaves these
-   * out again, because so wide a covariance would let the boxes of neighbours join it. A stored map
-   * keeps them as a part of what is known. */
+   * out again, because so wide a covariance would let the boxes of neighbours join it. Which
+   * objects are confirmed stays as it is. A stored map keeps the doubts as a part of what is known.
+   */
   void conclude();
 
   /** Makes all measurements of an object say this label, in its canonical spelling.
