@@ -206,6 +206,24 @@ TEST(ObjectEstimator, BoxesOfAPartDoNotCutAnObject)
   EXPECT_LT(heightOf(estimator.estimate(last.state, label, {})), 0.45) << "all is open again";
 }
 
+TEST(ObjectEstimator, EdgesDoNotLetGoOfASideAlone)
+{
+  // What hangs is said to stand 0.4 m below. The lower edges of all boxes say how far it reaches.
+  SyntheticCamera camera(6);
+  auto views = viewsAround(camera, kCabinet, 20);
+  for (auto& view : views)
+  {
+    view.faces[5] = {FaceKind::Support, 0.02};
+    view.center.z() -= 0.2;
+    view.halfSizes.z() += 0.2;
+  }
+  auto estimator = estimatorOf(views, {});
+  const auto first = estimator.estimate({}, boxy("suitcase"), {});
+  estimator.setPosesFinal();
+  const auto last = estimator.estimate(first.state, boxy("suitcase"), {});
+  EXPECT_LT(heightOf(last), heightOf(first) + 0.02) << "where it is said to stand, it is 0.96";
+}
+
 TEST(ObjectEstimator, EdgesAreFoundFromAfar)
 {
   // A state from which they are ten and more sigmas away, as after views that saw less.

@@ -81,7 +81,8 @@ TEST(Contradictions, AreClaimedOnceAndOnlyUntilTheNextEstimate)
         if (face.kind == FaceKind::Measured) face.kind = FaceKind::AtLeast;
     map.insertObservation(boxes, T_map_sensor);
   }
-  map.consolidate();
+  map.conclude();
+  map.consolidate();  // leaves them out again
   const MapObject before = onlyObject(map);
   ASSERT_TRUE(before.confirmed);
   map.conclude();

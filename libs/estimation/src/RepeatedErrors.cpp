@@ -78,14 +78,8 @@ void shareEdgeErrors(std::vector<BoxMeasurement>& views)
 }
 
 RepeatedErrors::RepeatedErrors(
-    const UprightState& state,
-    double shapeExponent,
-    const EstimatorOptions& options,
-    bool edgesFade) :
-    object_(state),
-    shapeExponent_(shapeExponent),
-    options_(options),
-    kernels_{options.huber, edgesFade}
+    const UprightState& state, double shapeExponent, const EstimatorOptions& options, bool fade) :
+    object_(state), shapeExponent_(shapeExponent), options_(options), kernels_{options.huber, fade}
 {
 }
 
@@ -110,7 +104,7 @@ void RepeatedErrors::add(
     Side& side = sides_[sideOf(edge)];
     const ResidualRow row = placed.edge(edge, object_, shapeExponent_);
     const Sigmas sigmas{edge.sigma, std::hypot(common, edge.shared)};
-    addRow(row, sigmas, kernels_.ofEdges(), weight, place, side);
+    addRow(row, sigmas, kernels_.ofEdge(), weight, place, side);
   }
 }
 
@@ -128,7 +122,7 @@ void RepeatedErrors::addFaces(
     const auto& face = view.faces[f];
     if (face.kind == FaceKind::Unknown) continue;
     const ResidualRow row = placed.face(f, object_);
-    const RobustKernel kernel = ViewAtPose::kernelOf(face.kind, options_.huber);
+    const RobustKernel kernel = kernels_.ofFace(face.kind);
     const double fromCamera = view.faceOffset(f) - normals[f].dot(view.camera);  // along the normal
     const double w = weight * kernel.weight(row.r / face.sigma) / (face.sigma * face.sigma);
     byDepth_ += w * fromCamera * row.byUprightState();

@@ -153,8 +153,7 @@ void ObjectEstimator::add(ObjectView view, const EstimatorOptions& options)
 bool ObjectEstimator::setPosesFinal()
 {
   const bool wereFinal = std::exchange(posesAreFinal_, true);
-  const auto hasEdges = [](const ObjectView& view) { return !view.edges.empty(); };
-  return !wereFinal && std::any_of(views_.begin(), views_.end(), hasEdges);
+  return !wereFinal && !views_.empty();
 }
 
 void ObjectEstimator::limitViews(const EstimatorOptions& options)

@@ -19,12 +19,12 @@ ObjectEvidence::ObjectEvidence(
     const UprightState& reference,
     const EstimatorOptions& options,
     std::optional<double> shapeExponent,
-    bool edgesFade) :
+    bool fade) :
     views_(views),
     prior_(prior),
     options_(options),
     shapeExponent_(shapeExponent.value_or(kCylinder)),
-    kernels_{options.huber, edgesFade}
+    kernels_{options.huber, fade}
 {
   measurements_.reserve(views.size());  // the placed ones refer to them
   placed_.reserve(views.size());
@@ -62,7 +62,7 @@ double ObjectEvidence::costOfEqualViews(const UprightState& x) const
 
 RepeatedErrors ObjectEvidence::repeated(const UprightState& x) const
 {
-  RepeatedErrors errors(x, shapeExponent_, options_, kernels_.edgesFade);
+  RepeatedErrors errors(x, shapeExponent_, options_, kernels_.fade);
   for (std::size_t i = 0; i < placed_.size(); ++i)
     errors.add(views_[i], measurements_[i], placed_[i]);
   return errors;

@@ -21,14 +21,14 @@ class ObjectEvidence
  public:
   /** \param reference The weights of the views are taken there. \param prior, options Must outlive
    * it, as must the views. \param shapeExponent Of the label; nothing when the object is round.
-   * \param edgesFade See RowKernels. */
+   * \param fade See RowKernels. */
   ObjectEvidence(
       const std::deque<ObjectView>& views,
       const InformationPrior& prior,
       const UprightState& reference,
       const EstimatorOptions& options,
       std::optional<double> shapeExponent,
-      bool edgesFade);
+      bool fade);
 
   NormalEquations at(const UprightState& x) const;
   /** Of all views with the same weight: how well a shape explains them must not depend on which of

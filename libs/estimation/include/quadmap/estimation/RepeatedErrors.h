@@ -31,13 +31,13 @@ void shareEdgeErrors(std::vector<BoxMeasurement>& views);
 class RepeatedErrors
 {
  public:
-  /** \param state Of the object, about which everything is linearised. \param edgesFade See
+  /** \param state Of the object, about which everything is linearised. \param fade See
    * RowKernels. */
   RepeatedErrors(
       const UprightState& state,
       double shapeExponent,
       const EstimatorOptions& options,
-      bool edgesFade = false);
+      bool fade = false);
 
   /** Takes one view. \param measurement Made of it, in the map. \param placed Made of that. */
   void add(const ObjectView& view, const BoxMeasurement& measurement, const ViewAtPose& placed);

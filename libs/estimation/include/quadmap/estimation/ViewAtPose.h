@@ -27,13 +27,19 @@ enum class RowDerivatives
 struct RowKernels
 {
   double threshold;  //!< [sigmas], > 0
-  /** An edge far from the object pulls at it the less the farther it is, doc/mathematics.md,
-   * (11.28). Else it pulls as any other row, as it has to while it may be a pose that is wrong. */
-  bool edgesFade = false;
+  /** A side or an edge far from the object pulls at it the less the farther it is,
+   * doc/mathematics.md, (11.28). Else it pulls however far it is, as it has to while it may be a
+   * pose that is wrong. */
+  bool fade = false;
 
-  RobustKernel ofEdges() const
+  RobustKernel ofEdge() const
   {
-    return edgesFade ? RobustKernel::cauchy(threshold) : RobustKernel::huber(threshold);
+    return fade ? RobustKernel::cauchy(threshold) : RobustKernel::huber(threshold);
+  }
+  /** An *at least* face is an inequality. */
+  RobustKernel ofFace(FaceKind kind) const
+  {
+    return kind == FaceKind::AtLeast ? RobustKernel::inequality(threshold) : ofEdge();
   }
 };
 
@@ -62,12 +68,12 @@ class ViewAtPose
     const RobustKernel kernel = RobustKernel::huber(kernels.threshold);
     for (std::size_t f = 0; m_.complete && f < kFaces; ++f)
       if (m_.faces[f].kind != FaceKind::Unknown)
-        add(face(f, object), m_.faces[f].sigma, kernelOf(m_.faces[f].kind, kernels.threshold));
+        add(face(f, object), m_.faces[f].sigma, kernels.ofFace(m_.faces[f].kind));
     if (hasYawRow(m_, freedom_)) add(yaw(object), m_.yawSigma, kernel);
     for (int i = 0; i < tiltRows(m_, freedom_); ++i) add(tilt(i), m_.tiltSigma, kernel);
     for (int i = 0; i < turnRows(m_, freedom_); ++i)
       add(turn(i, object), i < 2 ? m_.tiltSigma : m_.yawSigma, kernel);
-    for (const auto& e : m_.edges) add(edge(e, object, q), e.sigma, kernels.ofEdges());
+    for (const auto& e : m_.edges) add(edge(e, object, q), e.sigma, kernels.ofEdge());
     for (int i = 0; m_.hasSeed && i < 3; ++i) add(seed(i, object), 1.0, kernel);
   }
 
@@ -83,12 +89,6 @@ class ViewAtPose
   ResidualRow edge(const BoxMeasurement::Edge& e, const ObjectShape& object, double q) const;
   /** Coordinate i of the whitened seed [-], (11.9). */
   ResidualRow seed(int i, const ObjectShape& object) const;
-
-  /** Kernel of a face: an *at least* face is an inequality. */
-  static RobustKernel kernelOf(FaceKind kind, double huber)
-  {
-    return kind == FaceKind::AtLeast ? RobustKernel::inequality(huber) : RobustKernel::huber(huber);
-  }
 
  private:
   static bool hasYawRow(const BoxMeasurement& m, ObjectFreedom freedom)

@@ -241,11 +241,12 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   const UprightCovariance& sharedError(ObjectId id) const;
 
   /** For the end of a run, when the poses are no longer in doubt. Estimates each object once more,
-   * and lets go of box edges that contradict all else (doc/mathematics.md, (11.28)). Adds to its
-   * covariance what it errs by in case those measurements are right that saw it reach farther than
-   * it says, and where no image shows its end ((11.25) and (11.27)). The next estimate leaves these
-   * out again, because so wide a covariance would let the boxes of neighbours join it. Which
-   * objects are confirmed stays as it is. A stored map keeps the doubts as a part of what is known.
+   * and lets go of sides and box edges that contradict the rest (doc/mathematics.md, (11.28)). Adds
+   * to its covariance what it errs by in case those measurements are right that saw it reach
+   * farther than it says, and where no image shows its end ((11.25) and (11.27)). The next estimate
+   * leaves these out again, because so wide a covariance would let the boxes of neighbours join it.
+   * Which objects are confirmed stays as it is. A stored map keeps the doubts as a part of what is
+   * known.
    */
   void conclude();
 

@@ -98,8 +98,8 @@ class ObjectEstimator
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
 
   /** Says that the poses of the measurements are no longer in doubt, until the next measurement:
-   * box edges that contradict all else let go then, (11.28). Else it may be a pose that is wrong,
-   * and has to be found by them. \return Whether this may change what estimate() gives. */
+   * sides and edges that contradict the rest let go then, (11.28). Else it may be a pose that is
+   * wrong, and has to be found by them. \return Whether this may change what estimate() gives. */
   bool setPosesFinal();
 
   /** How summary(), contradictions() and openEnds() take the object; estimate() finds out. */
