@@ -1,11 +1,10 @@
 #include "FolderImport.h"
 
-#include <mrpt/core/format.h>
-
 #include <optional>
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/TimeOrder.h"
 #include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
@@ -62,25 +61,12 @@ catch (const std::exception& e)
   return std::nullopt;
 }
 
-/** Why the time of a frame cannot be used. When the two frames that follow agree with all before,
- * but not with this one, its time is wrong, and not that of all others.
- * \param lastTime Of the frame before [s], if there is one. */
-std::optional<std::string> whyOutOfOrder(
-    const std::vector<FolderFrame>& frames,
-    std::size_t i,
-    std::size_t every,
-    const std::optional<double>& lastTime)
+/** Of every n-th frame [s]. */
+std::vector<double> timesOf(const std::vector<FolderFrame>& frames, std::size_t every)
 {
-  const double time = frames[i].time;
-  const auto because = [&](const char* why)
-  { return mrpt::format("%s: time %.6f s is %s", frames[i].listed.c_str(), time, why); };
-  if (lastTime && time <= *lastTime) return because("not after the frame before");
-  const std::size_t next = i + every, afterNext = next + every;
-  if (afterNext >= frames.size()) return std::nullopt;
-  const double a = frames[next].time, b = frames[afterNext].time;
-  if (a < b && b <= time && (!lastTime || a > *lastTime))
-    return because("after those of the frames behind it");
-  return std::nullopt;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < frames.size(); i += every) times.push_back(frames[i].time);
+  return times;
 }
 }  // namespace
 
@@ -91,16 +77,18 @@ FolderImportReport importFolder(
     const ProgressCallback& progress)
 {
   FolderImportReport report;
-  if (!folder.posesProblem().empty() && options.posesAs != PosesAs::None)
-    drop(report, options, folder.posesProblem());
+  for (const auto& problem : folder.listProblems()) drop(report, options, problem);
+  if (options.posesAs != PosesAs::None)
+    for (const auto& problem : folder.posesProblems()) drop(report, options, problem);
   const auto& frames = folder.frames();
+  const auto times = timesOf(frames, options.every);
   std::optional<double> lastTime;  // of a frame [s]
   for (std::size_t i = 0; i < frames.size(); i += options.every)
   {
     progress(static_cast<double>(i) / static_cast<double>(frames.size()));
-    if (const auto why = whyOutOfOrder(frames, i, options.every, lastTime))
+    if (const auto why = whyOutOfOrder(times, i / options.every, lastTime, "frame"))
     {
-      drop(report, options, *why);
+      drop(report, options, frames[i].listed + ": " + *why);
       continue;
     }
     const auto loaded = load(folder, i, options, report);

@@ -158,9 +158,12 @@ FolderImportReport importRawlog(
     const ProgressCallback& progress)
 {
   RawlogSource source(rawlog, readingOptions(rawlog, options.keepGoing, options.imagesAnywhere));
-  std::optional<Trajectory> trajectory;
-  if (!options.trajectory.empty()) trajectory = readTumTrajectory(options.trajectory);
   FolderImportReport report;
+  std::optional<Trajectory> trajectory;
+  if (!options.trajectory.empty())
+    trajectory = readTrajectoryInOrder(options.trajectory, report.dropped);
+  if (!report.dropped.empty() && !options.keepGoing)
+    throw std::runtime_error(report.dropped.front());
   source.sendWarningsTo([&](const std::string& text) { report.notes.push_back(text); });
   std::map<std::string, std::size_t> seen;  // frames of each sensor
   bool trajectoryFits = false;

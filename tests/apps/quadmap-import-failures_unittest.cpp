@@ -75,6 +75,27 @@ TEST_F(QuadmapImport, KeepsGoingAndSaysWhatItDropped)
   EXPECT_EQ(frames[1].objects->objects.size(), 1u);
 }
 
+TEST_F(QuadmapImport, OneBadLineLosesOneFrameOrPose)
+{
+  const std::string list = readFile(recording_.files.path("associations.txt")),
+                    poses = readFile(recording_.files.path("groundtruth.txt"));
+  recording_.files.write("associations.txt", "nonsense\n" + list);
+  recording_.files.write("groundtruth.txt", poses + "nonsense\n");
+  const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const char* line : {"associations.txt:1: expected 4", "groundtruth.txt:7: expected 8"})
+    EXPECT_NE(result.err.find(line), kNotFound) << result.err;
+  EXPECT_NE(result.out.find("6 frames, 6 poses as odometry"), kNotFound) << result.out;
+  EXPECT_NE(result.out.find("(2 things dropped)"), kNotFound) << result.out;
+  const auto checked = run("tum IN --check");
+  EXPECT_EQ(checked.status, 1);
+  for (const char* kind : {"list (1)\n", "pose (1)\n"})
+    EXPECT_NE(checked.out.find(kind), kNotFound) << checked.out;
+  expectImportFailure(run("tum IN -o OUT/y.rawlog"), "associations.txt:1: expected 4 columns");
+  recording_.files.write("associations.txt", list);
+  expectImportFailure(run("tum IN -o OUT/y.rawlog"), "groundtruth.txt:7: expected 8 columns");
+}
+
 TEST_F(QuadmapImport, OneWrongTimeLosesOneFrame)
 {
   for (const int wrong : {0, 2})

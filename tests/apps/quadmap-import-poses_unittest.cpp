@@ -32,7 +32,7 @@ TEST_F(QuadmapImport, TellsOfPosesThatCannotBeReadAndOfTheRest)
   const auto without = run("tum IN -o OUT/x.rawlog --keep-going");
   EXPECT_EQ(without.status, 0) << without.err;
   EXPECT_NE(without.err.find("dropped: "), kNotFound) << without.err;
-  EXPECT_NE(without.err.find("6 of 6 frames have no pose"), kNotFound) << without.err;
+  EXPECT_NE(without.err.find("5 of 6 frames have no pose"), kNotFound) << without.err;
   EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").status, 0);
 }
 
@@ -78,6 +78,22 @@ TEST_F(QuadmapImport, CountsTheFramesOfARawlogWithoutAPose)
   EXPECT_TRUE(isOneLine(result.err)) << result.err;
   EXPECT_NE(result.err.find("warning: 4 of 6 frames have no pose in "), kNotFound) << result.err;
   EXPECT_NE(result.err.find("start.tum"), kNotFound) << result.err;
+}
+
+TEST_F(QuadmapImport, OneBadLineOfATrajectoryLosesOnePose)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as none").status, 0);
+  const std::string good = readFile(recording_.files.path("groundtruth.txt"));
+  for (const char* line : {"nonsense\n", "1 0 0 0 0 0 0 1\n"})
+  {
+    recording_.files.write("t.tum", good + line);
+    const std::string command = "rawlog OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/t.tum";
+    expectImportFailure(run(command), "t.tum:7: ");
+    const auto kept = run(command + " --keep-going");
+    EXPECT_EQ(kept.status, 0) << kept.err;
+    EXPECT_NE(kept.err.find("dropped: "), kNotFound) << kept.err;
+    EXPECT_NE(kept.out.find("6 poses"), kNotFound) << kept.out;
+  }
 }
 
 TEST_F(QuadmapImport, RefusesATrajectoryOfAnotherTime)

@@ -15,7 +15,8 @@ namespace quadmap
  * \exception std::runtime_error Also for what a folder says of single poses. */
 inline void readFrames(const FrameFolder& folder)
 {
-  if (!folder.posesProblem().empty()) throw std::runtime_error(folder.posesProblem());
+  for (const auto& problems : {folder.listProblems(), folder.posesProblems()})
+    if (!problems.empty()) throw std::runtime_error(problems.front());
   for (std::size_t i = 0; i < folder.frames().size(); ++i)
   {
     const auto& problem = folder.frames()[i].poseProblem;

@@ -68,6 +68,52 @@ TEST(ReadTumTrajectory, NamesAFileThatCannotBeRead)
   EXPECT_NE(errorOf([&] { readTumTrajectory(itself); }).find(itself), std::string::npos);
 }
 
+TEST(ReadTrajectoryInOrder, LeavesOutSingleLines)
+{
+  const auto at = [](const char* time) { return std::string(time) + " 0 0 0 0 0 0 1\n"; };
+  const std::string after = " s is after those of the poses behind it";
+  const struct
+  {
+    std::string lines;
+    std::vector<double> times;
+    std::string unusable;  // behind "FILE:"
+  } cases[] = {
+      {            at("1") + "2 0\n" + at("3"),{1, 3},    "2: expected 8 columns, got 2"                                                          },
+      {at("1") + at("2") + at("1.5") + at("3"),
+       {1, 2, 3},
+       "3: time 1.500000 s is not after the pose before"                                               },
+      {at("1") + at("9e9") + at("2") + at("3"), {1, 2, 3},          "2: time 9000000000.000000" + after},
+      {at("9e9") + at("1") + at("1") + at("2"),    {1, 2},          "1: time 9000000000.000000" + after},
+      {at("1") + "1 5 0 0 0 0 0 1\n" + at("2"),    {1, 2},   "2: line 1 has another pose at 1.000000 s"},
+      {            at("1") + at("1") + at("2"),    {1, 2},                                           ""},
+  };
+  const TemporaryFolder folder;
+  for (const auto& c : cases)
+  {
+    const auto path = folder.write("gt.txt", c.lines);
+    std::vector<std::string> unusable;
+    std::vector<double> times;
+    for (const auto& pose : readTrajectoryInOrder(path, unusable)) times.push_back(pose.time);
+    EXPECT_EQ(times, c.times) << c.lines;
+    std::vector<std::string> expected;
+    if (!c.unusable.empty()) expected.push_back(path + ":" + c.unusable);
+    EXPECT_EQ(unusable, expected) << c.lines;
+  }
+}
+
+TEST(ReadTrajectoryInOrder, RefusesAFileOfWrongLines)
+{
+  const TemporaryFolder folder;
+  std::string lines;
+  for (int i = 0; i < 1001; ++i) lines += "x\n";
+  const auto path = folder.write("gt.txt", lines);
+  std::vector<std::string> unusable;
+  EXPECT_EQ(
+      errorOf([&] { readTrajectoryInOrder(path, unusable); }),
+      path + ": more than 1000 lines cannot be used, such as " + path +
+          ":1: expected 8 columns, got 1");
+}
+
 TEST(WriteTumTrajectory, ReadsBackTheSame)
 {
   const TemporaryFolder folder;

@@ -16,6 +16,8 @@
 #include "quadmap/base/OutputSet.h"
 #include "quadmap/geometry/PosePosition.h"
 #include "quadmap/obs/Plausible.h"
+#include "quadmap/obs/TimeOrder.h"
+#include "quadmap/obs/UnusableLines.h"
 
 namespace quadmap
 {
@@ -65,24 +67,90 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
   if (!(q.norm() > 1e-6)) throw std::runtime_error(place + ": quaternion is zero");
   return {v[0], poseFrom(q.normalized(), {v[1], v[2], v[3]})};
 }
-}  // namespace
 
-Trajectory readTumTrajectory(const std::string& path)
+std::string placeOf(const std::string& path, int line) { return path + ":" + std::to_string(line); }
+
+/** Calls \c f(words, line) for each line, counted from 1, that is neither empty nor a comment. */
+template <typename F>
+void forEachLine(const std::string& path, const F& f)
 {
   requireOneRun(path);
   auto file = openModestText(path, kMostBytes);
-
-  Trajectory trajectory;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number)
   {
     std::istringstream text(line.substr(0, line.find('#')));
     std::vector<std::string> words;
     for (std::string word; text >> word;) words.push_back(word);
-    if (!words.empty()) trajectory.push_back(parsePose(words, path + ":" + std::to_string(number)));
+    if (!words.empty()) f(words, number);
   }
   if (file.bad()) throw std::runtime_error(path + ": read error");
+}
+
+/** Poses and where they are from. No two that follow each other have the same time. */
+struct PoseLines
+{
+  Trajectory poses;
+  std::vector<double> times;  // theirs [s]
+  std::vector<int> lines;
+};
+
+/** The poses that can be read, in the order of the file. */
+PoseLines readPoseLines(const std::string& path, std::vector<std::string>& unusable)
+{
+  PoseLines read;
+  const auto add = [&](const StampedPose& pose, int line)
+  {
+    if (read.poses.empty() || pose.time != read.times.back())
+    {
+      read.poses.push_back(pose);
+      read.times.push_back(pose.time);
+      read.lines.push_back(line);
+    }
+    else if (pose.pose != read.poses.back().pose)
+      throw std::runtime_error(mrpt::format(
+          "%s: line %d has another pose at %.6f s", placeOf(path, line).c_str(), read.lines.back(),
+          pose.time));
+  };
+  const auto addOrNote = [&](const std::vector<std::string>& words, int line)
+  {
+    try
+    {
+      add(parsePose(words, placeOf(path, line)), line);
+    }
+    catch (const std::runtime_error& e)
+    {
+      noteUnusable(unusable, path, e.what());
+    }
+  };
+  forEachLine(path, addOrNote);
+  return read;
+}
+}  // namespace
+
+Trajectory readTumTrajectory(const std::string& path)
+{
+  Trajectory trajectory;
+  const auto add = [&](const std::vector<std::string>& words, int line)
+  { trajectory.push_back(parsePose(words, placeOf(path, line))); };
+  forEachLine(path, add);
   return trajectory;
+}
+
+Trajectory readTrajectoryInOrder(const std::string& path, std::vector<std::string>& unusable)
+{
+  const PoseLines read = readPoseLines(path, unusable);
+  Trajectory inOrder;
+  std::optional<double> last;  // [s]
+  for (std::size_t i = 0; i < read.poses.size(); ++i)
+    if (const auto why = whyOutOfOrder(read.times, i, last, "pose"))
+      noteUnusable(unusable, path, placeOf(path, read.lines[i]) + ": " + *why);
+    else
+    {
+      inOrder.push_back(read.poses[i]);
+      last = read.times[i];
+    }
+  return inOrder;
 }
 
 void writeTumTrajectory(const std::string& path, const Trajectory& trajectory)

@@ -184,8 +184,24 @@ TEST(FolderCheck, FindsFramesWithoutPose)
 TEST(FolderCheck, FindsPosesThatCannotBeRead)
 {
   const SampleRecording recording;
-  recording.files.write("groundtruth.txt", SampleRecording::pose(0, 0) + "100.1 0 0\n");
-  expectOnly(check(recording), "pose", "groundtruth.txt:2");
+  const std::string good = readFile(recording.files.path("groundtruth.txt"));
+  recording.files.write("groundtruth.txt", "100.1 0 0\n" + good);
+  expectOnly(check(recording), "pose", "groundtruth.txt:1");
+  recording.files.write("groundtruth.txt", "100.1 0 0\n");
+  expectOnly(check(recording), "pose", "groundtruth.txt:1");
+  const auto last = good.rfind("100.5");
+  recording.files.write(
+      "groundtruth.txt", "100.1 0 0\n" + good.substr(0, last) + SampleRecording::pose(5, 9));
+  EXPECT_EQ(check(recording).count("pose jumps"), 1u) << "the poses that are left are looked at";
+}
+
+TEST(FolderCheck, FindsLinesOfListsThatCannotBeRead)
+{
+  const SampleRecording recording;
+  recording.files.write(
+      "associations.txt",
+      readFile(recording.files.path("associations.txt")) + "100.6 rgb/f5.png\n");
+  expectOnly(check(recording), "list", "associations.txt:7: expected 4 columns, got 2");
 }
 
 TEST(FolderCheck, RejectsOptionsOutOfRange)

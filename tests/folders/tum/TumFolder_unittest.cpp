@@ -312,6 +312,11 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
       "associations.txt:2: expected 4 columns, got 3");
   expect("associations.txt", "one rgb/f0.png 1.0 d\n", "associations.txt:1: 'one' is not a number");
   expect("associations.txt", "1 rgb/f0.png nan d\n", "associations.txt:1: the time nan must be");
+  std::string nonsense;
+  for (int i = 0; i < 1001; ++i) nonsense += "nonsense\n";
+  expect(
+      "associations.txt", nonsense.c_str(),
+      "associations.txt: more than 1000 lines cannot be used, such as ");
   expect(
       "associations.txt", "100 rgb/f0.png 0.1 depth/f0.png\n",
       "associations.txt:1: the times of the two images are 99.9 s apart");
@@ -341,22 +346,52 @@ TEST(TumFolder, ReadsTextsOfOtherSystems)
   expectInOneLine(errorOfOpening(recording), "associations.txt:1: is no text (UTF-16?)");
 }
 
-TEST(TumFolder, TellsWhyItsPosesCannotBeUsed)
+TEST(TumFolder, TellsWhyPosesCannotBeUsed)
 {
   const SampleRecording recording;
-  const auto expect = [&](const char* poses, const std::string& what)
+  const std::string good = readFile(recording.files.path("groundtruth.txt"));
+  const auto expect = [&](const std::string& poses, const std::string& what, std::size_t left)
   {
     recording.files.write("groundtruth.txt", poses);
     const FrameFolder dataset = openFrameFolder("tum", recording.folder());
-    expectInOneLine(dataset.posesProblem(), what);
-    EXPECT_EQ(dataset.posesCount(), 0u);
+    ASSERT_EQ(dataset.posesProblems().size(), 1u) << what;
+    expectInOneLine(dataset.posesProblems()[0], what);
+    EXPECT_EQ(dataset.posesCount(), left) << what;
     EXPECT_EQ(dataset.frames().size(), std::size_t{SampleRecording::kFrames});
   };
-  expect("1 0 0 0 0 0 0\n", "groundtruth.txt:1");
-  expect("1 nan 0 0 0 0 0 1\n", "groundtruth.txt:1");
-  expect(
-      "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
-      "groundtruth.txt: pose 1: time goes back from 2.000000 to 1.000000 s");
+  expect("1 0 0 0 0 0 0\n", "groundtruth.txt:1: expected 8 columns, got 7", 0);
+  expect("1 nan 0 0 0 0 0 1\n", "groundtruth.txt:1: 'nan'", 0);
+  expect("nonsense\n" + good, "groundtruth.txt:1: expected 8 columns, got 1", 6);
+  expect(good + "1 0 0 0 0 0 0 1\n", "groundtruth.txt:7: time 1.000000 s is not after", 6);
+  std::filesystem::remove(recording.files.path("groundtruth.txt"));
+  std::filesystem::create_directory(recording.files.path("groundtruth.txt"));
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder());
+  ASSERT_EQ(dataset.posesProblems().size(), 1u);
+  expectInOneLine(dataset.posesProblems()[0], "groundtruth.txt");
+}
+
+TEST(TumFolder, ReadsTheOtherLinesOfItsLists)
+{
+  const SampleRecording recording;
+  const auto expect = [&](const std::string& file, const std::string& what)
+  {
+    const FrameFolder dataset = openFrameFolder("tum", recording.folder());
+    ASSERT_EQ(dataset.listProblems().size(), 1u) << file;
+    expectInOneLine(dataset.listProblems()[0], recording.files.path(file) + what);
+    EXPECT_EQ(dataset.frames().size(), 2u) << file;
+  };
+  recording.files.write(
+      "associations.txt", SampleRecording::line(0, 1) + "nonsense\n" + SampleRecording::line(1, 2));
+  expect("associations.txt", ":2: expected 4 columns, got 1");
+  std::filesystem::remove(recording.files.path("associations.txt"));
+  const std::string colors = "1 rgb/f0.png\n2 rgb/f1.png\n",
+                    depths = "1 depth/f0.png\n2 depth/f1.png\n";
+  recording.files.write("rgb.txt", colors + "three rgb/f2.png\n");
+  recording.files.write("depth.txt", depths);
+  expect("rgb.txt", ":3: 'three' is not a number");
+  recording.files.write("rgb.txt", colors);
+  recording.files.write("depth.txt", "3 ../f2.png\n" + depths);
+  expect("depth.txt", ":1: '../f2.png' must be a path inside the folder");
 }
 
 TEST(TumFolder, RejectsBadImages)

@@ -176,7 +176,7 @@ void checkMotion(
     const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
   if (folder.poses().empty()) return;
-  if (!folder.posesProblem().empty()) return problems["pose"].push_back(folder.posesProblem());
+  if (folder.posesCount() == 0 && !folder.posesProblems().empty()) return;  // which say why
   const auto motions = motionsOf(folder, problems);
   std::vector<double> speeds, turnRates;
   for (const auto& m : motions)
@@ -217,6 +217,8 @@ FolderProblems checkFolder(
 {
   check(options);
   FolderProblems problems;
+  if (!folder.listProblems().empty()) problems["list"] = folder.listProblems();
+  if (!folder.posesProblems().empty()) problems["pose"] = folder.posesProblems();
   DepthCounts depths(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
   const std::size_t frames = folder.frames().size();
   for (std::size_t i = 0; i < frames; ++i)

@@ -58,15 +58,6 @@ std::map<unsigned long, std::string> imagesIn(const fs::path& folder)
   }
   return images;
 }
-
-void requireInOrder(const Trajectory& trajectory, const std::string& file)
-{
-  for (std::size_t i = 1; i < trajectory.size(); ++i)
-    if (trajectory[i].time < trajectory[i - 1].time)
-      throw std::runtime_error(mrpt::format(
-          "%s: pose %zu: time goes back from %.6f to %.6f s", file.c_str(), i,
-          trajectory[i - 1].time, trajectory[i].time));
-}
 }  // namespace
 
 FolderCamera cameraOfFolder(
@@ -96,18 +87,16 @@ void takeDepthAsRegistered(FolderContent& content)
 void takePoses(FolderContent& content, const std::string& file, double maxGap)
 {
   content.poses = fs::path(file).filename().string();
-  Trajectory trajectory;
   try
   {
-    trajectory = readTumTrajectory(file);
-    requireInOrder(trajectory, file);
+    const Trajectory trajectory = readTrajectoryInOrder(file, content.posesProblems);
+    for (auto& frame : content.frames)
+      frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
   }
   catch (const std::exception& e)
   {
-    content.posesProblem = e.what();
-    return;
+    content.posesProblems = {e.what()};
   }
-  for (auto& frame : content.frames) frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
 }
 
 void framesByName(

@@ -33,9 +33,8 @@ FolderCamera cameraOfFolder(
  * colour; names the folder. */
 void takeDepthAsRegistered(FolderContent& content);
 
-/** Sets the poses of the frames to those of a trajectory, interpolated at their times. A file that
- * cannot be read, or whose times go back, becomes the content's posesProblem, as a check shall tell
- * of the images, too. */
+/** Sets the poses of the frames to those of a trajectory, interpolated at their times. What cannot
+ * be used, be it the file or lines of it, becomes the content's posesProblems, as the rest can. */
 void takePoses(FolderContent& content, const std::string& file, double maxGap);
 
 /** Adds the frames of two folders inside the recording, which have images of equal names, such as

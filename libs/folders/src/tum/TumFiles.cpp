@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "frames/FolderReader.h"
+#include "quadmap/obs/UnusableLines.h"
 #include "text/TextLines.h"
 
 namespace quadmap
@@ -39,15 +40,30 @@ std::string fileIn(const TextLine& line, std::size_t column)
   return line.words[column];
 }
 
-std::vector<ListedImage> readImageList(const std::string& path)
+/** What the lines of a list have. Those that cannot be used become problems of the content. */
+template <typename Item>
+std::vector<Item> readList(
+    const std::string& path, Item (*itemOf)(const TextLine& line), FolderContent& content)
 {
-  std::vector<ListedImage> images;
-  for (const auto& line : readTextLines(path))
-  {
-    requireColumns(line, 2);
-    images.push_back({timeIn(line, 0), fileIn(line, 1), line.place});
-  }
-  return images;
+  std::vector<Item> items;
+  std::vector<std::string> unusable;
+  for (const auto& line : readTextLines(path)) try
+    {
+      items.push_back(itemOf(line));
+    }
+    catch (const std::runtime_error& e)
+    {
+      noteUnusable(unusable, path, e.what());
+    }
+  content.listProblems.insert(content.listProblems.end(), unusable.begin(), unusable.end());
+  return items;
+}
+
+/** A line of rgb.txt or depth.txt. */
+ListedImage imageIn(const TextLine& line)
+{
+  requireColumns(line, 2);
+  return {timeIn(line, 0), fileIn(line, 1), line.place};
 }
 
 /** Adds the frames of images that are near each other in time. */
@@ -128,12 +144,13 @@ void readTumFrames(FolderContent& content, double maxDelay)
   auto& frames = content.frames;
   if (fs::exists(in("associations.txt")))
   {
-    for (const auto& line : readTextLines(in("associations.txt"))) frames.push_back(pairIn(line));
+    frames = readList(in("associations.txt"), pairIn, content);
     content.pairing = "as associations.txt says";
   }
   else if (fs::exists(in("rgb.txt")) && fs::exists(in("depth.txt")))
   {
-    const auto colors = readImageList(in("rgb.txt")), depths = readImageList(in("depth.txt"));
+    const auto colors = readList(in("rgb.txt"), imageIn, content),
+               depths = readList(in("depth.txt"), imageIn, content);
     associate(colors, depths, maxDelay, content);
     content.pairing = mrpt::format("by time, at most %g ms apart", 1e3 * maxDelay);
   }
@@ -141,7 +158,9 @@ void readTumFrames(FolderContent& content, double maxDelay)
     throw std::runtime_error(
         content.folder + ": has neither associations.txt nor rgb.txt and depth.txt");
   if (frames.empty())
-    throw std::runtime_error(content.folder + ": lists no colour image with a depth image");
+    throw std::runtime_error(
+        content.listProblems.empty() ? content.folder + ": lists no colour image with a depth image"
+                                     : content.listProblems.front());
   for (auto& frame : frames)
   {
     frame.color = in(frame.color);

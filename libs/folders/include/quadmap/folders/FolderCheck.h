@@ -30,8 +30,8 @@ struct FolderCheckOptions
 using FolderProblems = std::map<std::string, std::vector<std::string>>;
 
 /** Looks at every file of a recording. It finds missing files, wrong image sizes, an implausible
- * depth scale, depth images without a measurement, gaps and backward jumps in time, boxes that
- * cannot be used, frames without a pose, and poses that jump.
+ * depth scale, depth images without a measurement, gaps and backward jumps in time, boxes and lines
+ * of lists that cannot be used, frames without a pose, and poses that are none or jump.
  * \param progress Called with the share that is done, in [0, 1].
  * \exception std::invalid_argument For options out of range. */
 FolderProblems checkFolder(

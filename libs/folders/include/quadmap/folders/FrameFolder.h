@@ -35,8 +35,12 @@ struct FolderContent
   std::string kind, folder;
   FolderCamera camera;
   std::vector<FolderFrame> frames;
-  std::string poses;               //!< Where poses are from, such as "groundtruth.txt"; may be ""
-  std::string posesProblem;        //!< Why a file with all poses cannot be used; names it
+  std::string poses;  //!< Where poses are from, such as "groundtruth.txt"; may be ""
+  /** Why a file with all poses, or lines of it, cannot be used; each names the file. */
+  std::vector<std::string> posesProblems;
+  /** Why images that are listed or numbered cannot be used, and are no frames; each names the file.
+   */
+  std::vector<std::string> listProblems;
   std::string pairing;             //!< How colour and depth images were paired
   std::size_t unpaired = 0;        //!< Number of images of which no pair could be made
   std::string firstUnpaired;       //!< The file of the first of them
@@ -98,9 +102,10 @@ class FrameFolder
   const std::string& firstUnpaired() const { return content_.firstUnpaired; }  //!< Its file
   std::size_t posesCount() const;                              //!< Number of frames with a pose
   const std::string& poses() const { return content_.poses; }  //!< Where they are from
-  /** Why the file that has the poses cannot be used; names file and line, "" when it can. The
-   * frames have no poses then. */
-  const std::string& posesProblem() const { return content_.posesProblem; }
+  /** Why the file that has the poses, or lines of it, cannot be used; each names the file. */
+  const std::vector<std::string>& posesProblems() const { return content_.posesProblems; }
+  /** Why images that are listed or numbered cannot be used; each names the file. */
+  const std::vector<std::string>& listProblems() const { return content_.listProblems; }
   bool hasDetections() const { return boxes_ != nullptr; }
   std::string detections() const;  //!< Where boxes are from, and in which form; may be ""
   /** What a user should know, although it is no error. */

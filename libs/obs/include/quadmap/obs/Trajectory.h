@@ -23,6 +23,13 @@ using Trajectory = std::vector<StampedPose>;
  * quaternion. The message names file and line. */
 Trajectory readTumTrajectory(const std::string& path);
 
+/** The same for interpolation, of a file in which single lines may be wrong: poses whose times
+ * rise. \param unusable Receives why lines are left out, each with file and line: they cannot be
+ * read, their time is out of order, or the line before has another pose at it. A line that is there
+ * twice is read once. \exception std::runtime_error For a file that cannot be read, or has too many
+ * such lines. */
+Trajectory readTrajectoryInOrder(const std::string& path, std::vector<std::string>& unusable);
+
 /** Writes times with microseconds and everything else with nine decimals. The file has a temporary
  * name until it is complete. \exception std::runtime_error If it cannot be written. */
 void writeTumTrajectory(const std::string& path, const Trajectory& trajectory);
