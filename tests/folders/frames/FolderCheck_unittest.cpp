@@ -50,6 +50,19 @@ TEST(FolderCheck, FindsMissingFiles)
   EXPECT_NE(problems.at("missing file")[0].find("associations.txt:2"), std::string::npos);
 }
 
+TEST(FolderCheck, FindsLinksInACircle)
+{
+  const SampleRecording recording;
+  std::filesystem::remove(recording.files.path("depth/f1.png"));
+  std::filesystem::create_symlink("f1.png", recording.files.path("depth/f1.png"));
+  const std::string what = "depth/f1.png: Too many levels of symbolic links";
+  expectOnly(check(recording), "list", what);
+  FrameFolderOptions options;
+  options.imagesAnywhere = true;
+  const FrameFolder folder = openFrameFolder("tum", recording.folder(), options);
+  expectOnly(checkFolder(folder, {}, [](double) {}), "image", what);
+}
+
 TEST(FolderCheck, FindsAWrongDepthScale)
 {
   const SampleRecording recording;

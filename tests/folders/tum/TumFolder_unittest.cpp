@@ -438,6 +438,42 @@ TEST(TumFolder, RejectsBadImages)
       "rgb/f1.png: is no file");
 }
 
+TEST(TumFolder, LeavesOutImagesThatCannotBeFollowed)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder other;
+  const std::string secret = "../../../../../../../.." + other.write("secret.png", "");
+  std::string roundabout;  // whose absolute path is too long, but which the system can open
+  while (roundabout.size() + secret.size() < 4090) roundabout += "./";
+  const std::pair<std::string, const char*> cases[] = {
+      {           "f1.png", "Too many levels of symbolic links"},
+      {roundabout + secret,                "File name too long"},
+  };
+  for (const auto& [target, why] : cases)
+  {
+    const SampleRecording recording;
+    const std::string file = recording.files.path("rgb/f1.png");
+    fs::remove(file);
+    fs::create_symlink(target, file);
+    const FrameFolder dataset = openFrameFolder("tum", recording.folder());
+    ASSERT_EQ(dataset.listProblems().size(), 1u);
+    EXPECT_EQ(
+        dataset.listProblems()[0],
+        file + ": " + why + " (" + recording.files.path("associations.txt:2)"));
+    EXPECT_EQ(dataset.frames().size(), 5u);
+    recording.files.write("associations.txt", SampleRecording::line(1, 100.1));
+    expectInOneLine(errorOfOpening(recording), file + ": " + why);
+  }
+  const SampleRecording recording;
+  const std::string name = "rgb/" + std::string(300, 'a');
+  recording.files.write("associations.txt", "1 " + name + " 1 depth/f0.png\n");
+  expectInOneLine(errorOfOpening(recording), name + ": File name too long");
+  FrameFolderOptions anywhere;
+  anywhere.imagesAnywhere = true;
+  const FrameFolder dataset = openFrameFolder("tum", recording.folder(), anywhere);
+  expectInOneLine(errorOf([&] { dataset.scan(0); }), name + ": File name too long");
+}
+
 TEST(TumFolder, RejectsMalformedDetections)
 {
   const auto expect = [](const std::string& text, const std::string& what)

@@ -42,17 +42,43 @@ void requireFolder(const std::string& folder)
   if (!fs::is_directory(folder)) throw std::runtime_error(folder + ": no such folder");
 }
 
+/** The image of a frame that is, or lies behind, a link out of the folder; nothing when none is.
+ * \exception std::runtime_error If one cannot be followed; says why. */
+std::optional<std::string> imageOutside(const FolderFrame& frame, const std::string& folder)
+{
+  for (const std::string& file : {frame.color, frame.depth})
+    if (!isInside(file, folder)) return file;
+  return std::nullopt;
+}
+
 /** A folder may come from somebody else, and its images go into a rawlog, which is passed on.
- * \exception std::runtime_error If an image is, or lies behind, a link out of the folder. */
-void requireOwnImages(const FolderContent& content, const FrameFolderOptions& options)
+ * Images that cannot be followed, who knows where to, become problems of the list. \exception
+ * std::runtime_error If an image is, or lies behind, a link out of the folder, or if no frame is
+ * left. */
+void keepOwnImages(FolderContent& content, const FrameFolderOptions& options)
 {
   if (options.imagesAnywhere) return;
+  std::vector<FolderFrame> own;
   for (const auto& frame : content.frames)
-    for (const std::string& file : {frame.color, frame.depth})
-      if (!isInside(file, content.folder))
-        throw std::runtime_error(
-            file + ": is a link out of " + content.folder + " (" + frame.listed +
-            (options.imagesHint.empty() ? ")" : "; " + options.imagesHint + " allows that)"));
+  {
+    std::optional<std::string> outside;
+    try
+    {
+      outside = imageOutside(frame, content.folder);
+    }
+    catch (const std::runtime_error& e)
+    {
+      content.listProblems.push_back(e.what() + (" (" + frame.listed + ")"));
+      continue;
+    }
+    if (outside)
+      throw std::runtime_error(
+          *outside + ": is a link out of " + content.folder + " (" + frame.listed +
+          (options.imagesHint.empty() ? ")" : "; " + options.imagesHint + " allows that)"));
+    own.push_back(frame);
+  }
+  if (own.empty()) throw std::runtime_error(content.listProblems.front());
+  content.frames = std::move(own);
 }
 
 void check(const FrameFolderOptions& o)
@@ -118,7 +144,7 @@ FrameFolder openFrameFolder(
   const FolderReader& reader = readerOf(kind);
   requireFolder(folder);
   FolderContent content = reader.read(folder, options);
-  requireOwnImages(content, options);
+  keepOwnImages(content, options);
   content.kind = kind;
   requireCamera(content);
   removeImplausiblePoses(content);

@@ -21,10 +21,12 @@ namespace
 template <typename Read>
 auto readNamed(const std::string& path, const Read& read)
 {
-  std::error_code ignored;  // of names that are too long
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw std::runtime_error(
-        path + (std::filesystem::exists(path, ignored) ? ": is no file" : ": no such file"));
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto type = fs::status(path, error).type();
+  if (type == fs::file_type::not_found) throw std::runtime_error(path + ": no such file");
+  if (error) throw std::runtime_error(path + ": " + error.message());
+  if (type != fs::file_type::regular) throw std::runtime_error(path + ": is no file");
   try
   {
     return read();

@@ -30,7 +30,7 @@ using mrpt::obs::CObservation3DRangeScan;
 
 /** The path of an external image. A rawlog may come from somebody else, and what it names ends up
  * in the results, which are passed on. \exception std::runtime_error If it leads out of the folder,
- * be it by name or by a link, which the image folder may be itself. */
+ * be it by name or by a link, which the image folder may be itself, or nowhere. */
 std::string pathOf(const std::string& name, const ImageRules& rules)
 {
   if (name.find('\0') != std::string::npos)
