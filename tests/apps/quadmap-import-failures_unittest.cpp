@@ -96,6 +96,19 @@ TEST_F(QuadmapImport, OneBadLineLosesOneFrameOrPose)
   expectImportFailure(run("tum IN -o OUT/y.rawlog"), "groundtruth.txt:7: expected 8 columns");
 }
 
+TEST_F(QuadmapImport, AnImageListedTwiceIsTakenOnce)
+{
+  const std::string list = readFile(recording_.files.path("associations.txt"));
+  recording_.files.write("associations.txt", list + "100.6 rgb/f5.png 100.6 depth/f5.png\n");
+  const std::string what = "associations.txt:7: rgb/f5.png stands in line 6 as well";
+  expectImportFailure(run("tum IN -o OUT/x.rawlog"), what);
+  const auto kept = run("tum IN -o OUT/x.rawlog --keep-going");
+  EXPECT_EQ(kept.status, 0) << kept.err;
+  EXPECT_NE(kept.err.find("dropped: "), kNotFound) << kept.err;
+  EXPECT_NE(kept.err.find(what), kNotFound) << kept.err;
+  EXPECT_NE(kept.out.find("6 frames"), kNotFound) << kept.out;
+}
+
 TEST_F(QuadmapImport, OneWrongTimeLosesOneFrame)
 {
   for (const int wrong : {0, 2})

@@ -171,11 +171,15 @@ TEST_F(StoppedPrograms, AFileThatMayNotGrowIsLikeAFullDisk)
 TEST_F(StoppedPrograms, AnImportThatASignalEndsChangesNothing)
 {
   const SampleRecording recording;
-  constexpr int kFrames = 100000;
+  constexpr int kFrames = 10000;
   std::string associations;
-  for (int i = 0; i < kFrames; ++i)
-    associations += SampleRecording::line(
-        i % SampleRecording::kFrames, SampleRecording::kStart + SampleRecording::kInterval * i);
+  for (int i = SampleRecording::kFrames; i < kFrames; ++i)
+  {
+    fs::create_symlink("f0.png", recording.files.path(mrpt::format("rgb/f%d.png", i)));
+    fs::create_symlink("f0.png", recording.files.path(mrpt::format("depth/f%d.png", i)));
+    associations +=
+        SampleRecording::line(i, SampleRecording::kStart + SampleRecording::kInterval * i);
+  }
   recording.files.write("associations.txt", associations);
   folder_.write("x.rawlog", "as before");
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})

@@ -114,6 +114,19 @@ TEST_F(IclFolder, IsReadAsDownloaded)
   EXPECT_FLOAT_EQ(static_cast<float>(scan->rangeImage(9, 9)) * scan->rangeUnits, 1.0f);
 }
 
+TEST_F(IclFolder, TakesOneImageOfEachNumber)
+{
+  std::filesystem::remove(files_.path("associations.txt"));
+  files_.write("rgb/2x2.jpg", "");
+  files_.write("depth/x03.png", "");
+  const FrameFolder room = openFrameFolder("icl", folder());
+  ASSERT_EQ(room.listProblems().size(), 2u);
+  EXPECT_EQ(room.listProblems()[0], files_.path("rgb/2x2.jpg") + ": has the same number as 2.png");
+  EXPECT_EQ(
+      room.listProblems()[1], files_.path("depth/x03.png") + ": has the same number as 3.png");
+  EXPECT_EQ(room.frames().size(), 4u);
+}
+
 TEST_F(IclFolder, TurnsItsWorldsYUp)
 {
   const FrameFolder room = openFrameFolder("icl", folder());

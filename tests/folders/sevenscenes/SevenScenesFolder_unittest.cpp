@@ -74,6 +74,20 @@ TEST_F(SevenScenes, TurnsPosesOfTheDepthCameraIntoThoseOfTheColourCamera)
   EXPECT_GT(std::abs(sequence.frames()[1].T_world_optical->x() - 1), 0.02);
 }
 
+TEST_F(SevenScenes, TakesOneFileOfEachNumber)
+{
+  for (const char* name : {"frame-1.color.jpg", "frame-1.depth.png", "frame-1.pose.txt"})
+    files_.write(name, "");
+  const FrameFolder sequence = openFrameFolder("7scenes", folder());
+  ASSERT_EQ(sequence.listProblems().size(), 2u);
+  EXPECT_EQ(
+      sequence.listProblems()[0],
+      files_.path("frame-1.color.jpg") + ": has the same number as frame-000001.color.png");
+  ASSERT_EQ(sequence.posesProblems().size(), 1u);
+  EXPECT_EQ(sequence.posesCount(), 3u);
+  EXPECT_TRUE(sequence.scan(1));
+}
+
 TEST_F(SevenScenes, CountsWhatIsMissing)
 {
   std::filesystem::remove(files_.path("frame-000001.depth.png"));

@@ -329,6 +329,33 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
       "/no/such: no such folder");
 }
 
+TEST(TumFolder, TakesAnImageThatIsListedTwiceOnce)
+{
+  const SampleRecording recording;
+  const auto write = [&](const char* name, const std::string& text)
+  { recording.files.write(name, text); };
+  const auto expect = [&](const std::string& what)
+  {
+    const FrameFolder dataset = openFrameFolder("tum", recording.folder());
+    ASSERT_EQ(dataset.listProblems().size(), 1u) << what;
+    EXPECT_EQ(dataset.listProblems()[0], recording.files.path(what));
+    EXPECT_EQ(dataset.frames().size(), 2u) << what;
+  };
+  write(
+      "associations.txt", SampleRecording::line(0, 1) + SampleRecording::line(1, 2) +
+                              "3 ./rgb/f0.png 3 depth/f2.png\n");
+  expect("associations.txt:3: ./rgb/f0.png stands in line 1 as well");
+  std::filesystem::remove(recording.files.path("associations.txt"));
+  const std::string colors = "1 rgb/f0.png\n2 rgb/f1.png\n",
+                    depths = "1 depth/f0.png\n2 depth/f1.png\n";
+  write("rgb.txt", colors + "3 rgb/f1.png\n");
+  write("depth.txt", depths);
+  expect("rgb.txt:3: rgb/f1.png stands in line 2 as well");
+  write("rgb.txt", colors);
+  write("depth.txt", depths + "# again\n2 depth/f1.png\n");
+  expect("depth.txt:4: depth/f1.png stands in line 2 as well");
+}
+
 TEST(TumFolder, ReadsTextsOfOtherSystems)
 {
   const SampleRecording recording;

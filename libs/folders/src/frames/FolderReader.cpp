@@ -42,19 +42,19 @@ FolderCamera findCamera(
 }
 
 /** The JPEG and PNG files of a folder by the number at the end of their names. */
-std::map<unsigned long, std::string> imagesIn(const fs::path& folder)
+std::map<unsigned long, std::string> imagesIn(
+    const fs::path& folder, std::vector<std::string>& problems)
 {
   std::map<unsigned long, std::string> images;
   if (!fs::is_directory(folder)) return images;
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& file : filesIn(folder))
   {
-    const std::string name = entry.path().stem().string(),
-                      extension = entry.path().extension().string();
+    const std::string name = file.stem().string(), extension = file.extension().string();
     if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") continue;
     const auto digits = name.find_last_not_of("0123456789") + 1;  // npos + 1 is 0
     unsigned long number = 0;
     const auto result = std::from_chars(name.data() + digits, name.data() + name.size(), number);
-    if (result.ec == std::errc()) images[number] = entry.path().string();
+    if (result.ec == std::errc()) addNumbered(images, number, file, problems);
   }
   return images;
 }
@@ -84,6 +84,11 @@ void takeDepthAsRegistered(FolderContent& content)
   camera.depth = DepthCamera{resized(camera.color, columns, rows), {}};
 }
 
+std::set<fs::path> filesIn(const fs::path& folder)
+{
+  return {fs::directory_iterator(folder), fs::directory_iterator()};
+}
+
 void takePoses(FolderContent& content, const std::string& file, double maxGap)
 {
   content.poses = fs::path(file).filename().string();
@@ -105,8 +110,9 @@ void framesByName(
     const std::string& depthFolder,
     double rate)
 {
-  const auto colors = imagesIn(fs::path(content.folder) / colorFolder),
-             depths = imagesIn(fs::path(content.folder) / depthFolder);
+  const auto images = [&](const std::string& name)
+  { return imagesIn(fs::path(content.folder) / name, content.listProblems); };
+  const auto colors = images(colorFolder), depths = images(depthFolder);
   for (const auto& [number, color] : colors)
     if (const auto depth = depths.find(number); depth != depths.end())
     {

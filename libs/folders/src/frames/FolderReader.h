@@ -1,7 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "quadmap/folders/FrameFolder.h"
 
@@ -46,6 +49,24 @@ void framesByName(
     const std::string& colorFolder,
     const std::string& depthFolder,
     double rate);
+
+/** The files of a folder in the order of their names. */
+std::set<std::filesystem::path> filesIn(const std::filesystem::path& folder);
+
+/** Adds a file by its number, unless another one has it: then it becomes one of the problems. */
+template <typename Number>
+void addNumbered(
+    std::map<Number, std::string>& files,
+    Number number,
+    const std::filesystem::path& file,
+    std::vector<std::string>& problems)
+{
+  const auto [place, isNew] = files.emplace(number, file.string());
+  if (!isNew)
+    problems.push_back(
+        file.string() + ": has the same number as " +
+        std::filesystem::path(place->second).filename().string());
+}
 
 /** Adds the images of two folders that have no partner of the same number. */
 template <typename Number>

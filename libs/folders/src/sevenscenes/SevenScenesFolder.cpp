@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "frames/FolderReader.h"
 
@@ -35,23 +36,26 @@ std::optional<int> numberOf(const fs::path& file, const std::string& end)
   return number;
 }
 
-/** The files of a folder whose names end like this, by their numbers. */
-std::map<int, std::string> filesOf(const std::string& folder, const std::string& end)
+/** The files of a folder by their numbers. */
+using NumberedFiles = std::map<int, std::string>;
+
+/** Those whose names end like one of these. */
+NumberedFiles filesOf(
+    const std::string& folder,
+    const std::vector<std::string>& ends,
+    std::vector<std::string>& problems)
 {
-  std::map<int, std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (const auto number = numberOf(entry.path(), end)) files[*number] = entry.path().string();
+  NumberedFiles files;
+  for (const auto& file : filesIn(folder))
+    for (const auto& end : ends)
+      if (const auto number = numberOf(file, end)) addNumbered(files, *number, file, problems);
   return files;
 }
 
-std::map<int, std::string> colorFilesOf(const std::string& folder)
-{
-  auto files = filesOf(folder, ".color.png");
-  files.merge(filesOf(folder, ".color.jpg"));
-  return files;
-}
+const std::vector<std::string> kColorEnds = {".color.png", ".color.jpg"},
+                               kDepthEnds = {".depth.png"};
 
-void readPoses(FolderContent& content, const std::map<int, std::string>& files)
+void readPoses(FolderContent& content, const NumberedFiles& files)
 {
   content.poses = "frame-*.pose.txt";
   for (auto& frame : content.frames)
@@ -68,7 +72,9 @@ void readPoses(FolderContent& content, const std::map<int, std::string>& files)
 
 bool isSevenScenesFolder(const std::string& folder)
 {
-  return !colorFilesOf(folder).empty() && !filesOf(folder, ".depth.png").empty();
+  std::vector<std::string> ignored;
+  return !filesOf(folder, kColorEnds, ignored).empty() &&
+         !filesOf(folder, kDepthEnds, ignored).empty();
 }
 
 FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolderOptions& options)
@@ -81,7 +87,8 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
     content.camera.depthFactor = kSevenScenesDepthFactor;
   if (content.camera.noDepth == 0) content.camera.noDepth = kNoDepth;
   content.camera.posesAreOfDepth = content.camera.depth.has_value();
-  const auto colors = colorFilesOf(folder), depths = filesOf(folder, ".depth.png");
+  const auto colors = filesOf(folder, kColorEnds, content.listProblems),
+             depths = filesOf(folder, kDepthEnds, content.listProblems);
   for (const auto& [number, color] : colors)
     if (const auto depth = depths.find(number); depth != depths.end())
       content.frames.push_back(
@@ -95,7 +102,7 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
         folder + ": has no pair of frame-*.color.png (or .jpg) and frame-*.depth.png");
   addUnpaired(content, colors, depths);
   content.pairing = "of equal numbers";
-  if (const auto poses = filesOf(folder, ".pose.txt"); !poses.empty())
+  if (const auto poses = filesOf(folder, {".pose.txt"}, content.posesProblems); !poses.empty())
     readPoses(content, poses);
   else
     content.notes.push_back(folder + ": no frame-*.pose.txt, hence no poses");

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "frames/FolderReader.h"
 #include "quadmap/obs/UnusableLines.h"
@@ -40,16 +42,27 @@ std::string fileIn(const TextLine& line, std::size_t column)
   return line.words[column];
 }
 
-/** What the lines of a list have. Those that cannot be used become problems of the content. */
+std::string imageOf(const ListedImage& image) { return image.file; }
+std::string imageOf(const FolderFrame& frame) { return frame.color; }
+
+/** What the lines of a list have. Those that cannot be used, and those of an image that another one
+ * has, become problems of the content. */
 template <typename Item>
 std::vector<Item> readList(
     const std::string& path, Item (*itemOf)(const TextLine& line), FolderContent& content)
 {
   std::vector<Item> items;
+  std::map<fs::path, std::string> lines;  // of the images
   std::vector<std::string> unusable;
   for (const auto& line : readTextLines(path)) try
     {
-      items.push_back(itemOf(line));
+      Item item = itemOf(line);
+      const auto [first, isNew] = lines.emplace(
+          fs::path(imageOf(item)).lexically_normal(), line.place.substr(line.place.rfind(':') + 1));
+      if (!isNew)
+        throw std::runtime_error(
+            line.place + ": " + imageOf(item) + " stands in line " + first->second + " as well");
+      items.push_back(std::move(item));
     }
     catch (const std::runtime_error& e)
     {

@@ -14,7 +14,8 @@ namespace quadmap
 FolderCamera readTumCalibration(const std::string& path);
 
 /** Adds the frames of associations.txt. When it is missing, pairs images of rgb.txt and depth.txt
- * whose times are at most `maxDelay` [s] apart, the closest pairs first. */
+ * whose times are at most `maxDelay` [s] apart, the closest pairs first. Lines that cannot be used
+ * become problems of the content. \exception std::runtime_error If no frame is left. */
 void readTumFrames(FolderContent& content, double maxDelay);
 
 bool isTumFolder(const std::string& folder);
