@@ -111,6 +111,30 @@ TEST(FrameRectification, BringsBoxesToWhereTheObjectIs)
   EXPECT_NEAR(middle.y2, 270, 0.1);
 }
 
+TEST(FrameRectification, RefusesLensesThatCannotBeUndone)
+{
+  for (const auto& name : cameraPresetNames())
+    EXPECT_EQ(whyNotRectifiable(cameraPreset(name)), std::nullopt) << name;
+  FolderCamera camera;
+  camera.color.ncols = 640;
+  camera.color.nrows = 480;
+  camera.color.setIntrinsicParamsFromValues(400, 400, 319.5, 239.5);  // corners at 45 degrees
+  const auto why = [&](double k1, double k2, double p1, double k3)
+  {
+    camera.color.setDistortionPlumbBob(k1, k2, p1, 0, k3);
+    return whyNotRectifiable(camera).value_or("");
+  };
+  EXPECT_EQ(why(-0.28, 0.07, 1e-4, 0), "") << "a wide lens";
+  EXPECT_EQ(why(-0.3, 0.1, 1e-4, -0.01), "");
+  EXPECT_EQ(why(0.1, 0.05, 0.01, 0), "");
+  // r (1 - 5 r^2) grows up to r^2 = 1/15, which is 103 px.
+  const std::string folds = why(-5, 0, 0, 0);
+  EXPECT_EQ(folds.find("the lens (k1=-5 k2=0 p1=0 p2=0 k3=0) folds the image 10"), 0u) << folds;
+  EXPECT_NE(why(0, 0, 0, -0.5).find("folds the image "), std::string::npos);
+  EXPECT_NE(why(5, 0, 0, 0).find("bends the image too much "), std::string::npos);
+  EXPECT_NE(why(0, 0, 2, 0).find("bends the image too much "), std::string::npos);
+}
+
 TEST(FrameRectification, LeavesEdgesAtTheBorderThere)
 {
   const FrameRectification rectification(cameraPreset("fr1"));

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "frames/FolderReader.h"
+#include "frames/FrameRectification.h"
 #include "icl/IclFolder.h"
 #include "pcd/PcdFolder.h"
 #include "quadmap/base/InsideFolder.h"
@@ -89,7 +90,8 @@ void check(const FrameFolderOptions& o)
     throw std::invalid_argument(mrpt::format("maxPoseGap=%g: must be > 0 s", o.maxPoseGap));
 }
 
-/** \exception std::runtime_error For a calibration that the readers of a rawlog would refuse. */
+/** \exception std::runtime_error For a calibration that the readers of a rawlog would refuse, and
+ * for a lens that cannot be rectified. */
 void requireCamera(const FolderContent& content)
 {
   const FolderCamera& camera = content.camera;
@@ -98,6 +100,7 @@ void requireCamera(const FolderContent& content)
     if (why) throw std::runtime_error(content.folder + ": " + camera.origin + ": " + what + *why);
   };
   require(whyNoCalibration(camera.color), "");
+  require(whyNotRectifiable(camera), "");
   if (!camera.depth) return;
   require(whyNoCalibration(camera.depth->camera), "the depth camera ");
   require(whyNoPose(camera.depth->T_color_depth, kFarthestOnRobot), "the depth camera ");

@@ -1,8 +1,11 @@
 #include "frames/FrameRectification.h"
 
+#include <mrpt/core/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "frames/ResizedCamera.h"
 
@@ -62,7 +65,64 @@ ImageBox boundsOfOutline(
   }
   return {bounds.min().x(), bounds.min().y(), bounds.max().x(), bounds.max().y()};
 }
+
+/** Pixels at the border of an image. */
+std::vector<Eigen::Vector2d> borderOf(const mrpt::img::TCamera& camera)
+{
+  constexpr int kSteps = 16;  // along each side
+  const Eigen::Vector2d last(camera.ncols - 1.0, camera.nrows - 1.0);
+  std::vector<Eigen::Vector2d> border;
+  for (int i = 0; i <= kSteps; ++i)
+  {
+    const Eigen::Vector2d p = last * i / kSteps;
+    border.insert(
+        border.end(), {
+                          {   p.x(),        0},
+                          {   p.x(), last.y()},
+                          {       0,    p.y()},
+                          {last.x(),    p.y()}
+    });
+  }
+  return border;
+}
+
+/** The distance from the axis at depth 1, up to `farthest`, where the lens no longer takes a point
+ * that is farther out to one that is farther out; nothing when it does everywhere. */
+std::optional<double> foldOf(const mrpt::img::TCamera& camera, double farthest)
+{
+  constexpr int kSteps = 200;
+  const double k1 = camera.dist[0], k2 = camera.dist[1], k3 = camera.dist[4];
+  for (int i = 1; i <= kSteps; ++i)
+  {
+    const double r = farthest * i / kSteps, r2 = r * r;
+    if (!(1 + r2 * (3 * k1 + r2 * (5 * k2 + r2 * 7 * k3)) > 0)) return r;  // d/dr of what r becomes
+  }
+  return std::nullopt;
+}
 }  // namespace
+
+std::optional<std::string> whyNotRectifiable(const FolderCamera& camera)
+{
+  constexpr double kLargestError = 1;  // [px]
+  const auto& c = camera.color;
+  if (!camera.isDistorted()) return std::nullopt;
+  const auto phrase = [&](const char* what, double distance)
+  {
+    return mrpt::format(
+        "the lens (k1=%g k2=%g p1=%g p2=%g k3=%g) %s %.0f px from its centre", c.dist[0], c.dist[1],
+        c.dist[2], c.dist[3], c.dist[4], what, distance * c.fx());
+  };
+  double farthest = 0;
+  for (const auto& pixel : borderOf(c)) farthest = std::max(farthest, rayOf(pixel, c).norm());
+  if (const auto fold = foldOf(c, farthest)) return phrase("folds the image", *fold);
+  for (const auto& pixel : borderOf(c))
+  {
+    const Eigen::Vector2d found = distorted(undistorted(rayOf(pixel, c), c), c);
+    if (!((pixelOf(found, c) - pixel).norm() < kLargestError))
+      return phrase("bends the image too much", rayOf(pixel, c).norm());
+  }
+  return std::nullopt;
+}
 
 mrpt::img::TCamera rectifiedCameraOf(const FolderCamera& camera)
 {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
+#include <string>
 
 #include "quadmap/folders/FolderCamera.h"
 #include "quadmap/obs/DetectedObject.h"
@@ -10,6 +12,10 @@ namespace quadmap
 /** The camera of the rectified images: the colour camera without distortion, at the size of the
  * depth images. */
 mrpt::img::TCamera rectifiedCameraOf(const FolderCamera& camera);
+
+/** Why the distortion of a lens cannot be undone, as a phrase: it shows two directions at one pixel
+ * of the image, or the search for what is seen at a pixel fails. Nothing when it can. */
+std::optional<std::string> whyNotRectifiable(const FolderCamera& camera);
 
 /** Takes images and boxes from the colour camera to rectifiedCameraOf() it. */
 class FrameRectification
