@@ -59,7 +59,13 @@ std::vector<CuboidProposal> propose(const std::string& result, const DenseOption
 std::vector<JudgedProposal> proposalsOf(
     const std::string& result, const std::string& file, const DenseOptions& options)
 {
-  if (std::filesystem::exists(file)) return readProposals(file);
+  if (std::filesystem::exists(file))
+  {
+    auto read = readProposals(file);
+    if (read.empty())
+      throw std::runtime_error(file + ": has no proposal; remove it to have proposals made anew");
+    return read;
+  }
   const auto proposals = propose(result, options);
   if (proposals.empty())
     throw std::runtime_error(result + ": no object has points enough for a proposal");

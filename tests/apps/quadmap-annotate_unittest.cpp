@@ -66,6 +66,11 @@ TEST_F(QuadmapAnnotate, AnswersWrongUsageAndInputWithOneLine)
   expectError(here + " -o " + here + "/gt.json", 1, "objects.json");
   folder_.write("gt.proposals.ini", "[objekt 1]\n");
   expectError(here + " -o " + here + "/gt.json", 1, "[objekt 1]");
+  for (const char* without : {"", "; all are removed\n"})
+  {
+    folder_.write("gt.proposals.ini", without);
+    expectError(here + " -o " + here + "/gt.json", 1, "gt.proposals.ini: has no proposal; remove");
+  }
   EXPECT_FALSE(std::filesystem::exists(folder_.path("gt.json")));
 #else
   expectError(here + " -o " + here + "/gt.json", 1, "built without PCL");
