@@ -246,6 +246,11 @@ TEST_F(QuadmapMap, AppliesAnEditList)
     EXPECT_NE(result.err.find("wrong.json: " + expected), kNotFound) << result.err;
   };
   for (const auto& [text, expected] : wrong) refuses(text, expected);
+  for (const char* edit : {"{}", "7", "[]", "null", R"({"op": 3, "id": 1})"})
+    refuses(start + edit + "]}", "edit 1: \"op\" is missing or of another type\n");
+  refuses(
+      start + R"({"op": "relabel", "id": 1, "label": 5}]})",
+      "edit 1: \"label\" is missing or of another type\n");
   for (const std::string number : {"1e300", "1.5", "true", "18446744073709551615"})
     refuses(
         start + R"({"op": "remove", "id": )" + number + "}]}", "edit 1: \"id\" is no id of a map");

@@ -20,6 +20,7 @@ TEST(ReadJson, NamesTheFileAndThePlaceOfWhatIsWrong)
   const std::string error = errorOf([&] { readJson(path); });
   EXPECT_EQ(error.find(path + ": "), 0u) << error;
   EXPECT_NE(error.find("line 2, column 2"), std::string::npos) << error;
+  EXPECT_EQ(error.find("json.exception"), std::string::npos) << error;
   EXPECT_NE(
       errorOf([&] { readJson("/nowhere/x.json"); }).find("cannot be read"), std::string::npos);
 }

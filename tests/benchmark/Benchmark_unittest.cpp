@@ -290,6 +290,16 @@ TEST_F(Results, NameTheFileThatIsBroken)
   addRun("simulated home 1 rgbd rawlog", 0.010, 0.02);
   folder_.write("runs/simulated.home.1.rgbd.rawlog/report.json", "{");
   EXPECT_TRUE(contains(error(), "report.json")) << error();
+  addRun("simulated home 1 rgbd rawlog", 0.010, 0.02);
+  for (const char* text : {"7", "{}", R"({"matches": [{}]})"})
+  {
+    const auto path = folder_.write("runs/simulated.home.1.rgbd.rawlog/evaluation.json", text);
+    EXPECT_EQ(error(), path + ": its \"matches\" are not those of quadmap-evaluate") << text;
+  }
+  add("observed home 1 ablation ground-truth", {
+                                                   {"observation.json", "7"}
+  });
+  EXPECT_TRUE(contains(error(), "observation.json: has no \"rows\"")) << error();
 }
 
 TEST_F(Results, SayOnWhichMachineTheyWereMade)

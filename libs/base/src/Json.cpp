@@ -99,6 +99,11 @@ Json readJson(const std::string& path)
     file.seekg(0);
     return Json::parse(file);
   }
+  catch (const Json::exception& e)
+  {
+    const std::string text = e.what();  // "[json.exception.parse_error.101] parse error at line 1"
+    throw std::runtime_error(path + ": " + text.substr(text.find("] ") + 2));
+  }
   catch (const std::exception& e)
   {
     throw std::runtime_error(path + ": " + e.what());

@@ -76,10 +76,18 @@ std::map<std::string, std::string> machineOf(const std::string& path)
 
 void readRun(const fs::path& folder, BenchmarkResult& result)
 {
-  const Json evaluation = readJson((folder / "evaluation.json").string());
+  const std::string path = (folder / "evaluation.json").string();
+  const Json evaluation = readJson(path);
   result.evaluation = numbersOf(evaluation);
-  for (const auto& match : evaluation.at("matches"))
-    result.matches.push_back({match.at("label").get<std::string>(), numbersOf(match)});
+  try
+  {
+    for (const auto& match : evaluation.at("matches"))
+      result.matches.push_back({match.at("label").get<std::string>(), numbersOf(match)});
+  }
+  catch (const Json::exception&)  // its text is about the inside of the library
+  {
+    throw std::runtime_error(path + ": its \"matches\" are not those of quadmap-evaluate");
+  }
   result.report = numbersOf(readJson((folder / "report.json").string()));
   for (const auto& entry : fs::directory_iterator(folder))
     result.fileSizes[entry.path().filename().string()] = static_cast<double>(entry.file_size());
@@ -93,7 +101,10 @@ BenchmarkResult readResult(const fs::path& folder)
   result.machine = machineOf((folder / "machine.json").string());
   if (result.job.kind == BenchmarkKind::Observed)
   {
-    const Json observation = readJson((folder / "observation.json").string());
+    const std::string path = (folder / "observation.json").string();
+    const Json observation = readJson(path);
+    if (!observation.is_object() || !observation.contains("rows"))
+      throw std::runtime_error(path + ": has no \"rows\"");
     for (const auto& [name, row] : observation.at("rows").items())
       result.rows.emplace_back(name, numbersOf(row));
   }
@@ -136,14 +147,7 @@ BenchmarkResults readBenchmarkResults(const std::string& folder)
   std::set<std::string> lines;
   for (const auto& path : folders)
   {
-    try
-    {
-      results.done.push_back(readResult(path));
-    }
-    catch (const Json::exception& e)
-    {
-      throw std::runtime_error(path.string() + ": " + e.what());
-    }
+    results.done.push_back(readResult(path));
     lines.insert(results.done.back().job.line());
   }
   requireOneCommit(folder, results.done);

@@ -15,9 +15,21 @@ namespace quadmap
 {
 namespace
 {
+/** \exception std::runtime_error If the key is missing or its value of another type. */
+template <typename T>
+T valueOf(const Json& edit, const char* key)
+try
+{
+  return edit.at(key).get<T>();
+}
+catch (const Json::exception&)  // its text is about the inside of the library
+{
+  throw std::runtime_error(mrpt::format("\"%s\" is missing or of another type", key));
+}
+
 ObjectId idFrom(const Json& edit, const char* key)
 {
-  const auto id = wholeNumber(edit.at(key));
+  const auto id = wholeNumber(valueOf<Json>(edit, key));
   if (!id || *id < 0 || *id > std::numeric_limits<ObjectId>::max())
     throw std::runtime_error(mrpt::format("\"%s\" is no id of a map", key));
   return static_cast<ObjectId>(*id);
@@ -25,7 +37,7 @@ ObjectId idFrom(const Json& edit, const char* key)
 
 Eigen::Vector3d vectorFrom(const Json& edit, const char* key)
 {
-  const auto values = edit.at(key).get<std::vector<double>>();
+  const auto values = valueOf<std::vector<double>>(edit, key);
   if (values.size() != 3)
     throw std::runtime_error(mrpt::format("\"%s\" must have three numbers", key));
   return {values[0], values[1], values[2]};
@@ -35,7 +47,7 @@ Eigen::Vector3d vectorFrom(const Json& edit, const char* key)
 Ellipsoid placeFrom(const Json& edit)
 {
   const Eigen::Vector3d center = vectorFrom(edit, "center"), size = vectorFrom(edit, "size");
-  const auto yaw = edit.at("yaw").get<double>();
+  const auto yaw = valueOf<double>(edit, "yaw");
   const auto check = [](const char* key, const std::optional<std::string>& why)
   {
     if (why) throw std::runtime_error(mrpt::format("\"%s\" %s", key, why->c_str()));
@@ -51,12 +63,12 @@ Ellipsoid placeFrom(const Json& edit)
 MapEdit editFrom(const Json& json)
 {
   MapEdit edit;
-  const auto op = json.at("op").get<std::string>();
+  const auto op = valueOf<std::string>(json, "op");
   edit.id = idFrom(json, op == "merge" ? "keep" : "id");
   if (op == "relabel")
   {
     edit.kind = MapEdit::Kind::Relabel;
-    edit.label = json.at("label").get<std::string>();
+    edit.label = valueOf<std::string>(json, "label");
     if (edit.label.empty()) throw std::runtime_error("\"label\" is empty");
   }
   else if (op == "merge")
