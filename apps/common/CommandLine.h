@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -220,8 +221,13 @@ class CommandLine
     }
     rejectUnknownOptions(argc, argv);
     rejectEmptyNumbers(argc, argv);
-    return line_.parse(argc, argv);
+    const bool goesOn = line_.parse(argc, argv);
+    rejectEmptyTexts();
+    return goesOn;
   }
+
+  /** The value of an option may be empty, as that of a list without items. */
+  void allowEmpty(const std::string& name) { mayBeEmpty_.insert(name); }
 
   /** -v debug|info|warn|error, to be given to the loggers of the libraries. */
   mrpt::system::VerbosityLevel verbosity() const
@@ -272,6 +278,19 @@ class CommandLine
     }
   }
 
+  /** An empty text would count as not given. */
+  void rejectEmptyTexts()
+  {
+    for (TCLAP::Arg* arg : line_.getArgList())
+    {
+      auto* one = dynamic_cast<TCLAP::ValueArg<std::string>*>(arg);
+      const std::string& name = arg->getName();
+      if (!one || !arg->isSet() || !one->getValue().empty() || mayBeEmpty_.count(name)) continue;
+      const bool hasPlace = dynamic_cast<const TCLAP::UnlabeledValueArg<std::string>*>(arg);
+      throw UsageError((hasPlace ? "" : "--") + name + ": must not be empty");
+    }
+  }
+
   /** Why a word is no option, with what may be meant by --ouptut, -output or --output=FILE. */
   std::string whyUnknown(const std::string& word)
   {
@@ -299,6 +318,7 @@ class CommandLine
 
   StrictOutput output_;
   TCLAP::CmdLine line_;
+  std::set<std::string> mayBeEmpty_;
   std::vector<std::pair<std::size_t, std::string>> groups_{
       {0, kGeneralGroup}
   };

@@ -91,14 +91,16 @@ void jobsCommand(int argc, char** argv)
       "quadmap-benchmark jobs --scenes home,office --seeds 1,2", "Lists the jobs of two scenes.");
   const auto list = [&](const char* name, const char* what, const char* standard)
   {
+    line.allowEmpty(name);
     return std::make_unique<TCLAP::ValueArg<std::string>>(
         "", name, what, false, standard, "A,B,...", line.args());
   };
   const auto scenes = list(
-      "scenes", "Scenes to map.",
+      "scenes", "Scenes to map; '' for none.",
       "home,office,robot-home,robot-home-four,cluttered-desk,corridor,lifelong,approach");
   const auto observed = list(
-      "observed", "Scenes whose single frames are measured (default: these, if mapped).",
+      "observed",
+      "Scenes whose single frames are measured; '' for none (default: these, if mapped).",
       "home,office,cluttered-desk");
   const auto recordings = list("recordings", "Real recordings, by the names of their folders.", "");
   const auto seeds = list("seeds", "Of the simulations.", "1,2,3,4,5");

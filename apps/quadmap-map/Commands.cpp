@@ -83,7 +83,6 @@ void relabelCommand(int argc, char** argv)
   Text label("", "label", "Its new label.", true, "", "LABEL", cli.line.args());
   TCLAP::SwitchArg anyLabel("", "any-label", kAnyLabelHelp, cli.line.args());
   if (!cli.parse(argc, argv)) return;
-  if (label.getValue().empty()) throw cli::UsageError("--label: must not be empty");
   CQuadricObjectMap map = readMap(cli.file.getValue());
   requireObject(map, id.getValue().value, cli.file.getValue());
   if (!anyLabel.getValue()) requireLabel(inventoryOf(map), label.getValue(), cli.file.getValue());

@@ -180,3 +180,21 @@ TEST_F(QuadmapImport, WrongUsageIsStatus2)
     EXPECT_EQ(out_.fileCount(), 0u);
   }
 }
+
+TEST_F(QuadmapImport, AnEmptyTextIsNotTakenForNone)
+{
+  const std::pair<const char*, const char*> cases[] = {
+      {"tum IN -o OUT/x.rawlog --detections ''", "--detections: must not be empty (see "},
+      {    "tum IN -o OUT/x.rawlog --camera ''",     "--camera: must not be empty (see "},
+      {                          "tum IN -o ''",     "--output: must not be empty (see "},
+      {                "tum '' -o OUT/x.rawlog",       "SOURCE: must not be empty (see "},
+  };
+  for (const auto& [arguments, what] : cases)
+  {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(what), kNotFound) << result.err;
+    EXPECT_EQ(out_.fileCount(), 0u);
+  }
+}

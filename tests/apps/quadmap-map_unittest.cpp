@@ -420,6 +420,8 @@ TEST_F(QuadmapMap, NamesTheWrongArgumentFirst)
       {      "query MAP --label",                                          "--label: a value is missing"},
       {"query MAP --id 1 --id 2",                                                 "--id: is given twice"},
       {    "info MAP DIR/second",                                     "second: is one argument too many"},
+      {                "info ''",                 "MAP: must not be empty (see quadmap-map info --help)"},
+      {   "query MAP --label ''",                                      "--label: must not be empty (see"},
       {   "query MAP frobnicate",                                       "(see quadmap-map query --help)"}
   };
   for (const auto& [arguments, complaint] : complaints)
