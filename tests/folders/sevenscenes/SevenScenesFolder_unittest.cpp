@@ -50,6 +50,24 @@ TEST_F(SevenScenes, IsReadAsDownloaded)
   EXPECT_EQ(sequence.posesCount(), 3u);
 }
 
+TEST_F(SevenScenes, TellsOfACameraThatIsNotRead)
+{
+  const auto notesOf = [&](const FrameFolderOptions& options)
+  {
+    const FrameFolder sequence = openFrameFolder("7scenes", folder(), options);
+    std::string notes;
+    for (const auto& note : sequence.notes()) notes += note + "\n";
+    return notes;
+  };
+  const std::string what = "camera-intrinsics.txt: is not read, ";
+  EXPECT_EQ(notesOf({}).find(what), std::string::npos);
+  files_.write("camera-intrinsics.txt", "585 0 320\n0 585 240\n0 0 1\n");
+  EXPECT_NE(notesOf({}).find(folder() + "/" + what), std::string::npos) << notesOf({});
+  FrameFolderOptions given;
+  given.camera = "kinect";
+  EXPECT_EQ(notesOf(given).find(what), std::string::npos);
+}
+
 TEST_F(SevenScenes, TakesTheDepthOfTheGivenCamera)
 {
   const auto camera =

@@ -68,6 +68,21 @@ void readPoses(FolderContent& content, const NumberedFiles& files)
       frame.T_world_optical = *frame.T_world_optical + (-content.camera.depth->T_color_depth);
   }
 }
+
+/** Collections such as 3DMatch have a matrix of the depth camera in the folder or above, which does
+ * not say where the colour camera is. */
+void noteUnreadCamera(FolderContent& content)
+{
+  for (const char* place : {"", ".."})
+  {
+    const fs::path file = fs::path(content.folder) / place / "camera-intrinsics.txt";
+    if (!fs::exists(file)) continue;
+    content.notes.push_back(
+        file.lexically_normal().string() +
+        ": is not read, as the camera is that of 7-Scenes; --camera FILE.ini gives another");
+    return;
+  }
+}
 }  // namespace
 
 bool isSevenScenesFolder(const std::string& folder)
@@ -82,6 +97,8 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
   FolderContent content;
   content.folder = folder;
   content.camera = cameraOfFolder(folder, options, "7scenes", kSevenScenesDepthFactor);
+  if (options.camera.empty() && !fs::exists(fs::path(folder) / "calibration.yaml"))
+    noteUnreadCamera(content);
   // A calibration.yaml and the cameras known by name have the factor of registered images.
   if (fs::path(options.camera).extension() != ".ini")
     content.camera.depthFactor = kSevenScenesDepthFactor;
