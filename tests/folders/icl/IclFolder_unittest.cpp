@@ -127,6 +127,19 @@ TEST_F(IclFolder, TakesOneImageOfEachNumber)
   EXPECT_EQ(room.frames().size(), 4u);
 }
 
+TEST_F(IclFolder, LeavesOutNumbersThatAreTooLarge)
+{
+  std::filesystem::remove(files_.path("associations.txt"));
+  for (const char* name : {"rgb/18446744073709551615.png", "depth/18446744073709551615.png"})
+    files_.write(name, "");
+  const FrameFolder room = openFrameFolder("icl", folder());
+  ASSERT_EQ(room.listProblems().size(), 1u);
+  EXPECT_EQ(
+      room.listProblems()[0],
+      files_.path("rgb/18446744073709551615.png") + ": its number is too large");
+  EXPECT_EQ(room.frames().size(), 4u);
+}
+
 TEST_F(IclFolder, TurnsItsWorldsYUp)
 {
   const FrameFolder room = openFrameFolder("icl", folder());

@@ -411,6 +411,10 @@ TEST(TumFolder, ReadsTheOtherLinesOfItsLists)
   recording.files.write(
       "associations.txt", SampleRecording::line(0, 1) + "nonsense\n" + SampleRecording::line(1, 2));
   expect("associations.txt", ":2: expected 4 columns, got 1");
+  recording.files.write(
+      "associations.txt",
+      SampleRecording::line(0, 1) + SampleRecording::line(1, 2) + std::string(100, '\0'));
+  expect("associations.txt", ":3: is no text (UTF-16?)");
   std::filesystem::remove(recording.files.path("associations.txt"));
   const std::string colors = "1 rgb/f0.png\n2 rgb/f1.png\n",
                     depths = "1 depth/f0.png\n2 depth/f1.png\n";

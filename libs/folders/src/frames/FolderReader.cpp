@@ -104,6 +104,14 @@ void takePoses(FolderContent& content, const std::string& file, double maxGap)
   }
 }
 
+void requireFrames(const FolderContent& content, const std::string& without)
+{
+  if (content.frames.empty())
+    throw std::runtime_error(
+        content.listProblems.empty() ? content.folder + ": " + without
+                                     : content.listProblems.front());
+}
+
 void framesByName(
     FolderContent& content,
     const std::string& colorFolder,
@@ -117,7 +125,10 @@ void framesByName(
     if (const auto depth = depths.find(number); depth != depths.end())
     {
       if (static_cast<double>(number) > kLatestTime * rate)
-        throw std::runtime_error(color + ": its number is too large");
+      {
+        content.listProblems.push_back(color + ": its number is too large");
+        continue;
+      }
       content.frames.push_back(
           {static_cast<double>(number) / rate,
            color,
@@ -125,10 +136,8 @@ void framesByName(
            colorFolder + "/" + fs::path(color).filename().string(),
            {}});
     }
-  if (content.frames.empty())
-    throw std::runtime_error(
-        content.folder + ": has no images of equal numbers in " + colorFolder + "/ and " +
-        depthFolder + "/");
+  requireFrames(
+      content, "has no images of equal numbers in " + colorFolder + "/ and " + depthFolder + "/");
   addUnpaired(content, colors, depths);
   content.pairing = "of equal numbers";
 }

@@ -40,6 +40,10 @@ void takeDepthAsRegistered(FolderContent& content);
  * be used, be it the file or lines of it, becomes the content's posesProblems, as the rest can. */
 void takePoses(FolderContent& content, const std::string& file, double maxGap);
 
+/** \param without What is to be said of a folder without frames.
+ * \exception std::runtime_error If there is none; says so, or why the first could not be used. */
+void requireFrames(const FolderContent& content, const std::string& without);
+
 /** Adds the frames of two folders inside the recording, which have images of equal names, such as
  * rgb/7.png and depth/7.png. The number at the end of the name gives order and time.
  * \param rate Images per second.

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "frames/FolderReader.h"
@@ -114,9 +113,7 @@ FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolder
            depth->second,
            fs::path(color).filename().string(),
            {}});
-  if (content.frames.empty())
-    throw std::runtime_error(
-        folder + ": has no pair of frame-*.color.png (or .jpg) and frame-*.depth.png");
+  requireFrames(content, "has no pair of frame-*.color.png (or .jpg) and frame-*.depth.png");
   addUnpaired(content, colors, depths);
   content.pairing = "of equal numbers";
   if (const auto poses = filesOf(folder, {".pose.txt"}, content.posesProblems); !poses.empty())

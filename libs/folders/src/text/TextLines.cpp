@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "quadmap/base/InputFile.h"
+#include "quadmap/obs/UnusableLines.h"
 
 namespace quadmap
 {
@@ -19,7 +20,7 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 24;
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 }  // namespace
 
-std::vector<TextLine> readTextLines(const std::string& path)
+std::vector<TextLine> readTextLines(const std::string& path, std::vector<std::string>* unusable)
 {
   auto file = openModestText(path, kMostBytes);
   std::vector<TextLine> lines;
@@ -28,10 +29,15 @@ std::vector<TextLine> readTextLines(const std::string& path)
   {
     if (++number == 1 && text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
       text.erase(0, kByteOrderMark.size());
-    if (text.find('\0') != std::string::npos)
-      throw std::runtime_error(path + ":" + std::to_string(number) + ": is no text (UTF-16?)");
-    std::istringstream words(text.substr(0, text.find('#')));
     TextLine line{path + ":" + std::to_string(number), {}};
+    if (text.find('\0') != std::string::npos)
+    {
+      const std::string why = line.place + ": is no text (UTF-16?)";
+      if (!unusable) throw std::runtime_error(why);
+      noteUnusable(*unusable, path, why);
+      continue;
+    }
+    std::istringstream words(text.substr(0, text.find('#')));
     for (std::string word; words >> word;) line.words.push_back(word);
     if (!line.words.empty()) lines.push_back(std::move(line));
   }

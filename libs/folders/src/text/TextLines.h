@@ -16,9 +16,11 @@ struct TextLine
 };
 
 /** All lines of a file that are neither empty nor comments, which begin with '#'.
+ * \param unusable Receives why lines are left out that are no text; null: that is an error.
  * \exception std::runtime_error If the file cannot be read, or has more than 16 MB: three hours of
  * images at 30 Hz. */
-std::vector<TextLine> readTextLines(const std::string& path);
+std::vector<TextLine> readTextLines(
+    const std::string& path, std::vector<std::string>* unusable = nullptr);
 
 /** \exception std::runtime_error If the line has another number of columns. */
 void requireColumns(const TextLine& line, std::size_t columns);

@@ -54,7 +54,7 @@ std::vector<Item> readList(
   std::vector<Item> items;
   std::map<fs::path, std::string> lines;  // of the images
   std::vector<std::string> unusable;
-  for (const auto& line : readTextLines(path)) try
+  for (const auto& line : readTextLines(path, &unusable)) try
     {
       Item item = itemOf(line);
       const auto [first, isNew] = lines.emplace(
@@ -170,10 +170,7 @@ void readTumFrames(FolderContent& content, double maxDelay)
   else
     throw std::runtime_error(
         content.folder + ": has neither associations.txt nor rgb.txt and depth.txt");
-  if (frames.empty())
-    throw std::runtime_error(
-        content.listProblems.empty() ? content.folder + ": lists no colour image with a depth image"
-                                     : content.listProblems.front());
+  requireFrames(content, "lists no colour image with a depth image");
   for (auto& frame : frames)
   {
     frame.color = in(frame.color);
