@@ -113,6 +113,33 @@ TEST(Contradictions, AreClaimedOnceAndOnlyUntilTheNextEstimate)
   EXPECT_LT((onlyObject(map).covariance - before.covariance).norm(), 1e-6);
 }
 
+TEST(Conclusion, LetsGoOfBadMeasurementsUntilTheNextOne)
+{
+  SyntheticCamera camera(4);
+  CQuadricObjectMap map;
+  const TrueObject cabinet = cuboid("suitcase", {0, 0, 0.28}, {0.78, 0.43, 0.56}, 0.3);
+  TrueObject low = cabinet;  // as when it is taken to stand on something below
+  low.object =
+      Ellipsoid(mrpt::poses::CPose3D(0, 0, 0.23, 0.3, 0, 0), Eigen::Vector3d(0.39, 0.215, 0.33));
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto T_map_sensor = poseAround(i, 40, {0, 0, 0.5}, 2.5, 1.5);
+    map.insertObservation(camera.observe(T_map_sensor, {i % 5 == 0 ? low : cabinet}), T_map_sensor);
+  }
+  map.consolidate();
+  const MapObject before = onlyObject(map);
+  ASSERT_TRUE(before.confirmed);
+  map.conclude();
+  const auto errorOfHeight = [](const MapObject& object)
+  { return std::abs(2 * object.object.semiAxes().z() - 0.56); };
+  EXPECT_LT(errorOfHeight(onlyObject(map)), 0.8 * errorOfHeight(before));
+  EXPECT_TRUE(onlyObject(map).confirmed);
+
+  const auto T_map_sensor = poseAround(0, 40, {0, 0, 0.5}, 2.5, 1.5);
+  map.insertObservation(camera.observe(T_map_sensor, {cabinet}), T_map_sensor);
+  EXPECT_NEAR(errorOfHeight(onlyObject(map)), errorOfHeight(before), 0.003) << "all is open again";
+}
+
 TEST(SharedError, AMapWithANegativeVarianceIsNotRead)
 {
   SyntheticCamera camera(3);

@@ -110,6 +110,7 @@ void CQuadricObjectMap::conclude()
     object.doubts = object.estimator.contradictions(at, label, insertionOptions.estimator) +
                     object.estimator.openEnds(at, label, insertionOptions.estimator);
     object.covariance += object.doubts;
+    object.estimatedFrom = 0;  // one more observation, and all is open again
   }
 }
 

@@ -173,7 +173,8 @@ ObjectEstimator::Estimate ObjectEstimator::estimate(
   // With a prior the medians of the measurements are not a consensus of all.
   const UprightState reference = medians && prior_.empty() ? *medians : start.value_or(*medians);
   const UprightState from = start.value_or(reference);
-  const auto other = restart && start ? medians : std::nullopt;
+  // Where rows may let go, there are many minima: the search goes on from where it was.
+  const auto other = restart && start && !posesAreFinal_ ? medians : std::nullopt;
 
   double complete = prior_.complete, defined = prior_.yawDefined;
   for (const auto& v : views_)
@@ -243,6 +244,7 @@ void ObjectEstimator::absorb(
     const EstimatorOptions& options)
 {
   views_.insert(views_.begin(), other.views_.begin(), other.views_.end());
+  posesAreFinal_ = posesAreFinal_ && other.posesAreFinal_;
   limitViews(options);
   const AxisRenaming r = axisRenaming(there, here);
   const UprightCovariance L = r.matrix(other.prior_.L);

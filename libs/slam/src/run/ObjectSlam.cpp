@@ -172,6 +172,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bo
   warnOfOpenLoop();
   warnOfThingsNotFoundAgain();
   if (earlier) continueFrom(*earlier);
+  const auto scope = times_.measure("consolidation");
   result_.map.conclude();
 }
 

@@ -24,7 +24,8 @@ class RobustKernel
   }
   /** Huber's kernel, doc/mathematics.md, (11.12): a straight line beyond the threshold h > 0. */
   static constexpr RobustKernel huber(double h) { return {Kind::Huber, h}; }
-  /** Cauchy's kernel, as in doc/mathematics.md, (19.8): the pull fades with the distance; h > 0. */
+  /** Cauchy's kernel, as in doc/mathematics.md, (11.28) and (19.8): the pull fades with the
+   * distance; h > 0. */
   static constexpr RobustKernel cauchy(double h) { return {Kind::Cauchy, h}; }
   /** Geman and McClure's kernel for r > 0, doc/mathematics.md, (11.13), and no cost at all for
    * r <= 0: of an inequality r <= 0 that is wrong altogether now and then. However far it is off,

@@ -44,7 +44,7 @@ class ObjectEstimator
   void add(ObjectView view, const EstimatorOptions& options);
 
   /** The most probable state. \param start First guess, also tried from the measurements' medians
-   *  when `restart` is set; without one the medians are used.
+   *  when `restart` is set, unless the poses are final; without one the medians are used.
    *  \exception std::logic_error If there is neither a start nor a measurement. */
   Estimate estimate(
       const std::optional<UprightState>& start,
