@@ -127,6 +127,18 @@ TEST_F(IclFolder, TakesOneImageOfEachNumber)
   EXPECT_EQ(room.frames().size(), 4u);
 }
 
+TEST_F(IclFolder, PassesOverTheCompanionFilesOfMacOs)
+{
+  std::filesystem::remove(files_.path("associations.txt"));
+  for (const char* name : {"rgb/._1.png", "depth/._1.png", "rgb/._9.png", "._x.gt.freiburg"})
+    files_.write(name, "Mac OS X");
+  const FrameFolder room = openFrameFolder("icl", folder());
+  EXPECT_TRUE(room.listProblems().empty());
+  ASSERT_EQ(room.frames().size(), 4u);
+  EXPECT_EQ(room.frames()[1].color, files_.path("rgb/1.png"));
+  EXPECT_EQ(room.unpaired(), 0u);
+}
+
 TEST_F(IclFolder, LeavesOutNumbersThatAreTooLarge)
 {
   std::filesystem::remove(files_.path("associations.txt"));

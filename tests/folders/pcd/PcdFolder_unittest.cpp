@@ -198,6 +198,7 @@ TEST_F(PcdFolder, OrdersCloudsByTimeOrNumber)
   EXPECT_EQ(order(), "c9.pcd c10.pcd ");
   for (const char* name : {"c10.pcd", "c9.pcd"}) std::filesystem::remove(files_.path(name));
   for (const char* name : {"10.5.pcd", "9.75.pcd"}) write(name, "binary");
+  files_.write("._9.75.pcd", "Mac OS X");
   EXPECT_EQ(order(), "9.75.pcd 10.5.pcd ");
   write("1.0e300.pcd", "binary");
   EXPECT_NE(errorOf(order).find("1.0e300.pcd: the time in its name"), std::string::npos);

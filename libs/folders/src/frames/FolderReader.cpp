@@ -86,7 +86,10 @@ void takeDepthAsRegistered(FolderContent& content)
 
 std::set<fs::path> filesIn(const fs::path& folder)
 {
-  return {fs::directory_iterator(folder), fs::directory_iterator()};
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string().front() != '.') files.insert(entry.path());
+  return files;
 }
 
 void takePoses(FolderContent& content, const std::string& file, double maxGap)

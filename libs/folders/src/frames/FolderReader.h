@@ -54,7 +54,8 @@ void framesByName(
     const std::string& depthFolder,
     double rate);
 
-/** The files of a folder in the order of their names. */
+/** The files of a folder in the order of their names, without hidden ones: macOS puts a "._1.png"
+ * beside each 1.png on foreign disks, which is no image. */
 std::set<std::filesystem::path> filesIn(const std::filesystem::path& folder);
 
 /** Adds a file by its number, unless another one has it: then it becomes one of the problems. */

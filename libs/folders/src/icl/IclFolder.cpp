@@ -1,6 +1,5 @@
 #include "icl/IclFolder.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <vector>
@@ -22,13 +21,12 @@ std::vector<std::string> trajectoriesIn(const std::string& folder)
 {
   const std::string end = ".gt.freiburg";
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& file : filesIn(folder))
   {
-    const std::string name = entry.path().filename().string();
+    const std::string name = file.filename().string();
     if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
-      files.push_back(entry.path().string());
+      files.push_back(file.string());
   }
-  std::sort(files.begin(), files.end());
   return files;
 }
 

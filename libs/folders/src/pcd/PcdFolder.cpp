@@ -186,8 +186,8 @@ double orderOf(const fs::path& file)
 std::vector<FolderFrame> framesIn(const std::string& folder)
 {
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".pcd") files.push_back(entry.path().string());
+  for (const auto& file : filesIn(folder))
+    if (file.extension() == ".pcd") files.push_back(file.string());
   std::sort(
       files.begin(), files.end(),
       [](const std::string& a, const std::string& b)
