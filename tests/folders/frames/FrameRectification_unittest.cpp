@@ -1,6 +1,7 @@
 #include "frames/FrameRectification.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/format.h>
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -127,12 +128,37 @@ TEST(FrameRectification, RefusesLensesThatCannotBeUndone)
   EXPECT_EQ(why(-0.28, 0.07, 1e-4, 0), "") << "a wide lens";
   EXPECT_EQ(why(-0.3, 0.1, 1e-4, -0.01), "");
   EXPECT_EQ(why(0.1, 0.05, 0.01, 0), "");
-  // r (1 - 5 r^2) grows up to r^2 = 1/15, which is 103 px.
+  // r (1 - 5 r^2) grows up to r^2 = 1/15, where it is 0.172, which is 69 px.
   const std::string folds = why(-5, 0, 0, 0);
-  EXPECT_EQ(folds.find("the lens (k1=-5 k2=0 p1=0 p2=0 k3=0) folds the image 10"), 0u) << folds;
+  EXPECT_EQ(folds, "the lens (k1=-5 k2=0 p1=0 p2=0 k3=0) folds the image 69 px from its centre");
+  EXPECT_NE(why(-1e6, 0, 0, 0).find("folds the image 0 px"), std::string::npos);
   EXPECT_NE(why(0, 0, 0, -0.5).find("folds the image "), std::string::npos);
   EXPECT_NE(why(5, 0, 0, 0).find("bends the image too much "), std::string::npos);
   EXPECT_NE(why(0, 0, 2, 0).find("bends the image too much "), std::string::npos);
+}
+
+TEST(FrameRectification, FindsTheFoldWhereTheImageHasIt)
+{
+  FolderCamera camera;
+  auto& c = camera.color;
+  c.ncols = 640;
+  c.nrows = 480;
+  c.setIntrinsicParamsFromValues(486, 486, 319.5, 239.5);
+  c.setDistortionPlumbBob(-0.268, 0.0237, 0, 0, 0);
+  const auto seen = [&](double r) { return seenAt({c.cx() + r, c.cy()}, c).x - c.cx(); };  // [px]
+  double fold = 0;  // what the lens shows farthest out, without the lens [px]
+  while (fold < 1000 && seen(fold + 1) > seen(fold)) ++fold;
+  ASSERT_LT(seen(fold), 399) << "the distance of the corners";
+  const std::string why = whyNotRectifiable(camera).value_or("");
+  const std::string what = mrpt::format(" folds the image %.0f px from its centre", seen(fold));
+  EXPECT_NE(why.find(what), std::string::npos) << why << what;
+  // The corners are of points at 45 degrees; the lens folds what is at 48 degrees, out of sight.
+  c.setIntrinsicParamsFromValues(355, 355, 319.5, 239.5);
+  c.setDistortionPlumbBob(0.188, 0.129, 0, 0, -0.195);
+  EXPECT_EQ(whyNotRectifiable(camera), std::nullopt);
+  // This one would show in the corners of the rectified image what it has beside them already.
+  c.setDistortionPlumbBob(0.4, 0, 0, 0, -0.26);
+  EXPECT_NE(whyNotRectifiable(camera).value_or("").find(" folds the image "), std::string::npos);
 }
 
 TEST(FrameRectification, LeavesEdgesAtTheBorderThere)

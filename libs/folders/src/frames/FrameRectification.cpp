@@ -86,16 +86,24 @@ std::vector<Eigen::Vector2d> borderOf(const mrpt::img::TCamera& camera)
   return border;
 }
 
-/** The distance from the axis at depth 1, up to `farthest`, where the lens no longer takes a point
- * that is farther out to one that is farther out; nothing when it does everywhere. */
+/** The distance from the axis at depth 1, as the lens bends it, where the image folds: from there
+ * on the lens takes points that are farther out to ones that are less far. Nothing when it does so
+ * only with points that neither the image nor the rectified one shows, both of which go `farthest`
+ * out. It follows (24.2) outwards from the axis, without p1 and p2. */
 std::optional<double> foldOf(const mrpt::img::TCamera& camera, double farthest)
 {
-  constexpr int kSteps = 200;
+  constexpr double kFarthestPoint = 10;  // a share of `farthest`; who bends more is found otherwise
+  constexpr int kSteps = 2000;
   const double k1 = camera.dist[0], k2 = camera.dist[1], k3 = camera.dist[4];
+  bool isOutside = false;  // of the image
   for (int i = 1; i <= kSteps; ++i)
   {
-    const double r = farthest * i / kSteps, r2 = r * r;
-    if (!(1 + r2 * (3 * k1 + r2 * (5 * k2 + r2 * 7 * k3)) > 0)) return r;  // d/dr of what r becomes
+    const double r = kFarthestPoint * farthest * i / kSteps, r2 = r * r;
+    const double seen = r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3)));
+    const double slope = 1 + r2 * (3 * k1 + r2 * (5 * k2 + r2 * 7 * k3));  // of `seen` over r
+    isOutside = isOutside || seen >= farthest;
+    if (seen < farthest && (isOutside || !(slope > 0))) return std::max(0.0, seen);
+    if (isOutside && r > farthest) return std::nullopt;
   }
   return std::nullopt;
 }
