@@ -202,6 +202,15 @@ TEST(FolderCheck, FindsPosesThatCannotBeRead)
   expectOnly(check(recording), "pose", "groundtruth.txt:1");
   recording.files.write("groundtruth.txt", "100.1 0 0\n");
   expectOnly(check(recording), "pose", "groundtruth.txt:1");
+  std::string nonsense;
+  for (int i = 0; i < 1001; ++i) nonsense += "nonsense\n";
+  recording.files.write("groundtruth.txt", nonsense + good);
+  expectOnly(check(recording), "pose", "groundtruth.txt: more than 1000");
+  recording.files.write("groundtruth.txt", "nonsense\n1 0 0 0 0 0 0 1\n");
+  const auto ofAnotherTime = check(recording);
+  EXPECT_EQ(ofAnotherTime.count("pose"), 1u);
+  ASSERT_EQ(ofAnotherTime.count("no pose"), 1u);
+  EXPECT_EQ(ofAnotherTime.at("no pose").size(), 6u);
   const auto last = good.rfind("100.5");
   recording.files.write(
       "groundtruth.txt", "100.1 0 0\n" + good.substr(0, last) + SampleRecording::pose(5, 9));

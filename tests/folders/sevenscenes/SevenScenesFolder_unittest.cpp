@@ -7,6 +7,7 @@
 
 #include "../../obs/TemporaryFolder.h"
 #include "../../obs/TestData.h"
+#include "quadmap/folders/FolderCheck.h"
 #include "quadmap/folders/FolderKinds.h"
 
 using namespace quadmap;
@@ -104,6 +105,17 @@ TEST_F(SevenScenes, TakesOneFileOfEachNumber)
   ASSERT_EQ(sequence.posesProblems().size(), 1u);
   EXPECT_EQ(sequence.posesCount(), 3u);
   EXPECT_TRUE(sequence.scan(1));
+}
+
+TEST_F(SevenScenes, ChecksThePosesBesideADoubledOne)
+{
+  for (const char* name :
+       {"frame-000000.pose.txt", "frame-000001.pose.txt", "frame-000003.pose.txt",
+        "frame-3.pose.txt"})
+    files_.write(name, "nonsense\n");
+  const auto problems = checkFolder(openFrameFolder("7scenes", folder()), {}, [](double) {});
+  ASSERT_EQ(problems.count("pose"), 1u);
+  EXPECT_EQ(problems.at("pose").size(), 4u) << "three that are none, and the doubled one";
 }
 
 TEST_F(SevenScenes, CountsWhatIsMissing)

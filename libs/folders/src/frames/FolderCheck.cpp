@@ -176,8 +176,7 @@ std::vector<Motion> motionsOf(const FrameFolder& folder, FolderProblems& problem
 void checkMotion(
     const FrameFolder& folder, const FolderCheckOptions& options, FolderProblems& problems)
 {
-  if (folder.poses().empty()) return;
-  if (folder.posesCount() == 0 && !folder.posesProblems().empty()) return;  // which say why
+  if (folder.poses().empty() || folder.posesAreRefused()) return;
   const auto motions = motionsOf(folder, problems);
   std::vector<double> speeds, turnRates;
   for (const auto& m : motions)

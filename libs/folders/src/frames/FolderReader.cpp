@@ -98,12 +98,14 @@ void takePoses(FolderContent& content, const std::string& file, double maxGap)
   try
   {
     const Trajectory trajectory = readTrajectoryInOrder(file, content.posesProblems);
+    content.posesAreRefused = trajectory.empty() && !content.posesProblems.empty();
     for (auto& frame : content.frames)
       frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
   }
   catch (const std::exception& e)
   {
     content.posesProblems = {e.what()};
+    content.posesAreRefused = true;
   }
 }
 

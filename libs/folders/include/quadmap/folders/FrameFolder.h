@@ -38,6 +38,8 @@ struct FolderContent
   std::string poses;  //!< Where poses are from, such as "groundtruth.txt"; may be ""
   /** Why a file with all poses, or lines of it, cannot be used; each names the file. */
   std::vector<std::string> posesProblems;
+  /** Whether there is such a file, and no pose in it can be used. */
+  bool posesAreRefused = false;
   /** Why images that are listed or numbered cannot be used, and are no frames; each names the file.
    */
   std::vector<std::string> listProblems;
@@ -104,6 +106,8 @@ class FrameFolder
   const std::string& poses() const { return content_.poses; }  //!< Where they are from
   /** Why the file that has the poses, or lines of it, cannot be used; each names the file. */
   const std::vector<std::string>& posesProblems() const { return content_.posesProblems; }
+  /** Whether that is why no frame has a pose. */
+  bool posesAreRefused() const { return content_.posesAreRefused; }
   /** Why images that are listed or numbered cannot be used; each names the file. */
   const std::vector<std::string>& listProblems() const { return content_.listProblems; }
   bool hasDetections() const { return boxes_ != nullptr; }
