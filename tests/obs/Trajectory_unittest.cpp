@@ -110,7 +110,7 @@ TEST(ReadTrajectoryInOrder, RefusesAFileOfWrongLines)
   std::vector<std::string> unusable;
   EXPECT_EQ(
       errorOf([&] { readTrajectoryInOrder(path, unusable); }),
-      path + ": more than 1000 lines cannot be used, such as " + path +
+      path + ": more than 1000 entries cannot be used, such as " + path +
           ":1: expected 8 columns, got 1");
 }
 

@@ -152,6 +152,22 @@ TEST_F(IclFolder, LeavesOutNumbersThatAreTooLarge)
   EXPECT_EQ(room.frames().size(), 4u);
 }
 
+TEST_F(IclFolder, RefusesFoldersWithTooManyImagesThatCannotBeUsed)
+{
+  std::filesystem::remove(files_.path("associations.txt"));
+  const auto spoil = [&](const char* name, const char* what)
+  {
+    for (int i = 0; i < 1001; ++i)
+      for (const char* sub : {"rgb", "depth"})
+        files_.write(mrpt::format("%s/%s", sub, mrpt::format(name, i).c_str()), "");
+    const auto error = errorOf([&] { openFrameFolder("icl", folder()); });
+    EXPECT_NE(error.find(": more than 1000 entries cannot be used, such as "), std::string::npos);
+    EXPECT_NE(error.find(what), std::string::npos) << error;
+  };
+  spoil("99999999999%05d.png", ": its number is too large");
+  spoil("%05dx_1.png", ": has the same number as ");
+}
+
 TEST_F(IclFolder, TurnsItsWorldsYUp)
 {
   const FrameFolder room = openFrameFolder("icl", folder());

@@ -317,7 +317,7 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
   for (int i = 0; i < 1001; ++i) nonsense += "nonsense\n";
   expect(
       "associations.txt", nonsense.c_str(),
-      "associations.txt: more than 1000 lines cannot be used, such as ");
+      "associations.txt: more than 1000 entries cannot be used, such as ");
   expect(
       "associations.txt", "100 rgb/f0.png 0.1 depth/f0.png\n",
       "associations.txt:1: the times of the two images are 99.9 s apart");
@@ -468,6 +468,18 @@ TEST(TumFolder, RejectsBadImages)
         std::filesystem::create_directory(r.files.path("rgb/f1.png"));
       },
       "rgb/f1.png: is no file");
+}
+
+TEST(TumFolder, RefusesTooManyImagesThatCannotBeFollowed)
+{
+  const SampleRecording recording;
+  std::filesystem::create_symlink("circle", recording.files.path("circle"));
+  std::string lines = SampleRecording::line(0, 1);
+  for (int i = 0; i < 1001; ++i) lines += mrpt::format("2 circle/%d.png 2 depth/%d.png\n", i, i);
+  recording.files.write("associations.txt", lines);
+  expectInOneLine(
+      errorOfOpening(recording),
+      recording.folder() + ": more than 1000 entries cannot be used, such as ");
 }
 
 TEST(TumFolder, LeavesOutImagesThatCannotBeFollowed)

@@ -11,6 +11,7 @@
 #include "pcd/PcdFolder.h"
 #include "quadmap/base/InsideFolder.h"
 #include "quadmap/obs/Plausible.h"
+#include "quadmap/obs/UnusableLines.h"
 #include "scannet/ScanNetFolder.h"
 #include "sevenscenes/SevenScenesFolder.h"
 #include "tum/TumFiles.h"
@@ -53,9 +54,9 @@ std::optional<std::string> imageOutside(const FolderFrame& frame, const std::str
 }
 
 /** A folder may come from somebody else, and its images go into a rawlog, which is passed on.
- * Images that cannot be followed, who knows where to, become problems of the list. \exception
- * std::runtime_error If an image is, or lies behind, a link out of the folder, or if no frame is
- * left. */
+ * An image whose links cannot be followed becomes a problem of the list.
+ * \exception std::runtime_error If an image is, or lies behind, a link out of the folder, if too
+ * many links cannot be followed, or if no frame is left. */
 void keepOwnImages(FolderContent& content, const FrameFolderOptions& options)
 {
   if (options.imagesAnywhere) return;
@@ -69,7 +70,7 @@ void keepOwnImages(FolderContent& content, const FrameFolderOptions& options)
     }
     catch (const std::runtime_error& e)
     {
-      content.listProblems.push_back(e.what() + (" (" + frame.listed + ")"));
+      noteUnusable(content.listProblems, content.folder, e.what() + (" (" + frame.listed + ")"));
       continue;
     }
     if (outside)

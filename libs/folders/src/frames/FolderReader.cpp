@@ -131,7 +131,7 @@ void framesByName(
     {
       if (static_cast<double>(number) > kLatestTime * rate)
       {
-        content.listProblems.push_back(color + ": its number is too large");
+        noteUnusable(content.listProblems, content.folder, color + ": its number is too large");
         continue;
       }
       content.frames.push_back(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "quadmap/folders/FrameFolder.h"
+#include "quadmap/obs/UnusableLines.h"
 
 namespace quadmap
 {
@@ -47,7 +48,7 @@ void requireFrames(const FolderContent& content, const std::string& without);
 /** Adds the frames of two folders inside the recording, which have images of equal names, such as
  * rgb/7.png and depth/7.png. The number at the end of the name gives order and time.
  * \param rate Images per second.
- * \exception std::runtime_error If there is none. */
+ * \exception std::runtime_error If there is none, or if too many images cannot be used. */
 void framesByName(
     FolderContent& content,
     const std::string& colorFolder,
@@ -58,7 +59,8 @@ void framesByName(
  * beside each 1.png on foreign disks, which is no image. */
 std::set<std::filesystem::path> filesIn(const std::filesystem::path& folder);
 
-/** Adds a file by its number, unless another one has it: then it becomes one of the problems. */
+/** Adds a file by its number, unless another one has it: then it becomes one of the problems.
+ * \exception std::runtime_error If these are too many. */
 template <typename Number>
 void addNumbered(
     std::map<Number, std::string>& files,
@@ -68,9 +70,10 @@ void addNumbered(
 {
   const auto [place, isNew] = files.emplace(number, file.string());
   if (!isNew)
-    problems.push_back(
+    noteUnusable(
+        problems, file.parent_path().string(),
         file.string() + ": has the same number as " +
-        std::filesystem::path(place->second).filename().string());
+            std::filesystem::path(place->second).filename().string());
 }
 
 /** Adds the images of two folders that have no partner of the same number. */

@@ -1,5 +1,6 @@
 #include "sevenscenes/SevenScenesFolder.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -35,6 +36,14 @@ std::optional<int> numberOf(const fs::path& file, const std::string& end)
   return number;
 }
 
+/** The number of a file whose name ends like one of these. */
+std::optional<int> numberOf(const fs::path& file, const std::vector<std::string>& ends)
+{
+  for (const auto& end : ends)
+    if (const auto number = numberOf(file, end)) return number;
+  return std::nullopt;
+}
+
 /** The files of a folder by their numbers. */
 using NumberedFiles = std::map<int, std::string>;
 
@@ -46,8 +55,7 @@ NumberedFiles filesOf(
 {
   NumberedFiles files;
   for (const auto& file : filesIn(folder))
-    for (const auto& end : ends)
-      if (const auto number = numberOf(file, end)) addNumbered(files, *number, file, problems);
+    if (const auto number = numberOf(file, ends)) addNumbered(files, *number, file, problems);
   return files;
 }
 
@@ -86,9 +94,13 @@ void noteUnreadCamera(FolderContent& content)
 
 bool isSevenScenesFolder(const std::string& folder)
 {
-  std::vector<std::string> ignored;
-  return !filesOf(folder, kColorEnds, ignored).empty() &&
-         !filesOf(folder, kDepthEnds, ignored).empty();
+  const auto files = filesIn(folder);
+  const auto has = [&](const std::vector<std::string>& ends)
+  {
+    return std::any_of(
+        files.begin(), files.end(), [&](const fs::path& file) { return numberOf(file, ends); });
+  };
+  return has(kColorEnds) && has(kDepthEnds);
 }
 
 FolderContent readSevenScenesFolder(const std::string& folder, const FrameFolderOptions& options)
