@@ -6,6 +6,7 @@
 #include <mrpt/system/string_utils.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -283,12 +284,23 @@ class CommandLine
   {
     for (TCLAP::Arg* arg : line_.getArgList())
     {
-      auto* one = dynamic_cast<TCLAP::ValueArg<std::string>*>(arg);
       const std::string& name = arg->getName();
-      if (!one || !arg->isSet() || !one->getValue().empty() || mayBeEmpty_.count(name)) continue;
-      const bool hasPlace = dynamic_cast<const TCLAP::UnlabeledValueArg<std::string>*>(arg);
+      if (!arg->isSet() || !hasEmptyText(arg) || mayBeEmpty_.count(name)) continue;
+      const bool hasPlace = dynamic_cast<const TCLAP::UnlabeledValueArg<std::string>*>(arg) ||
+                            dynamic_cast<const TCLAP::UnlabeledMultiArg<std::string>*>(arg);
       throw UsageError((hasPlace ? "" : "--") + name + ": must not be empty");
     }
+  }
+
+  /** Whether the value of an argument, or one of its values, is an empty text. */
+  static bool hasEmptyText(TCLAP::Arg* arg)
+  {
+    if (auto* one = dynamic_cast<TCLAP::ValueArg<std::string>*>(arg))
+      return one->getValue().empty();
+    auto* several = dynamic_cast<TCLAP::MultiArg<std::string>*>(arg);
+    if (!several) return false;
+    const auto& values = several->getValue();
+    return std::find(values.begin(), values.end(), "") != values.end();
   }
 
   /** Why a word is no option, with what may be meant by --ouptut, -output or --output=FILE. */

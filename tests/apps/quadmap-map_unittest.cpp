@@ -422,6 +422,9 @@ TEST_F(QuadmapMap, NamesTheWrongArgumentFirst)
       {    "info MAP DIR/second",                                     "second: is one argument too many"},
       {                "info ''",                 "MAP: must not be empty (see quadmap-map info --help)"},
       {   "query MAP --label ''",                                      "--label: must not be empty (see"},
+      {           "query MAP ''",                                     "QUESTION: must not be empty (see"},
+      {    "query MAP chairs ''",                                     "QUESTION: must not be empty (see"},
+      {  "merge MAP '' -o DIR/x",                                        "OTHER: must not be empty (see"},
       {   "query MAP frobnicate",                                       "(see quadmap-map query --help)"}
   };
   for (const auto& [arguments, complaint] : complaints)
