@@ -346,6 +346,10 @@ TEST(TumFolder, TakesAnImageThatIsListedTwiceOnce)
       "associations.txt", SampleRecording::line(0, 1) + SampleRecording::line(1, 2) +
                               "3 ./rgb/f0.png 3 depth/f2.png\n");
   expect("associations.txt:3: ./rgb/f0.png stands in line 1 as well");
+  write(
+      "associations.txt", SampleRecording::line(0, 1) + "2 rgb/f1.png 2 ./depth/f0.png\n" +
+                              SampleRecording::line(1, 2));
+  expect("associations.txt:2: ./depth/f0.png stands in line 1 as well");
   std::filesystem::remove(recording.files.path("associations.txt"));
   const std::string colors = "1 rgb/f0.png\n2 rgb/f1.png\n",
                     depths = "1 depth/f0.png\n2 depth/f1.png\n";

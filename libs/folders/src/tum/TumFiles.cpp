@@ -42,8 +42,8 @@ std::string fileIn(const TextLine& line, std::size_t column)
   return line.words[column];
 }
 
-std::string imageOf(const ListedImage& image) { return image.file; }
-std::string imageOf(const FolderFrame& frame) { return frame.color; }
+std::vector<std::string> imagesOf(const ListedImage& image) { return {image.file}; }
+std::vector<std::string> imagesOf(const FolderFrame& frame) { return {frame.color, frame.depth}; }
 
 /** What the lines of a list have. Those that cannot be used, and those of an image that another one
  * has, become problems of the content. */
@@ -57,11 +57,12 @@ std::vector<Item> readList(
   for (const auto& line : readTextLines(path, &unusable)) try
     {
       Item item = itemOf(line);
-      const auto [first, isNew] = lines.emplace(
-          fs::path(imageOf(item)).lexically_normal(), line.place.substr(line.place.rfind(':') + 1));
-      if (!isNew)
-        throw std::runtime_error(
-            line.place + ": " + imageOf(item) + " stands in line " + first->second + " as well");
+      for (const auto& image : imagesOf(item))
+        if (const auto first = lines.find(fs::path(image).lexically_normal()); first != lines.end())
+          throw std::runtime_error(
+              line.place + ": " + image + " stands in line " + first->second + " as well");
+      for (const auto& image : imagesOf(item))
+        lines[fs::path(image).lexically_normal()] = line.place.substr(line.place.rfind(':') + 1);
       items.push_back(std::move(item));
     }
     catch (const std::runtime_error& e)
