@@ -129,6 +129,26 @@ std::optional<mrpt::poses::CPose3D> odometryOf(
   return trajectory ? poseAt(*trajectory, frame.time(), kLongestGap) : frame.T_odom_robot;
 }
 
+/** The poses of a file, whose unusable lines go into `dropped`. Those of a file with too many of
+ * them are left out, as are those of a folder.
+ * \exception std::runtime_error If the file cannot be read, or for the first unusable line unless
+ * `keepGoing`. */
+Trajectory readPoses(const std::string& file, bool keepGoing, std::vector<std::string>& dropped)
+{
+  Trajectory poses;
+  try
+  {
+    poses = readTrajectoryInOrder(file, dropped);
+  }
+  catch (const std::runtime_error& e)
+  {
+    if (dropped.empty() || !keepGoing) throw;
+    dropped = {e.what()};
+  }
+  if (!dropped.empty() && !keepGoing) throw std::runtime_error(dropped.front());
+  return poses;
+}
+
 void writeFrame(
     const RgbdFrame& frame,
     const std::optional<mrpt::poses::CPose3D>& T_odom_robot,
@@ -161,9 +181,7 @@ FolderImportReport importRawlog(
   FolderImportReport report;
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty())
-    trajectory = readTrajectoryInOrder(options.trajectory, report.dropped);
-  if (!report.dropped.empty() && !options.keepGoing)
-    throw std::runtime_error(report.dropped.front());
+    trajectory = readPoses(options.trajectory, options.keepGoing, report.dropped);
   source.sendWarningsTo([&](const std::string& text) { report.notes.push_back(text); });
   std::map<std::string, std::size_t> seen;  // frames of each sensor
   bool trajectoryFits = false;

@@ -96,6 +96,21 @@ TEST_F(QuadmapImport, OneBadLineOfATrajectoryLosesOnePose)
   }
 }
 
+TEST_F(QuadmapImport, KeepsGoingWithoutATrajectoryOfTooManyBadLines)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as odometry").status, 0);
+  std::string lines = readFile(recording_.files.path("groundtruth.txt"));
+  for (int i = 0; i < 1001; ++i) lines += "nonsense\n";
+  recording_.files.write("t.tum", lines);
+  const std::string command = "rawlog OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/";
+  expectImportFailure(run(command + "t.tum"), "t.tum: more than 1000 entries cannot be used");
+  const auto kept = run(command + "t.tum --keep-going");
+  EXPECT_EQ(kept.status, 0) << kept.err;
+  EXPECT_NE(kept.err.find("t.tum: more than 1000 entries"), kNotFound) << kept.err;
+  EXPECT_NE(kept.out.find("6 frames, 0 poses"), kNotFound) << kept.out;
+  expectImportFailure(run(command + "none.tum --keep-going"), "none.tum: cannot be read");
+}
+
 TEST_F(QuadmapImport, RefusesATrajectoryOfAnotherTime)
 {
   recording_.files.write("other.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
