@@ -69,6 +69,24 @@ TEST_F(SevenScenes, TellsOfACameraThatIsNotRead)
   EXPECT_EQ(notesOf(given).find(what), std::string::npos);
 }
 
+TEST_F(SevenScenes, FindsACameraAboveWhereALinkLeads)
+{
+  namespace fs = std::filesystem;
+  const std::string camera = "camera-intrinsics.txt";
+  fs::create_directory(files_.path("seq"));
+  for (const auto& file : fs::directory_iterator(folder()))
+    if (!file.is_directory())
+      fs::rename(file.path(), files_.path("seq/" + file.path().filename().string()));
+  files_.write(camera, "585 0 320\n0 585 240\n0 0 1\n");
+  const TemporaryFolder links;
+  fs::create_directory_symlink(files_.path("seq"), links.path("link"));
+  const auto firstNote = [&] { return openFrameFolder("7scenes", links.path("link")).notes()[0]; };
+  EXPECT_EQ(firstNote().find(fs::canonical(files_.path(camera)).string() + ": is not read"), 0u)
+      << firstNote();
+  fs::create_symlink(camera, files_.path("seq/" + camera));  // a circle, which is no camera
+  EXPECT_EQ(firstNote().find(fs::canonical(files_.path(camera)).string()), 0u) << firstNote();
+}
+
 TEST_F(SevenScenes, TakesTheDepthOfTheGivenCamera)
 {
   const auto camera =

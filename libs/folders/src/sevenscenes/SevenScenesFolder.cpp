@@ -80,12 +80,14 @@ void readPoses(FolderContent& content, const NumberedFiles& files)
  * not say where the colour camera is. */
 void noteUnreadCamera(FolderContent& content)
 {
-  for (const char* place : {"", ".."})
+  std::error_code ignored;  // a link in a circle is no such file
+  const fs::path folder = content.folder, whole = fs::weakly_canonical(folder, ignored);
+  for (const fs::path& place : {folder, whole.parent_path()})
   {
-    const fs::path file = fs::path(content.folder) / place / "camera-intrinsics.txt";
-    if (!fs::exists(file)) continue;
+    const fs::path file = place / "camera-intrinsics.txt";
+    if (!fs::exists(file, ignored)) continue;
     content.notes.push_back(
-        file.lexically_normal().string() +
+        file.string() +
         ": is not read, as the camera is that of 7-Scenes; --camera FILE.ini gives another");
     return;
   }
