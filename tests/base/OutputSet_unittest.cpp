@@ -214,6 +214,21 @@ TEST(OutputSet, AStagedFileOfAStrangerDoesNotLeaveTheFolderByALink)
   }
 }
 
+TEST(OutputSet, ACircleOfLinksThatWasLeftIsToBeRemoved)
+{
+  for (const char* link : {"given/a.txt", "given/.run.partial/a.txt"})
+  {
+    const TemporaryFolder folder;
+    leaveList(folder, {"+a.txt"});
+    fs::create_symlink("a.txt", folder.path(link));
+    EXPECT_EQ(
+        errorOf([&] { OutputSet(folder.path("given"), "run"); }),
+        folder.path(link) +
+            ": Too many levels of symbolic links, and a killed program left it to "
+            "be written: remove it");
+  }
+}
+
 TEST(OutputSet, AStagedLinkOfAStrangerChangesNoPermissions)
 {
   const TemporaryFolder folder;

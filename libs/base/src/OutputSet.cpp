@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -76,9 +77,21 @@ void moveTo(const fs::path& from, const fs::path& finalPath)
   copyTo(from, to);
 }
 
+/** Why a path does not lead to a place in a folder, with the path; nothing when it does. */
+std::optional<std::string> whyNotInside(const fs::path& path, const fs::path& folder)
+try
+{
+  if (isInside(path, folder)) return std::nullopt;
+  return path.string() + ": is a link out of its folder";
+}
+catch (const std::runtime_error& e)  // a circle of links
+{
+  return e.what();
+}
+
 /** Completing the work of a killed program puts what is staged where links lead. A stranger's
  * folder may have both: the staged file and the link. \exception std::runtime_error Names a link
- * that leads out of its folder. */
+ * that leads out of its folder, or in a circle. */
 void requireNoWayOut(
     const fs::path& folder, const fs::path& staging, const std::vector<std::string>& entries)
 {
@@ -86,10 +99,9 @@ void requireNoWayOut(
     for (const fs::path& place : {folder, staging})
     {
       const fs::path path = place / entry.substr(1);
-      if (entry[0] == '-' || isInside(path, place)) continue;  // '-' removes the link itself
-      throw std::runtime_error(
-          path.string() +
-          ": is a link out of its folder, and a killed program left it to be written: remove it");
+      if (entry[0] == '-') continue;  // removes the link itself
+      if (const auto why = whyNotInside(path, place))
+        throw std::runtime_error(*why + ", and a killed program left it to be written: remove it");
     }
 }
 
