@@ -11,11 +11,11 @@ namespace quadmap
  * pose before". When the two that follow agree with all before, but not with this one, this one is
  * wrong, and not all others.
  * \param last The last time before it that could be used [s], if there is one.
- * \param of What has these times, for the phrase: "pose". */
+ * \param what What has these times, for the phrase: "pose". */
 std::optional<std::string> whyOutOfOrder(
     const std::vector<double>& times,
     std::size_t i,
     const std::optional<double>& last,
-    const char* of);
+    const char* what);
 
 }  // namespace quadmap
