@@ -132,6 +132,7 @@ TEST_F(RawlogRun, MapFilesHoldTheSameObjects)
   CQuadricObjectMap rebuilt;
   rebuilt.loadFromSimpleMap(simple);
   rebuilt.consolidate();
+  rebuilt.conclude();
   for (const auto* map : {&loaded, &rebuilt})
   {
     ASSERT_EQ(map->confirmedObjects().size(), 1u);
