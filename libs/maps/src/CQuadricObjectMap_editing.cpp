@@ -103,7 +103,7 @@ void CQuadricObjectMap::conclude()
   {
     const bool wasConfirmed = object.confirmed;
     if (object.estimator.setPosesFinal()) estimate(object, false);
-    object.confirmed = wasConfirmed;  // by what all its edges said together
+    object.confirmed = wasConfirmed;  // letting go makes it less certain, not less likely
     object.covariance -= object.doubts;
     const UprightState at = uprightStateOf(object.object);
     const LabelProperties label = labels().properties(object.label());
