@@ -201,7 +201,9 @@ TEST_F(PcdFolder, OrdersCloudsByTimeOrNumber)
   files_.write("._9.75.pcd", "Mac OS X");
   EXPECT_EQ(order(), "9.75.pcd 10.5.pcd ");
   write("1.0e300.pcd", "binary");
-  EXPECT_NE(errorOf(order).find("1.0e300.pcd: the time in its name"), std::string::npos);
+  EXPECT_EQ(order(), "9.75.pcd 10.5.pcd ");
+  const std::string problem = folder() + "/1.0e300.pcd: the time in its name must be in 0..1e10 s";
+  EXPECT_EQ(openFrameFolder("pcd", folder()).listProblems(), std::vector{problem});
 }
 
 TEST_F(PcdFolder, RefusesWhatItCannotUse)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -181,28 +182,27 @@ double orderOf(const fs::path& file)
   return parseNumber(name.substr(digits)).value_or(-1);
 }
 
-/** The clouds in the order of their times or numbers, and of their names where these are equal.
- * Clouds without a time are counted. */
-std::vector<FolderFrame> framesIn(const std::string& folder)
+bool isCloud(const fs::path& file) { return file.extension() == ".pcd"; }
+
+/** Adds the clouds in the order of their times or numbers, and of their names where these are
+ * equal. Clouds without a time are counted. One whose name cannot be a time is a listProblem. */
+void addFrames(FolderContent& content)
 {
-  std::vector<std::string> files;
-  for (const auto& file : filesIn(folder))
-    if (file.extension() == ".pcd") files.push_back(file.string());
-  std::sort(
-      files.begin(), files.end(),
-      [](const std::string& a, const std::string& b)
-      { return std::make_pair(orderOf(a), a) < std::make_pair(orderOf(b), b); });
-  std::vector<FolderFrame> frames;
-  for (const auto& file : files)
+  std::set<std::pair<double, std::string>> files;
+  for (const auto& file : filesIn(content.folder)) try
+    {
+      if (isCloud(file)) files.emplace(orderOf(file), file.string());
+    }
+    catch (const std::runtime_error& e)
+    {
+      noteUnusable(content.listProblems, content.folder, e.what());
+    }
+  for (const auto& [order, file] : files)
   {
-    frames.push_back(
-        {timeOf(file).value_or(static_cast<double>(frames.size()) / kPcdImagesPerSecond),
-         file,
-         file,
-         fs::path(file).filename().string(),
-         {}});
+    const double counted = static_cast<double>(content.frames.size()) / kPcdImagesPerSecond;
+    content.frames.push_back(
+        {timeOf(file).value_or(counted), file, file, fs::path(file).filename().string(), {}});
   }
-  return frames;
 }
 
 /** Takes the poses of matrices beside the clouds. \return Whether there is any. */
@@ -242,14 +242,18 @@ bool takeViewpoints(FolderContent& content)
 }
 }  // namespace
 
-bool isPcdFolder(const std::string& folder) { return !framesIn(folder).empty(); }
+bool isPcdFolder(const std::string& folder)
+{
+  const auto files = filesIn(folder);
+  return std::any_of(files.begin(), files.end(), isCloud);
+}
 
 FolderContent readPcdFolder(const std::string& folder, const FrameFolderOptions& options)
 {
   FolderContent content;
   content.folder = folder;
-  content.frames = framesIn(folder);
-  if (content.frames.empty()) throw std::runtime_error(folder + ": has no *.pcd");
+  addFrames(content);
+  requireFrames(content, "has no *.pcd");
   content.pairing = "of one cloud";
   if (options.camera.empty())
   {
