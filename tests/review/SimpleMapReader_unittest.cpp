@@ -1,9 +1,11 @@
 #include "quadmap/sensors/SimpleMapReader.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/serialization/CSerializable.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "../obs/TemporaryFolder.h"
 #include "SampleScene.h"
@@ -123,6 +125,24 @@ TEST_F(SimpleMapFile, TruncatedIsReportedWithItsKeyframe)
   EXPECT_NE(error.find("short.simplemap: keyframe"), std::string::npos) << error;
   EXPECT_NE(error.find("of 5"), std::string::npos) << error;
   EXPECT_EQ(error.find('\n'), std::string::npos);
+}
+
+TEST_F(SimpleMapFile, AnUnknownClassIsNamed)
+{
+  mrpt::maps::CSimpleMap map;
+  addKeyframe(map, CPose3D(), scanOfWall());
+  std::vector<std::uint8_t> bytes;
+  mrpt::serialization::ObjectToOctetVector(&map, bytes);
+  std::string file(bytes.begin(), bytes.end());
+  const std::string known = "mrpt::obs::CSensoryFrame", unknown = "other::obs::SensoryFrame";
+  const auto at = file.find(known);
+  ASSERT_NE(at, std::string::npos);
+  file.replace(at, known.size(), unknown);
+  SimpleMapReader reader(folder_.write("map.simplemap", file));
+  EXPECT_EQ(
+      errorOf([&] { reader.next(); }),
+      path_ + ": keyframe 1 of 1: class " + unknown +
+          " is unknown, and MRPT files do not tell where such an object ends");
 }
 
 TEST_F(SimpleMapFile, PosesThatAreNoneAreReported)

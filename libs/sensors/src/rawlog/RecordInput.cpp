@@ -5,11 +5,11 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <stdexcept>
 
 #include "records/RecordCheck.h"
+#include "records/UnreadableRecord.h"
 
 namespace quadmap
 {
@@ -28,12 +28,6 @@ bool isRecordClass(const std::string& writtenName)
          RecordCheck::mayTry(RecordCheck::classNamed(writtenName));
 }
 }  // namespace
-
-bool isClassName(std::string_view name)
-{
-  const auto isLegal = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
-  return !name.empty() && std::all_of(name.begin(), name.end(), isLegal);
-}
 
 RecordInput::RecordInput(const std::string& file) : file_(file) {}
 

@@ -5,15 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "quadmap/base/GzipInput.h"
 
 namespace quadmap
 {
-/** Whether MRPT may have written this as the name of a class. */
-bool isClassName(std::string_view name);
-
 /** The bytes of a rawlog, record by record. Those of the present record are kept, so that behind a
  * record which cannot be read the next one can be found: it begins with the name of a class. */
 class RecordInput : public mrpt::io::CStream

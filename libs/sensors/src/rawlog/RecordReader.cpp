@@ -1,31 +1,14 @@
 #include "rawlog/RecordReader.h"
 
-#include <mrpt/core/exceptions.h>
-
 #include <utility>
 
 #include "InputError.h"
-#include "quadmap/base/ErrorText.h"
-#include "records/RecordCheck.h"
+#include "records/UnreadableRecord.h"
 
 namespace quadmap
 {
 namespace
 {
-/** The class name at the head of a stored object. It is empty when there is none. */
-std::string classNameIn(const std::string& head)
-{
-  constexpr std::size_t kNew = 1,
-                        kOld = 4;  // size of the name's length in MRPT's two formats [bytes]
-  if (head.empty()) return {};
-  const auto first = static_cast<unsigned char>(head[0]);
-  const bool isNew = (first & 0x80u) != 0;
-  const std::size_t length = isNew ? first & 0x7Fu : first, start = isNew ? kNew : kOld;
-  if (length == 0 || head.size() < start + length) return {};
-  const std::string name = head.substr(start, length);
-  return isClassName(name) ? name : std::string();
-}
-
 /** What a rawlog may hold [bytes], and in how many records. Recordings of images compress to a
  * third, boxes to a fourteenth, and the poses of a robot that stands still to a fiftieth, with a
  * record in five bytes: an hour of these stays within what is always read. A file that holds more
@@ -52,17 +35,10 @@ RecordReader::RecordReader(
 
 std::string RecordReader::explain(const std::exception& e) const
 {
-  const std::string name = classNameIn(stream_.recordHead());
-  if (name.empty())
-  {
-    if (!stream_.failure().empty()) return stream_.failure();
-    return recordsRead_ == 0 ? "is no MRPT object: this is not a rawlog"
-                             : "is no MRPT object: the file is damaged";
-  }
-  if (!stream_.failure().empty()) return name + ": " + stream_.failure();
-  if (!RecordCheck::reads(RecordCheck::classNamed(name)))
-    return "class " + name + " is unknown, and MRPT files do not tell where such an object ends";
-  return name + " cannot be read: " + rootMessage(e);
+  const auto& head = stream_.recordHead();
+  if (recordsRead_ == 0 && classNameIn(head).empty() && stream_.failure().empty())
+    return "is no MRPT object: this is not a rawlog";
+  return whyUnreadable(head, stream_.failure(), e);
 }
 
 mrpt::serialization::CSerializable::Ptr RecordReader::next()

@@ -11,6 +11,7 @@
 
 #include "quadmap/base/ArchiveFields.h"
 #include "quadmap/obs/Plausible.h"
+#include "records/UnreadableRecord.h"
 
 namespace quadmap
 {
@@ -78,19 +79,26 @@ std::optional<SimpleMapReader::Keyframe> SimpleMapReader::next()
   ++read_;
   const std::string place = mrpt::format("%s: keyframe %zu of %zu", path_.c_str(), read_, size_);
   Keyframe keyframe;
-  try
-  {
-    file_.startRecord();
-    keyframe.pose = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDF>(records_.next());
-    keyframe.observations = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(records_.next());
-  }
-  catch (const std::exception&)  // its text is about the inside of the archive
-  {
-  }
+  keyframe.pose = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDF>(object(place));
+  keyframe.observations = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object(place));
   if (!keyframe.pose || !keyframe.observations)
-    throw std::runtime_error(place + " cannot be read: the file is truncated or damaged");
+    throw std::runtime_error(
+        place + " is no pose with observations: the file is truncated or damaged");
   if (const auto why = whyNoKeyframe(keyframe)) throw std::runtime_error(place + ": " + *why);
   return keyframe;
+}
+
+mrpt::serialization::CSerializable::Ptr SimpleMapReader::object(const std::string& place)
+{
+  file_.startRecord();
+  try
+  {
+    return records_.next();
+  }
+  catch (const std::exception& e)
+  {
+    throw std::runtime_error(place + ": " + whyUnreadable(file_.recordHead(), file_.failure(), e));
+  }
 }
 
 void SimpleMapReader::requireEnd()

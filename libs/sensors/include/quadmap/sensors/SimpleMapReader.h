@@ -28,10 +28,12 @@ class SimpleMapReader
   std::size_t size() const { return size_; }  //!< Number of keyframes in the file
 
   /** The next keyframe, or nothing after the last one.
-   *  \exception std::runtime_error For a damaged file. The message names file and keyframe. */
+   *  \exception std::runtime_error If the file is damaged or has an object of an unknown class. The
+   *  message names file, keyframe and class. */
   std::optional<Keyframe> next();
 
  private:
+  mrpt::serialization::CSerializable::Ptr object(const std::string& place);
   void requireEnd();  //!< \exception std::runtime_error If the end is cut, damaged or not the end
 
   std::string path_;
