@@ -40,6 +40,7 @@ void run(const std::string& input, const std::string& output, const std::string&
       std::cout << "the nearest tv is at " << tv->object.center().transpose() << " m\n";
   }
   map.consolidate();
+  map.conclude();  // no more images come: lets go of wrong boxes, tells what stays in doubt
   map.saveToFile(output);
   std::cout << map.asString() << "\n";
 }
