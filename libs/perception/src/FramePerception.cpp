@@ -91,19 +91,6 @@ std::vector<BoxAtDepth> screensOf(
   return out;
 }
 
-/** What is known of an object and its surroundings when the edges of its box are judged. */
-EdgeContext edgeContext(
-    const ScenePlanes& planes,
-    const ObjectTask& task,
-    const ObjectCloud& object,
-    const std::vector<BoxAtDepth>& screens)
-{
-  EdgeContext out{object, task.label, planes.up, 0, {}, screens};
-  if (object.support) out.surfaces.push_back(planes.plane(*object.support).plane);
-  if (planes.floor) out.surfaces.push_back(planes.plane(*planes.floor).plane);
-  return out;
-}
-
 ObjectMeasurement rejected(const std::string& reason)
 {
   ObjectMeasurement out;
@@ -193,8 +180,7 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   // 10 Seed
   const auto seed = seedOf(cloud, *visible, object, verdict.complete.has_value());
   // 9 Edges (9.1) - (9.5)
-  EdgeContext context = edgeContext(planes, task, object, screens);
-  if (seed) context.depth = seed->z();
+  EdgeContext context{object, task.label, planes.up, seed ? seed->z() : 0, screens, {}};
   if (cuboid) context.cuboidBox = projectCuboidBox(cloud.camera(), cuboid->object_sensor);
   const auto edges = measureEdges(cloud, box, context, options);
   // 10 Choice

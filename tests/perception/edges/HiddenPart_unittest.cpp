@@ -36,7 +36,6 @@ TEST(HiddenPart, ACuboidThatIsNotTheObjectsTellsNothing)
   none.cuboidFit = 0;
   HiddenEvidence e = none;
   e.cuboidBeyond_px = 60;
-  e.noDepth = 1;
   for (const auto side : kEachSide)
     EXPECT_EQ(hiddenProbability(side, e), hiddenProbability(side, none));
 }
@@ -63,32 +62,6 @@ TEST(HiddenPart, ACuboidMayErrByMoreTheLargerTheThing)
       hiddenProbability(ObjectSide::Lateral, large), hiddenProbability(ObjectSide::Lateral, small));
 }
 
-// What stands on its support meets it without a jump in depth; a shadow below an edge is that of
-// something in front.
-TEST(HiddenPart, MissingDepthBelowAnEdgeConfirmsThatTheCuboidGoesOn)
-{
-  HiddenEvidence e = nothingHidden();
-  e.noDepth = 1;
-  EXPECT_EQ(
-      hiddenProbability(ObjectSide::Bottom, e),
-      hiddenProbability(ObjectSide::Bottom, nothingHidden()));
-  e.cuboidBeyond_px = 15;
-  HiddenEvidence withDepth = e;
-  withDepth.noDepth = 0;
-  EXPECT_GT(
-      hiddenProbability(ObjectSide::Bottom, e),
-      3 * hiddenProbability(ObjectSide::Bottom, withDepth));
-}
-
-TEST(HiddenPart, AThingWhoseSupportIsUnknownMayGoOnBelow)
-{
-  HiddenEvidence e = nothingHidden();
-  e.coverageUnsupported = 0.9;
-  EXPECT_GT(
-      hiddenProbability(ObjectSide::Bottom, e),
-      3 * hiddenProbability(ObjectSide::Bottom, nothingHidden()));
-}
-
 TEST(HiddenPart, SomethingNearerAlongALongSideIsMoreThanChance)
 {
   HiddenEvidence e = nothingHidden();
@@ -97,15 +70,6 @@ TEST(HiddenPart, SomethingNearerAlongALongSideIsMoreThanChance)
   longer.length_px = 400;
   EXPECT_GT(
       hiddenProbability(ObjectSide::Lateral, longer), hiddenProbability(ObjectSide::Lateral, e));
-}
-
-TEST(HiddenPart, AThingWithoutACloudIsLessCertain)
-{
-  HiddenEvidence e = nothingHidden();
-  e.withoutCloud = true;
-  EXPECT_GT(
-      hiddenProbability(ObjectSide::Lateral, e),
-      hiddenProbability(ObjectSide::Lateral, nothingHidden()));
 }
 
 }  // namespace

@@ -7,9 +7,11 @@
 #include "edges/EdgeStrips.h"
 #include "edges/HiddenPart.h"
 #include "edges/ObjectEnd.h"
+#include "edges/Occluders.h"
 #include "quadmap/geometry/Projection.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/perception/BoxEdges.h"
+#include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/UnseenFoot.h"
 
 namespace quadmap
@@ -19,9 +21,6 @@ namespace
 /** The object is in contact with something nearer that stands along more of an edge than this
  * share. */
 constexpr double kContactShare = 0.1;
-/** An edge nearer to the border of the image than this is cut. Detectors err by as much where the
- * border cuts an object [px of an image 640 wide]. */
-constexpr double kMinStrip_px = 8.0;
 /** A box edge that is farther from the border of the image than this is not cut by it [sigmas of
  * the edge, equation (9.1)]. */
 constexpr double kBorderSigmas = 3.0;
@@ -49,18 +48,16 @@ class EdgeJudge
       box_(box),
       context_(context),
       options_(options),
-      occluders_(cloud, box, context, options)
+      occluders_(cloud, box, context)
   {
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto edge = static_cast<BoxEdge>(i);
-      ends_.emplace_back(cloud, context, edge, occluders_, options);
+      ends_.emplace_back(cloud, context, edge, options);
       depth_[i] = depthNear(edge);
       nearBorder_[i] = isNearBorder(edge, depth_[i]);
       nearer_[i] = nearerShare(edge, depth_[i]);
-      touching_[i] = nearer_[i] > 0 ? nearer_[i] * ends_[i].shareBehind() : 0.0;
     }
-    floating_ = floating();
   }
 
   EdgeState state(BoxEdge edge) const
@@ -136,76 +133,36 @@ class EdgeJudge
   double nearerShare(BoxEdge edge, double depth) const
   {
     if (depth <= 0) return 0;
-    const double limit = depth - occluders_.depthMargin(depth);
+    const double limit = depth - depthTolerance(depth, options_);
     return shareAlong(
         edge, scaledPixels(cloud_, options_.occlusionStrip),
         [&](int c, int r) { return occluders_.isNearer(c, r, limit); });
   }
 
-  /** Near the border of the image, and neither the box nor the depth shows that the object ends
-   * before it. */
+  /** So near to the border of the image that the border may have cut the object. */
   bool isNearBorder(BoxEdge edge, double depth) const
   {
     const auto& camera = cloud_.camera();
     const double distance = distanceToBorder(camera, box_, edge);
     const double margin = options_.borderMarginIn(camera.width);
     if (margin == 0 || distance >= margin) return false;
-    if (depth <= 0 || distance < scaledPixels(cloud_, kMinStrip_px)) return true;
     const double sigma = options_.edgeSigmaIn(camera.width, sizeAcross(edge));
-    return distance < kBorderSigmas * sigma && !endsBefore(edge, distance, depth);
+    return depth <= 0 || distance < kBorderSigmas * sigma;
   }
 
   double sizeAcross(BoxEdge edge) const { return isUpright(edge) ? box_.width() : box_.height(); }
-
-  /** Is there background, and nothing of the object's depth, between an edge and the border? */
-  bool endsBefore(BoxEdge edge, double distance, double depth) const
-  {
-    constexpr double kMinBackground = 0.6, kMaxRest = 0.05;
-    const double margin = occluders_.depthMargin(depth);
-    // Boxes are not exact: the object may reach a little beyond its edge.
-    const auto near = cloud_.cellsOf(stripOutside(box_, edge, 0.5 * distance));
-    const auto isBackground = [&](int c, int r) { return cloud_.depth(c, r) > depth + margin; };
-    const auto isObject = [&](int c, int r)
-    {
-      return cloud_.valid(c, r) && !isBackground(c, r) && !occluders_.isOnSupport(c, r) &&
-             !near.contains(c, r);
-    };
-    return shareAlong(edge, distance, isBackground) >= kMinBackground &&
-           shareAlong(edge, distance, isObject) <= kMaxRest;
-  }
 
   HiddenEvidence evidence(BoxEdge edge) const
   {
     const auto i = static_cast<std::size_t>(edge);
     HiddenEvidence e;
-    e.opposite = nearer_[(i + 2) % 4];
-    e.touchingBeside = std::max(touching_[(i + 1) % 4], touching_[(i + 3) % 4]);
-    e.cutBeside = nearBorder_[(i + 1) % 4] || nearBorder_[(i + 3) % 4];
+    e.nearer = nearer_[i];
     for (std::size_t k = 0; k < 4; ++k)
       e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
     e.endAtBorder = ends_[i].shareAtBorder();
-    e.withoutCloud = context_.object.empty();
-    if (!context_.object.support) e.coverageUnsupported = context_.object.coverage;
-    e.floating = floating_;
-    addOutside(edge, e);
+    e.tooLow = tooLow();
     addCuboid(edge, e);
-    addSizes(edge, e);
     return e;
-  }
-
-  /** What is seen around an edge. */
-  void addOutside(BoxEdge edge, HiddenEvidence& e) const
-  {
-    const auto i = static_cast<std::size_t>(edge);
-    e.nearer = nearer_[i];
-    const auto side = sideOf(edge);
-    if (side == ObjectSide::Lateral) return;  // there, the others tell nothing
-    const double limit = depth_[i] - occluders_.depthMargin(depth_[i]);
-    e.nearerInside = occluders_.shareNearer(quarterInside(box_, edge), limit);
-    if (side == ObjectSide::Bottom)
-      e.noDepth = shareAlong(
-          edge, scaledPixels(cloud_, options_.occlusionStrip),
-          [&](int c, int r) { return !cloud_.valid(c, r); });
   }
 
   /** How far the cuboid reaches beyond an edge, and whether it is the object's. */
@@ -225,47 +182,17 @@ class EdgeJudge
     e.cuboidFit = imageBoxIoU(cuboid.clipped(camera.width, camera.height), box_);
   }
 
-  /** How the box compares with the label's typical size at the object's depth, equation (9.5). */
-  void addSizes(BoxEdge edge, HiddenEvidence& e) const
+  /** How much lower the box is than the label's typical size at the object's depth, equation (9.5).
+   */
+  double tooLow() const
   {
     const LabelProperties& label = context_.label;
-    if (!label.known || context_.depth <= 0) return;
+    if (!label.known || context_.depth <= 0) return 0;
     const auto& camera = cloud_.camera();
-    double width = box_.width() * context_.depth / std::abs(camera.fx);  // [m]
-    double height = box_.height() * context_.depth / std::abs(camera.fy);
-    if (std::abs(context_.up.x()) > std::abs(context_.up.y())) std::swap(width, height);
-    const auto tooSmall = [&](double seen, double typical)
-    { return std::max(0.0, label.spreadsBetween(seen, typical)); };
-    e.tooLow = tooSmall(height, label.typicalSize.z());
-    e.tooNarrow = tooSmall(width, label.typicalSize.head<2>().maxCoeff());
-    if (const double top = heightOf(edge); top > 0)
-      e.topTooLow = tooSmall(top, label.typicalSize.z());
-  }
-
-  /** Of the middle of an edge, at the object's depth, above the support [m]; 0 when unknown. */
-  double heightOf(BoxEdge edge) const
-  {
-    if (!context_.object.support || context_.object.empty()) return 0;
-    const ImageBox line = stripOutside(box_, edge, 0);
-    const Eigen::Vector3d p = cloud_.camera().ray(line.centerX(), line.centerY()) * context_.depth;
-    constexpr double kMinHeight = 0.01;
-    const double height = context_.surfaces.front().signedDistance(p);
-    return height > kMinHeight ? height : 0.0;
-  }
-
-  /** Share of the object's height by which its lower end is above the support, in [0, 1]. */
-  double floating() const
-  {
-    if (!context_.object.support || context_.object.empty()) return 0;
-    const Plane& support = context_.surfaces.front();
-    const auto& points = context_.object.points;
-    std::vector<double> heights;
-    for (std::size_t i = 0; i < points.size(); i += sampleStep(points.size()))
-      heights.push_back(support.signedDistance(points[i]));
-    const auto [low, top] = quantileRange(std::move(heights), kStrayShare);
-    // As much above the support was cut away with it.
-    const double gap = low - occluders_.onSupport(context_.depth);
-    return top > 0 ? std::clamp(gap / top, 0.0, 1.0) : 0.0;
+    const bool isOnItsSide = std::abs(context_.up.x()) > std::abs(context_.up.y());
+    const double height = context_.depth * (isOnItsSide ? box_.width() / std::abs(camera.fx)
+                                                        : box_.height() / std::abs(camera.fy));
+    return std::max(0.0, label.spreadsBetween(height, label.typicalSize.z()));
   }
 
   const DepthCloud& cloud_;
@@ -275,9 +202,8 @@ class EdgeJudge
   const Occluders occluders_;
   std::array<bool, 4> nearBorder_;
   std::array<double, 4> depth_;  // of the object near each edge [m]
-  std::array<double, 4> nearer_, touching_;
+  std::array<double, 4> nearer_;
   std::vector<ObjectEnd> ends_;
-  double floating_ = 0;
 };
 
 }  // namespace

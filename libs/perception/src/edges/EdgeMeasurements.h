@@ -22,13 +22,12 @@ struct BoxAtDepth
 /** What is known of the object when its box edges are judged. */
 struct EdgeContext
 {
-  const ObjectCloud& object;               //!< May be empty
-  const LabelProperties& label;            //!< How large such things usually are
-  Eigen::Vector3d up;                      //!< Optical frame, unit
-  double depth = 0;                        //!< Of the object [m]; 0 = unknown
-  std::vector<Plane> surfaces;             //!< Support and floor are no occluders; optical frame
-  std::vector<BoxAtDepth> screens;         //!< In front they hide the object, without depth
-  std::optional<ImageBox> cuboidBox = {};  //!< Of the object's cuboid, unclipped [px]
+  const ObjectCloud& object;          //!< May be empty
+  const LabelProperties& label;       //!< How large such things usually are
+  Eigen::Vector3d up;                 //!< Optical frame, unit
+  double depth = 0;                   //!< Of the object [m]; 0 = unknown
+  std::vector<BoxAtDepth> screens;    //!< In front they hide the object, without depth
+  std::optional<ImageBox> cuboidBox;  //!< Of the object's cuboid, unclipped [px]
 };
 
 /** The four box edges as tangent planes in the sensor frame, with what speaks against each: near

@@ -8,37 +8,19 @@ struct HiddenEvidence
   double nearer = 0;     //!< Share of the edge along which something nearer stands outside it
   double length_px = 1;  //!< Of the edge [px of an image 640 wide]
   double size_px = 1;    //!< Of the box, across the edge [px of an image 640 wide]
-  double opposite = 0;   //!< `nearer` of the opposite edge: then what is hidden is over there
-  /** Of the two edges that meet this one, the larger `nearer`, times the share of the object's
-   * outermost cells there that something nearer touches: an object whose lower end is hidden may be
-   * wider down there. */
-  double touchingBeside = 0;
   /** Share of the object's outermost cells at the image border that the edge runs into: an edge of
    * the object that slants goes on out there. */
   double endAtBorder = 0;
-  double nearerInside = 0;  //!< Share of the box near the edge that something nearer fills
-  /** Share of the edge along which depth is missing right outside it: things end on their support
-   * without a jump in depth, and without its shadow. */
-  double noDepth = 0;
   /** How far the cuboid, which stands on its support, reaches beyond the edge [px of an image 640
    * wide], and how well it fits the box [IoU]; 0 without a cuboid. */
   double cuboidBeyond_px = 0, cuboidFit = 0;
   /** From the end of the object's cloud outwards to the edge [px of an image 640 wide]: a cloud
    * that goes on outside takes the cuboid with it. */
   double cloudShort_px = 0;
-  bool withoutCloud = false;  //!< Nothing in the box was cut out as the object
-  bool cutBeside = false;     //!< One of the two edges that meet this one is at the image border
-  bool anyContact = false;    //!< Any edge of the box is at the border or has something nearer
-  /** Share of the box with depth, when nothing is known that the object stands on: its lower end
-   * may be out of sight. */
-  double coverageUnsupported = 0;
-  /** Standard deviations by which the visible part is smaller than such things usually are; 0 when
-   * it is not or nobody knows. */
-  double tooLow = 0, tooNarrow = 0;
-  double topTooLow = 0;  //!< The same, of the height of the upper edge above the support
-  /** Height of the lowest visible point above the support over that of the highest one, in [0, 1]:
-   * things stand on something. */
-  double floating = 0;
+  bool anyContact = false;  //!< Any edge of the box is at the border or has something nearer
+  /** Standard deviations by which the visible part is lower than such things usually are; 0 when it
+   * is not or nobody knows. */
+  double tooLow = 0;
 };
 
 /** Which side of the object a box edge bounds; the image may lie on its side or upside down. */
