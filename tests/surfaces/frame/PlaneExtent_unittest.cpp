@@ -59,30 +59,9 @@ TEST(PlaneExtent, KnowsHowFarOutsideAPointIs)
   }
 }
 
-TEST(PlaneExtent, GrowsByPoints)
-{
-  std::mt19937 random(4);
-  auto points = randomPoints(10, random);
-  const auto more = randomPoints(10, random);
-  const PlaneExtent small(Eigen::Vector3d::UnitZ(), points), grown = small.grown(more);
-  points.insert(points.end(), more.begin(), more.end());
-  const PlaneExtent all(Eigen::Vector3d::UnitZ(), points);
-  EXPECT_GT(grown.area(), small.area());
-  EXPECT_NEAR(grown.area(), all.area(), 1e-12);
-  for (const auto& p : points) EXPECT_TRUE(grown.isWithin(p, 1e-6));
-  for (const auto& p : randomPoints(50, random))
-    EXPECT_NEAR(grown.outside(2 * p), all.outside(2 * p), 1e-12);
-}
-
 TEST(PlaneExtent, ReachesEverywhereWhenNothingIsSaid)
 {
   const PlaneExtent floor;
   EXPECT_TRUE(floor.isEverywhere());
   EXPECT_TRUE(floor.isWithin({1e6, 0, 0}, 0.0));
-  EXPECT_TRUE(floor
-                  .grown({
-                      {1, 2, 3}
-  })
-                  .isEverywhere());
-  EXPECT_EQ(floor.toExtent({1e6, 0, 0}).norm(), 0);
 }

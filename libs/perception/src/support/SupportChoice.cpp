@@ -64,9 +64,8 @@ class SupportJudge
       label_(label),
       object_(object),
       options_(options),
-      ring_(ringAround(cloud, planes, detection.box, options))
+      ring_(ringAround(cloud, planes.up, detection.box, options))
   {
-    findBeside(ring_, object, label, planes.up);
   }
 
   BoxSupport decide() const
@@ -131,40 +130,27 @@ class SupportJudge
   /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
   double standingScore(int i) const
   {
-    constexpr double kAround = 0.5;
     const ScenePlane& plane = planes_.plane(i);
-    const auto ring = touching(plane.plane);
     SupportSurface surface = {plane.plane, plane.extent};
     if (const auto* owner = ownerOf(i)) surface.box = owner->box;
-    surface.extent = plane.extent.grown(ring.surface);
-    const auto e = standingEvidence(cloud_, surface, object_, detection_.box, label_, options_);
-    // A thing's own top is in its box, too, with little above it; thin things rise little above the
-    // noise.
-    const bool mayBeItsTop = label_.support == UsualSupport::Floor || object_.owns(i);
-    const double minAbove = mayBeItsTop ? 0.5 : 0.15;
-    // A surface that shows all around a thing is not its top. What lies on it may be thinner than
-    // the noise of single points.
-    const bool isAround = !mayBeItsTop && ring.share > kAround;
-    if (e.above < minAbove && !isAround) return 0;
+    const auto e = standingEvidence(cloud_, surface, object_, detection_.box, options_);
     return kCovered * e.covered + kBelow * e.below + kGap * (1 - std::exp(-e.gap / kGapScale)) +
-           kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) + kTouching * ring.share +
-           usual(i) + heightPenalty(e.top, label_, tooLow(i));
+           kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) +
+           kTouching * touching(plane.plane) + usual(i) + heightPenalty(e.top, label_, tooLow(i));
   }
 
   /** The log-odds that an object lies on a plane so flat that its points are the plane's. */
   double flatScore(int i) const
   {
-    return (kCovered + kTouching) * touching(planes_.plane(i).plane).share + usual(i);
+    return (kCovered + kTouching) * touching(planes_.plane(i).plane) + usual(i);
   }
 
-  RingEvidence touching(const Plane& plane) const { return ringOn(ring_, plane, Ring::LowerHalf); }
+  double touching(const Plane& plane) const { return shareOn(ring_, plane, Ring::LowerHalf); }
 
   /** The log-odds that the object hangs on a wall, equation (6.3). */
   double hangingScore(int i) const
   {
-    if (label_.support == UsualSupport::Floor) return 0;
     const Plane& wall = planes_.plane(i).plane;
-    double near = kNearWall;
     if (!object_.empty())
     {
       std::vector<double> distances;
@@ -172,8 +158,7 @@ class SupportJudge
       const double distance = median(std::move(distances));
       if (!mayHangOnWall(distance)) return 0;
     }
-    const double usualWall = label_.support == UsualSupport::Wall ? kUsual : 0.0;
-    return kOnWall * ringOn(ring_, wall, Ring::All).share + near + usualWall;
+    return kOnWall * shareOn(ring_, wall, Ring::All) + kNearWall;
   }
 
   const DepthCloud& cloud_;
@@ -211,23 +196,13 @@ Tops addTops(
   for (std::size_t lower = 0; lower < boxes.size(); ++lower)
   {
     if (!objects[lower]) continue;
-    std::vector<ImageBox> upper;
+    bool carries = false;
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (i != lower && objects[i] &&
-          endsWithin(cloud.camera(), planes.up, boxes[i].box, boxes[lower].box))
-        upper.push_back(boxes[i].box);
-    if (upper.empty()) continue;
-    auto top = topOf(cloud, planes, *objects[lower], boxes[lower].box, upper, options);
+      carries = carries || (i != lower && objects[i] &&
+                            endsWithin(cloud.camera(), planes.up, boxes[i].box, boxes[lower].box));
+    if (!carries) continue;
+    auto top = topOf(cloud, planes, *objects[lower], boxes[lower].box, options);
     if (!top) continue;
-    const bool isKnown = std::any_of(
-        planes.horizontal.begin(), planes.horizontal.end(),
-        [&](int i)
-        {
-          const ScenePlane& other = planes.plane(i);
-          return std::abs(other.plane.signedDistance(top->centroid)) < kSameHeight &&
-                 other.extent.isWithin(top->centroid, kSameHeight);
-        });
-    if (isKnown) continue;
     const int index = static_cast<int>(planes.all.planes.size());
     tops[index] = &boxes[lower];
     planes.horizontal.push_back(index);

@@ -13,8 +13,8 @@ namespace quadmap
 {
 namespace
 {
-constexpr int kMaxLowPoints = 40;  // whose feet are compared with a plane's extent
-constexpr int kMaxLines = 12;      // from the lowest points down, along which the gap is probed
+constexpr int kMaxFeet = 40;   // of points that are compared with a plane's extent
+constexpr int kMaxLines = 12;  // from the lowest points down, along which the gap is probed
 
 /** Keeps the points of the depth range of a given width that has most of them. */
 std::vector<Eigen::Vector3d> atMainDepth(std::vector<Eigen::Vector3d> all, double width)
@@ -61,53 +61,19 @@ bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3
   return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
 }
 
-/** Does the camera look down past a surface somewhere between a point and its extent? A keyboard is
- * too thin to tell along the ray, but what shows beside it lies clearly below its top. */
-bool looksPastRim(
-    const DepthCloud& cloud,
-    const SupportSurface& surface,
-    const Eigen::Vector3d& point,
-    const PerceptionOptions& options)
-{
-  const Plane& plane = surface.plane;
-  const Eigen::Vector3d foot = point - plane.signedDistance(point) * plane.n;
-  const auto looksPast = [&](const Eigen::Vector3d& p)
-  {
-    if (p.z() < 0.1) return false;
-    const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
-    const int c = static_cast<int>(std::lround(pixel.x()));
-    const int r = static_cast<int>(std::lround(pixel.y()));
-    if (!cloud.inside(c, r) || !cloud.valid(c, r)) return false;
-    const Eigen::Vector3d seen = cloud.point(c, r).cast<double>();
-    return plane.signedDistance(seen) < -options.onPlane(seen.z());
-  };
-  const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
-  if (toExtent.isZero(0)) return looksPast(foot);
-  for (const double share : {0.3, 0.6, 0.9})
-    if (looksPast(foot + share * toExtent)) return true;
-  return false;
-}
-
 /** How surely a surface reaches under a point, in [0, 1]: "covered" of equation (6.1). It is 1
- * inside the extent of the surface. Outside it falls to 0 at 10 cm when the rim is seen, which is
- * known to some centimetres. It falls more slowly when the surface may go on out of sight, behind
- * or under the object. The top of a thing ends within the thing's box. */
+ * inside the extent of the surface. Outside it falls to 0 within 8 cm, as a rim is known to some
+ * centimetres. The top of a thing ends within the thing's box. */
 double coverage(
-    const DepthCloud& cloud,
-    const SupportSurface& surface,
-    const Eigen::Vector3d& p,
-    const PerceptionOptions& options)
+    const PinholeCamera& camera, const SupportSurface& surface, const Eigen::Vector3d& p)
 {
-  constexpr double kSure = 0.02, kSeenFall = 0.08, kHiddenFall = 0.4;  // [m]
+  constexpr double kFall = 0.08;  // [m]
   const Plane& plane = surface.plane;
-  if (surface.box &&
-      !appearsIn(cloud.camera(), *surface.box, p - plane.signedDistance(p) * plane.n))
+  if (surface.box && !appearsIn(camera, *surface.box, p - plane.signedDistance(p) * plane.n))
     return 0.0;
-  if (surface.extent.isWithin(p, kSure)) return 1.0;
-  if (!surface.extent.isWithin(p, kSure + kHiddenFall)) return 0.0;
-  const double outside = surface.extent.outside(p) - kSure;
-  const bool isRim = looksPastRim(cloud, surface, p, options);
-  return std::max(0.0, 1.0 - outside / (isRim ? kSeenFall : kHiddenFall));
+  if (surface.extent.isWithin(p, 0.0)) return 1.0;
+  if (!surface.extent.isWithin(p, kFall)) return 0.0;
+  return std::max(0.0, 1.0 - surface.extent.outside(p) / kFall);
 }
 
 }  // namespace
@@ -128,7 +94,7 @@ RoughObject roughObject(
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
     {
-      if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
+      if (!cloud.valid(c, r)) continue;
       const double u = c * cloud.stride(), v = r * cloud.stride();
       if (detection.mask &&
           !detection.mask->contains(static_cast<unsigned>(u), static_cast<unsigned>(v)))
@@ -151,7 +117,6 @@ StandingEvidence standingEvidence(
     const SupportSurface& surface,
     const RoughObject& object,
     const ImageBox& box,
-    const LabelProperties& label,
     const PerceptionOptions& options)
 {
   const Plane& plane = surface.plane;
@@ -162,19 +127,16 @@ StandingEvidence standingEvidence(
   for (const auto& p : points)
   {
     const double height = plane.signedDistance(p);
-    const double tolerance = contactTolerance(p.z(), options);
-    out.above += height > std::min(tolerance, 0.5 * label.typicalSize.z()) ? 1 / n : 0;
-    out.below += height < -2.0 * tolerance ? 1 / n : 0;
+    out.below += height < -contactTolerance(p.z(), options) ? 1 / n : 0;
     heights.push_back(height);
   }
-  out.gap = std::max(0.0, quantile(heights, 0.1));
-  out.top = quantile(std::move(heights), 0.95);
+  out.top = *std::max_element(heights.begin(), heights.end());
+  out.gap = std::max(0.0, quantile(std::move(heights), 0.1));
 
-  const std::size_t low = std::max<std::size_t>(1, points.size() / 2);
-  const std::size_t step = 1 + low / kMaxLowPoints;
+  const std::size_t step = 1 + points.size() / kMaxFeet;
   int looked = 0;
-  for (std::size_t i = 0; i < low; i += step, ++looked)
-    out.covered += coverage(cloud, surface, points[i], options);
+  for (std::size_t i = 0; i < points.size(); i += step, ++looked)
+    out.covered += coverage(cloud.camera(), surface, points[i]);
   out.covered /= looked;
 
   if (out.gap == 0) return out;  // nothing is in between
@@ -198,22 +160,18 @@ std::optional<ScenePlane> topOf(
     const ScenePlanes& planes,
     const RoughObject& object,
     const ImageBox& box,
-    const std::vector<ImageBox>& others,
     const PerceptionOptions& options)
 {
   constexpr double kFacesUp = 0.9;     // cosine
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
   constexpr int kFinest = 4;           // times more cells than elsewhere: tops are small
   const auto range = cloud.cellsOf(box);
-  std::vector<DepthCloud::CellRange> holes;
-  for (const auto& other : others) holes.push_back(cloud.cellsOf(other));
   const int step = stepFor(range.cells(), kFinest * kSample);
   std::vector<Eigen::Vector3d> points;
   for (int r = range.r0; r < range.r1; r += step)
     for (int c = range.c0; c < range.c1; c += step)
     {
-      const auto isHole = [&](const auto& hole) { return hole.contains(c, r); };
-      if (!cloud.valid(c, r) || std::any_of(holes.begin(), holes.end(), isHole)) continue;
+      if (!cloud.valid(c, r)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();
       const int plane = planes.all.planeAt(cloud, c, r, options.onPlane(p.z()));
       if (plane >= 0 && !object.owns(plane)) continue;

@@ -41,13 +41,12 @@ RoughObject roughObject(
 /** How an object lies with respect to a horizontal plane. Shares are in [0, 1]. */
 struct StandingEvidence
 {
-  double covered = 0;  //!< Share of the object's lower points that the plane reaches under
-  double above = 0;    //!< Share of its points clearly above
-  double below = 0;    //!< ... clearly below: what stands on a plane has none there
+  double covered = 0;  //!< Share of the object's points that the plane reaches under
+  double below = 0;    //!< Share of its points below: what stands on a plane has none there
   double gap = 0;      //!< From the plane to its lowest points [m], >= 0
-  double top = 0;      //!< From the plane to its highest points [m]
-  double absent =
-      0;  //!< Share of the gap, outside the box, where the object would show but does not
+  double top = 0;      //!< From the plane to its highest point [m]
+  /** Share of the gap, outside the box, where the object would show but does not. */
+  double absent = 0;
 };
 
 /** A horizontal surface that something may stand on. */
@@ -64,19 +63,16 @@ StandingEvidence standingEvidence(
     const SupportSurface& surface,
     const RoughObject& object,
     const ImageBox& box,
-    const LabelProperties& label,
     const PerceptionOptions& options);
 
-/** The horizontal top of the object in one box, as far as other boxes leave it free. An example is
- * the cover of a book that a cup stands on: it is too small to be a plane of the scene. Nothing is
- * returned when hardly any of it shows.
- * \param box Of the object. \param others Boxes that end on it. */
+/** The horizontal top of the object in one box. An example is the cover of a book that a cup stands
+ * on: it is too small to be a plane of the scene. Nothing is returned when hardly any of it shows.
+ * \param box Of the object. */
 std::optional<ScenePlane> topOf(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const RoughObject& object,
     const ImageBox& box,
-    const std::vector<ImageBox>& others,
     const PerceptionOptions& options);
 
 }  // namespace quadmap

@@ -26,13 +26,7 @@ PlaneExtent::PlaneExtent(const Eigen::Vector3d& normal, const std::vector<Eigen:
   along_.row(1) = normal.cross(Eigen::Vector3d(along_.row(0)));
   std::vector<Eigen::Vector2d> flat;
   for (const auto& p : points) flat.push_back(along_ * p);
-  setCorners(std::move(flat));
-}
-
-void PlaneExtent::setCorners(std::vector<Eigen::Vector2d> points)
-{
-  corners_ = convexHull(std::move(points));
-  sides_.clear();
+  corners_ = convexHull(std::move(flat));
   for (std::size_t i = 0; i < corners_.size(); ++i)
   {
     const Eigen::Vector2d &a = corners_[i], along = corners_[(i + 1) % corners_.size()] - a;
@@ -47,16 +41,6 @@ double PlaneExtent::area() const
   for (std::size_t i = 0; i < corners_.size(); ++i)
     twice += cross(corners_[i], corners_[(i + 1) % corners_.size()]);
   return 0.5 * twice;
-}
-
-PlaneExtent PlaneExtent::grown(const std::vector<Eigen::Vector3d>& points) const
-{
-  PlaneExtent out = *this;
-  if (isEverywhere()) return out;
-  std::vector<Eigen::Vector2d> all = corners_;
-  for (const auto& p : points) all.push_back(along_ * p);
-  out.setCorners(std::move(all));
-  return out;
 }
 
 PlaneExtent::Rim PlaneExtent::nearestRim(const Eigen::Vector2d& q) const
@@ -93,13 +77,6 @@ bool PlaneExtent::isWithin(const Eigen::Vector3d& p, double margin) const
   for (const auto& side : sides_) farthest = std::max(farthest, side.outwards.dot(q) - side.offset);
   if (corners_.size() > 2 && farthest <= 0) return true;
   return farthest < margin && outside(p) < margin;
-}
-
-Eigen::Vector3d PlaneExtent::toExtent(const Eigen::Vector3d& p) const
-{
-  const Rim rim = nearestRim(along_ * p);
-  if (isEverywhere() || rim.isInside) return Eigen::Vector3d::Zero();
-  return along_.transpose() * rim.step;
 }
 
 }  // namespace quadmap

@@ -22,12 +22,6 @@ class PlaneExtent
    * time. */
   bool isWithin(const Eigen::Vector3d& p, double margin) const;
 
-  /** From a point along the surface to the nearest one above the extent [m]; zero inside. */
-  Eigen::Vector3d toExtent(const Eigen::Vector3d& p) const;
-
-  /** The extent that reaches to more points, too; one that reaches everywhere stays as it is. */
-  PlaneExtent grown(const std::vector<Eigen::Vector3d>& points) const;
-
   double area() const;  //!< [m^2]; 0 for one that reaches everywhere
 
   bool isEverywhere() const { return corners_.empty(); }
@@ -43,7 +37,6 @@ class PlaneExtent
     Eigen::Vector2d outwards;  // unit
     double offset;             // outwards.q is less inside [m]
   };
-  void setCorners(std::vector<Eigen::Vector2d> points);
   Rim nearestRim(const Eigen::Vector2d& q) const;
 
   Eigen::Matrix<double, 2, 3> along_ = Eigen::Matrix<double, 2, 3>::Zero();
