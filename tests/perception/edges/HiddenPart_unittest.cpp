@@ -62,6 +62,15 @@ TEST(HiddenPart, ACuboidMayErrByMoreTheLargerTheThing)
       hiddenProbability(ObjectSide::Lateral, large), hiddenProbability(ObjectSide::Lateral, small));
 }
 
+TEST(HiddenPart, AThingWhoseSupportIsUnknownMayGoOnBelow)
+{
+  HiddenEvidence e = nothingHidden();
+  e.coverageUnsupported = 0.9;
+  EXPECT_GT(
+      hiddenProbability(ObjectSide::Bottom, e),
+      3 * hiddenProbability(ObjectSide::Bottom, nothingHidden()));
+}
+
 TEST(HiddenPart, SomethingNearerAlongALongSideIsMoreThanChance)
 {
   HiddenEvidence e = nothingHidden();

@@ -48,7 +48,7 @@ class EdgeJudge
       box_(box),
       context_(context),
       options_(options),
-      occluders_(cloud, box, context)
+      occluders_(cloud, box, context, options)
   {
     for (std::size_t i = 0; i < 4; ++i)
     {
@@ -160,6 +160,7 @@ class EdgeJudge
     for (std::size_t k = 0; k < 4; ++k)
       e.anyContact = e.anyContact || nearBorder_[k] || nearer_[k] > kContactShare;
     e.endAtBorder = ends_[i].shareAtBorder();
+    if (!context_.object.support) e.coverageUnsupported = context_.object.coverage;
     e.tooLow = tooLow();
     addCuboid(edge, e);
     return e;

@@ -39,6 +39,7 @@ double hiddenProbability(ObjectSide side, const HiddenEvidence& e)
   add(e.nearer * std::log(std::max(e.length_px, kMinSize)), 0, 0, 1.18);
   add(e.endAtBorder, 2.2, 0, 4.2);
   add(cuboidBeyond(e), 0.7, 2.3, 1.73);
+  add(e.coverageUnsupported, 0, 2.4, 0);
   add(std::log(std::max(e.size_px, kMinSize)), 0, 1.4, 0);
   add(e.anyContact ? 1.0 : 0.0, 2.35, 0, 0);
   add(e.tooLow, 0.73, 0.85, 0);

@@ -18,6 +18,9 @@ struct HiddenEvidence
    * that goes on outside takes the cuboid with it. */
   double cloudShort_px = 0;
   bool anyContact = false;  //!< Any edge of the box is at the border or has something nearer
+  /** Share of the box with depth, when nothing is known that the object stands on: its lower end
+   * may be out of sight. */
+  double coverageUnsupported = 0;
   /** Standard deviations by which the visible part is lower than such things usually are; 0 when it
    * is not or nobody knows. */
   double tooLow = 0;
