@@ -52,7 +52,6 @@ try
   if (argc < 3) throw std::runtime_error("usage: your-own-loop INPUT OUT.quadmap [DETECTOR]");
   std::signal(SIGINT, stop);
   run(argv[1], argv[2], argc > 3 ? argv[3] : "");
-  return 0;
 }
 catch (const std::exception& e)
 {
