@@ -7,7 +7,8 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kMinSize = 5;  // [px of an image 640 wide]
+constexpr double kMostTooLow = 6;  // more tells nothing more, and a label may be wrong
+constexpr double kMinSize = 5;     // [px of an image 640 wide]
 
 /** The evidence of the cuboid, equation (9.4): how far it reaches beyond the edge, divided by its
  * error. A cuboid that does not fit the box counts for less, as it is not the object's. */
@@ -32,8 +33,8 @@ double hiddenProbability(ObjectSide side, const HiddenEvidence& e)
                                                      : lateral);
   };
   // Equation (9.2). The weights come from a logistic regression over simulated rooms
-  // (doc/benchmarks.md, "Box edges"). The first ones stand for evidence of that fit, too, which
-  // told nothing in other rooms and is gone.
+  // (doc/benchmarks.md, "Box edges"). They were fitted together with ten more pieces of evidence,
+  // which were left out later; the first one of the sides was then raised by 0.1.
   add(1, -8.8, -13.5, -6.6);
   add(e.nearer, 0, 3.3, 0);
   add(e.nearer * std::log(std::max(e.length_px, kMinSize)), 0, 0, 1.18);
@@ -42,7 +43,7 @@ double hiddenProbability(ObjectSide side, const HiddenEvidence& e)
   add(e.coverageUnsupported, 0, 2.4, 0);
   add(std::log(std::max(e.size_px, kMinSize)), 0, 1.4, 0);
   add(e.anyContact ? 1.0 : 0.0, 2.35, 0, 0);
-  add(e.tooLow, 0.73, 0.85, 0);
+  add(std::min(e.tooLow, kMostTooLow), 0.73, 0.85, 0);
   return 1.0 / (1.0 + std::exp(-logOdds));
 }
 

@@ -27,19 +27,13 @@ class ObjectEnd
   double shortOf(const ImageBox& box) const;
 
  private:
-  struct End
-  {
-    int line;      // row or column
-    int position;  // column or row, times `outwards_`
-  };
-
   const DepthCloud& cloud_;
   const ObjectCloud& object_;
   const BoxEdge edge_;
   const bool upright_;
-  const int outwards_;  // 1 or -1
-  std::vector<End> ends_;
-  int outermost_;  // column or row, times `outwards_`
+  const int outwards_;      // 1 or -1
+  std::vector<int> lines_;  // rows or columns in which it ends there
+  int outermost_;           // column or row, times `outwards_`
 };
 
 }  // namespace quadmap

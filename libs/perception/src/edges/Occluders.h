@@ -50,7 +50,7 @@ class Occluders
   const PerceptionOptions& options_;
   const DepthCloud::CellRange inside_;  // cells of the box
   std::vector<CellsAtDepth> screens_;
-  double lowest_;  // height of the lowest that is seen of the object, above the camera [m]
+  double lowest_;  // height of the lowest seen of the object above the camera, at most 0 [m]
 };
 
 }  // namespace quadmap

@@ -150,6 +150,7 @@ class SupportJudge
   /** The log-odds that the object hangs on a wall, equation (6.3). */
   double hangingScore(int i) const
   {
+    if (label_.support == UsualSupport::Floor) return 0;
     const Plane& wall = planes_.plane(i).plane;
     if (!object_.empty())
     {

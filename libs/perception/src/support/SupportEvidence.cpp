@@ -13,7 +13,7 @@ namespace quadmap
 {
 namespace
 {
-constexpr int kMaxFeet = 40;   // of points that are compared with a plane's extent
+constexpr int kMaxFeet = 40;   // most points of an object that are compared with a plane's extent
 constexpr int kMaxLines = 12;  // from the lowest points down, along which the gap is probed
 
 /** Keeps the points of the depth range of a given width that has most of them. */

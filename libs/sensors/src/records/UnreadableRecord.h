@@ -14,8 +14,8 @@ std::string classNameIn(const std::string& head);
 
 /** Why a stored object could not be read.
  * \param head Its first bytes, as far as they have been read.
- * \param failure Why its file could not be read on; empty where it could.
- * \param thrown When it was read. */
+ * \param failure Why reading the file failed; empty if it did not.
+ * \param thrown What reading the object threw. */
 std::string whyUnreadable(
     const std::string& head, const std::string& failure, const std::exception& thrown);
 

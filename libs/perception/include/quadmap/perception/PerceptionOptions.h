@@ -37,7 +37,7 @@ struct PerceptionOptions : public SurfaceOptions
   double borderMargin = 30;   //!< Box edges this near to the border are cut; 0: the rule is off
   double occlusionStrip = 8;  //!< Width of the strip outside an edge that is looked at
   /** An edge is not used when the object goes on beyond it with more than this probability; 1: the
-   * rule is off. 0.06: below 1 % of the edges in use are wrong in most simulated rooms
+   * rule is off. 0.06: below 2 % of the edges in use are wrong in most simulated rooms
    * (doc/benchmarks.md). */
   double maxHiddenProbability = 0.06;
   /** What a detector's box edge may be off by when boxes are compared with what the depth shows [px

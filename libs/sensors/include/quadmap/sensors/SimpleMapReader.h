@@ -29,10 +29,11 @@ class SimpleMapReader
 
   /** The next keyframe, or nothing after the last one.
    *  \exception std::runtime_error If the file is damaged or has an object of an unknown class. The
-   *  message names file, keyframe and class. */
+   *  message names file and keyframe, and the class where it could be read. */
   std::optional<Keyframe> next();
 
  private:
+  /** The next object; null at the end. \exception std::runtime_error Begins with `place`. */
   mrpt::serialization::CSerializable::Ptr object(const std::string& place);
   void requireEnd();  //!< \exception std::runtime_error If the end is cut, damaged or not the end
 

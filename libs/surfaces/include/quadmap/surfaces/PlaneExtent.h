@@ -27,17 +27,11 @@ class PlaneExtent
   bool isEverywhere() const { return corners_.empty(); }
 
  private:
-  struct Rim
-  {
-    Eigen::Vector2d step = Eigen::Vector2d::Zero();  // to its nearest point
-    bool isInside = false;
-  };
   struct Side
   {
     Eigen::Vector2d outwards;  // unit
     double offset;             // outwards.q is less inside [m]
   };
-  Rim nearestRim(const Eigen::Vector2d& q) const;
 
   Eigen::Matrix<double, 2, 3> along_ = Eigen::Matrix<double, 2, 3>::Zero();
   std::vector<Eigen::Vector2d> corners_;  // counter-clockwise
