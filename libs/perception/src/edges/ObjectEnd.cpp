@@ -11,7 +11,6 @@ ObjectEnd::ObjectEnd(
     BoxEdge edge,
     const PerceptionOptions& options) :
     cloud_(cloud),
-    object_(context.object),
     edge_(edge),
     upright_(isUpright(edge)),
     outwards_(edge == BoxEdge::Left || edge == BoxEdge::Top ? -1 : 1)
@@ -19,7 +18,7 @@ ObjectEnd::ObjectEnd(
   constexpr int kNone = std::numeric_limits<int>::min() / 2;
   std::vector<int> ends(static_cast<std::size_t>(upright_ ? cloud.rows() : cloud.columns()), kNone);
   outermost_ = kNone;
-  for (const auto& [c, r] : object_.cells)
+  for (const auto& [c, r] : context.object.cells)
   {
     int& last = ends[static_cast<std::size_t>(upright_ ? r : c)];
     last = std::max(last, outwards_ * (upright_ ? c : r));

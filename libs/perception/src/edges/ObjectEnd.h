@@ -14,7 +14,7 @@ namespace quadmap
 class ObjectEnd
 {
  public:
-  /** All references must outlive it. */
+  /** \param cloud Must outlive it. */
   ObjectEnd(
       const DepthCloud& cloud,
       const EdgeContext& context,
@@ -28,7 +28,6 @@ class ObjectEnd
 
  private:
   const DepthCloud& cloud_;
-  const ObjectCloud& object_;
   const BoxEdge edge_;
   const bool upright_;
   const int outwards_;      // 1 or -1
