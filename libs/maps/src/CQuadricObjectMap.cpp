@@ -111,6 +111,7 @@ void CQuadricObjectMap::internal_clear()
   room_ = RoomPlanes();
   objectOfInstance_.clear();
   lastDecisions_.clear();
+  together_.clear();
   heirs_.clear();
   unknownLabels_.clear();
 }

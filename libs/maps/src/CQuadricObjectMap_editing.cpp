@@ -73,6 +73,7 @@ void CQuadricObjectMap::merge(ObjectId kept, ObjectId absorbed)
     if (object == absorbed) object = kept;
   for (auto& decision : lastDecisions_)
     if (decision.object == absorbed) decision.object = kept;
+  together_.merge(kept, absorbed);
   for (auto& [gone, heir] : heirs_)
     if (heir == absorbed) heir = kept;
   heirs_[absorbed] = kept;
@@ -141,6 +142,7 @@ void CQuadricObjectMap::remove(ObjectId id)
 {
   require(id);
   objects_.erase(id);
+  together_.remove(id);
   for (auto it = heirs_.begin(); it != heirs_.end();)
     it = it->second == id ? heirs_.erase(it) : std::next(it);
   for (auto it = objectOfInstance_.begin(); it != objectOfInstance_.end();)
@@ -171,20 +173,28 @@ bool CQuadricObjectMap::isDue(const Entry& object) const
   return object.observations() >= (1 + insertionOptions.estimateGrowth) * object.estimatedFrom;
 }
 
-/** Merges each touched object with those that are one with it, (13.4) and (13.5). */
+/** Do images tell that two objects are two? Or were both in a file, whose run has decided? */
+bool CQuadricObjectMap::areTwoThings(const Entry& a, const Entry& b) const
+{
+  return (a.estimator.isFromFile() && b.estimator.isFromFile()) ||
+         together_.areTwo(a, b, insertionOptions.merging.maxTogether);
+}
+
+/** Merges each touched object with those that are one with it, (13.4) to (13.6). */
 void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)
 {
   while (!touched.empty())
   {
     const ObjectId id = *touched.begin();
     touched.erase(touched.begin());
-    const MapObject& object = objects_.at(id);
+    const Entry& object = objects_.at(id);
     const auto twin = std::find_if(
         objects_.begin(), objects_.end(),
         [&](const auto& other)
         {
           return other.first != id &&
-                 areOneObject(object, other.second, labels(), insertionOptions.merging);
+                 areOneObject(object, other.second, labels(), insertionOptions.merging) &&
+                 !areTwoThings(object, other.second);
         });
     if (twin == objects_.end()) continue;
     const bool keepsThis =

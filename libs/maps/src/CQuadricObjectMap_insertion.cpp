@@ -77,6 +77,7 @@ bool CQuadricObjectMap::insertObjects(
   associate(frame);
   std::set<ObjectId> touched;
   joinOrStart(frame, touched);
+  together_.add(touched);
   std::set<ObjectId> looked = countMisses(frame, touched);
   looked.insert(touched.begin(), touched.end());
   for (const ObjectId id : touched)

@@ -202,6 +202,10 @@ void describeMerging(InsertionOptions& o, OptionList& list)
   list.number(
       "mergeMinLabelAgreement", o.merging.minLabelAgreement, {0, 1}, "",
       "Labels agree when at least this share of the measurements does.");
+  list.number(
+      "mergeMaxTogether", o.merging.maxTogether, {0, 1}, "",
+      "Share of a thing's images in which a detector draws two boxes for it, at most. Two objects "
+      "that have a box each more often are two things.");
 }
 
 void describeWaiting(InsertionOptions& o, OptionList& list)

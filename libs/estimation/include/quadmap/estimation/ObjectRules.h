@@ -32,6 +32,9 @@ struct MergeOptions
   double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
   double penetration = 0.6;  //!< Or: centres nearer than this share of both half widths, >= 0
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
+  /** Share of the images of one thing in which a detector draws two boxes for it, at most, in
+   * [0, 1]. Two objects that have a box each more often are two things. */
+  double maxTogether = 0.25;
 };
 
 /** Which boxes of a frame stay when each thing has one: of two that show the same thing the one

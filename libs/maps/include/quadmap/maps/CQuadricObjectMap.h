@@ -19,6 +19,7 @@
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/maps/FrameLikelihood.h"
 #include "quadmap/maps/FramePairing.h"
+#include "quadmap/maps/JointSightings.h"
 #include "quadmap/maps/MapMerge.h"
 #include "quadmap/maps/MapOptions.h"
 #include "quadmap/maps/ObjectEstimator.h"
@@ -313,6 +314,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   RoomPlanes room_;                                     // what the scans measured here showed
   std::map<std::uint32_t, ObjectId> objectOfInstance_;  // when instance ids are believed
   std::vector<Decision> lastDecisions_;
+  JointSightings together_;
   std::map<ObjectId, ObjectId> heirs_;
   std::set<std::string> unknownLabels_;
   std::shared_ptr<const LabelSource> labels_;  // copies of a map share it
@@ -345,6 +347,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void judge(const std::set<ObjectId>& looked);
   /** Does a box that belongs to no object (rejected, or waiting for others) show this one? */
   bool isShownByAFreeBox(const MapObject& object, const Frame& frame) const;
+  bool areTwoThings(const Entry& a, const Entry& b) const;
   void mergeOverlapping(std::set<ObjectId> touched);
   void estimate(Entry& object, bool restart);
   bool isDue(const Entry& object) const;  // for another estimate

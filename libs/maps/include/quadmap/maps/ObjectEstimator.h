@@ -107,6 +107,9 @@ class ObjectEstimator
 
   const std::deque<ObjectView>& views() const { return views_; }
 
+  /** Did a file, or who called fromEstimate(), know the object? */
+  bool isFromFile() const { return !prior_.empty(); }
+
  private:
   ObjectEvidence evidenceAt(
       const UprightState& at, const LabelProperties& label, const EstimatorOptions& options) const;
