@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "../../obs/InstalledLabels.h"
 #include "../../surfaces/SyntheticFrame.h"
@@ -318,6 +319,22 @@ TEST(SupportChoice, HangsATvOnTheWall)
     EXPECT_TRUE(chosen.onWall) << "yaw " << yaw;
     EXPECT_FALSE(chosen.height) << "yaw " << yaw;
   }
+}
+
+TEST(SupportChoice, TellsACupboardOnTheWallFromTheCabinetBelow)
+{
+  for (const double yaw : {-0.2, 0.0, 0.25})
+    for (const char* label : {"cabinet", "bookshelf"})
+    {
+      SyntheticFrame frame = frameFrom(-2.0 * std::sin(yaw), 1.3, 0.1, yaw);
+      frame.add(3.1, 0.0, 0.0, 0.0, {0.1, 6.0, 2.6});  // the wall
+      frame.add(2.75, 0.0, 0.0, 0.0, {0.6, 1.2, 0.9});
+      frame.add(2.87, 0.0, 1.4, 0.0, {0.35, 0.9, 0.6});
+      const std::string what = std::string(label) + ", yaw " + std::to_string(yaw);
+      const auto chosen = chosenIn(frame, {frame.detect(1, label), frame.detect(2, label)});
+      EXPECT_SUPPORT(chosen[0], 0.0, what);
+      EXPECT_FALSE(chosen[1].height) << what;
+    }
 }
 
 TEST(SupportChoice, PutsATvInFrontOfAWallOnItsStand)

@@ -80,7 +80,7 @@ class SupportJudge
       best = score;
       out.plane = i;
     }
-    if (!out.plane && label_.support == UsualSupport::Floor && !isBelowFloor())
+    if (!out.plane && label_.support == UsualSupport::Floor && !isBelowFloor() && !isAboveFloor())
       out.plane = planes_.floor;
     for (const int i : planes_.vertical)
       if (const double score = hangingScore(i); score > best)
@@ -115,6 +115,12 @@ class SupportJudge
     return planes_.plane(*planes_.floor).plane.signedDistance(middle) < 0;
   }
 
+  /** Does the object end far above the floor of the frame, as a cupboard on a wall? */
+  bool isAboveFloor() const
+  {
+    return planes_.floor && !object_.empty() && evidenceOn(*planes_.floor).endsAbove();
+  }
+
   double usual(int i) const
   {
     return label_.support == UsualSupport::Floor && isFloor(i) ? kUsual : 0.0;
@@ -127,16 +133,23 @@ class SupportJudge
     return label_.support == UsualSupport::Floor && !isFloor(i) ? kTooLowOffFloor : 0.0;
   }
 
-  /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
-  double standingScore(int i) const
+  StandingEvidence evidenceOn(int i) const
   {
     const ScenePlane& plane = planes_.plane(i);
     SupportSurface surface = {plane.plane, plane.extent};
     if (const auto* owner = ownerOf(i)) surface.box = owner->box;
-    const auto e = standingEvidence(cloud_, surface, object_, detection_.box, options_);
+    return standingEvidence(cloud_, surface, object_, detection_.box, options_);
+  }
+
+  /** The log-odds that the object stands on a horizontal plane, equation (6.1). */
+  double standingScore(int i) const
+  {
+    const auto e = evidenceOn(i);
+    if (e.endsAbove()) return 0;
     return kCovered * e.covered + kBelow * e.below + kGap * (1 - std::exp(-e.gap / kGapScale)) +
            kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) +
-           kTouching * touching(plane.plane) + usual(i) + heightPenalty(e.top, label_, tooLow(i));
+           kTouching * touching(planes_.plane(i).plane) + usual(i) +
+           heightPenalty(e.top, label_, tooLow(i));
   }
 
   /** The log-odds that an object lies on a plane so flat that its points are the plane's. */

@@ -142,16 +142,23 @@ StandingEvidence standingEvidence(
   if (out.gap == 0) return out;  // nothing is in between
   const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
   const std::size_t lineStep = 1 + lowest / kMaxLines;
-  int probes = 0;
-  for (std::size_t i = 0; i < lowest; i += lineStep)
-    for (const double share : {0.3, 0.5, 0.7})
+  const std::vector<double> shares = out.isHigh() ? std::vector<double>{0.1, 0.2, 0.3, 0.5, 0.7}
+                                                  : std::vector<double>{0.3, 0.5, 0.7};
+  int lines = 0;
+  for (std::size_t i = 0; i < lowest; i += lineStep, ++lines)
+  {
+    const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
+    const auto isAbsentAt = [&](double share)
     {
       const Eigen::Vector3d p = points[i] - share * plane.signedDistance(points[i]) * plane.n;
-      const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
-      out.absent += isAbsent(cloud, box, p, margin) ? 1 : 0;
-      ++probes;
-    }
-  out.absent /= probes;
+      return isAbsent(cloud, box, p, margin);
+    };
+    const auto absent = std::count_if(shares.begin(), shares.end(), isAbsentAt);
+    // What ends somewhere on the way down has ended, whatever hides the rest of the way.
+    out.absent += out.isHigh() ? (absent > 0 ? 1.0 : 0.0)
+                               : static_cast<double>(absent) / static_cast<double>(shares.size());
+  }
+  out.absent /= lines;
   return out;
 }
 

@@ -45,8 +45,13 @@ struct StandingEvidence
   double below = 0;    //!< Share of its points below: what stands on a plane has none there
   double gap = 0;      //!< From the plane to its lowest points [m], >= 0
   double top = 0;      //!< From the plane to its highest point [m]
-  /** Share of the gap, outside the box, where the object would show but does not. */
+  /** Share of the gap, outside the box, where the object would show but does not. Of a high gap it
+   * is the share of the ways down on which the object ends somewhere. */
   double absent = 0;
+
+  /** Is the gap higher than the parts of what stands that a camera fails to see, as thin legs? */
+  bool isHigh() const { return gap > 0.5; }
+  bool endsAbove() const { return isHigh() && absent > 0.5; }
 };
 
 /** A horizontal surface that something may stand on. */
