@@ -8,15 +8,15 @@
 using namespace quadmap;
 using namespace quadmap::testing;
 
-TEST(JointSightings, CountsImagesOfPairs)
+TEST(JointSightings, CountsBoxesInTheSameImage)
 {
   JointSightings together;
   together.add({1, 2, 3});
   together.add({2, 3});
   together.add({4});
-  EXPECT_EQ(together.images(1, 2), 1u);
-  EXPECT_EQ(together.images(3, 2), 2u);
-  EXPECT_EQ(together.images(1, 4), 0u);
+  EXPECT_EQ(together.pairs(1, 2), 1u);
+  EXPECT_EQ(together.pairs(3, 2), 2u);
+  EXPECT_EQ(together.pairs(1, 4), 0u);
 }
 
 TEST(JointSightings, TellTwoThingsFromOneThatHasTwoBoxesNowAndThen)
@@ -29,15 +29,20 @@ TEST(JointSightings, TellTwoThingsFromOneThatHasTwoBoxesNowAndThen)
     return object;
   };
   JointSightings together;
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_FALSE(together.showTwoThings(seen(1, 80), seen(2, 3), 0.25)) << i << " are chance";
+    together.add({1, 2});
+  }
+  EXPECT_FALSE(together.showTwoThings(seen(1, 80), seen(2, 3), 0.25)) << "3 are chance";
   together.add({1, 2});
-  EXPECT_FALSE(together.areTwo(seen(1, 1), seen(2, 1), 0.25)) << "once is chance";
-  together.add({1, 2});
-  EXPECT_TRUE(together.areTwo(seen(1, 80), seen(2, 7), 0.25)) << "2 of 7";
-  EXPECT_FALSE(together.areTwo(seen(1, 80), seen(2, 8), 0.25));
+  EXPECT_TRUE(together.showTwoThings(seen(1, 80), seen(2, 15), 0.25)) << "4 of 15";
+  EXPECT_FALSE(together.showTwoThings(seen(1, 80), seen(2, 16), 0.25));
   together.merge(1, 2);
+  EXPECT_FALSE(together.showTwoThings(seen(1, 4), seen(3, 1), 0.25)) << "no image shows both";
   together.add({1, 3});
-  EXPECT_TRUE(together.areTwo(seen(1, 11), seen(3, 1), 0.25)) << "the third time in 11 images";
-  EXPECT_FALSE(together.areTwo(seen(1, 12), seen(3, 1), 0.25));
+  EXPECT_TRUE(together.showTwoThings(seen(1, 19), seen(3, 1), 0.25)) << "the fifth of 19";
+  EXPECT_FALSE(together.showTwoThings(seen(1, 20), seen(3, 1), 0.25));
 }
 
 TEST(JointSightings, FollowWhatIsMergedAndForgetWhatIsRemoved)
@@ -46,11 +51,11 @@ TEST(JointSightings, FollowWhatIsMergedAndForgetWhatIsRemoved)
   together.add({1, 2, 3});
   together.add({2, 3});
   together.merge(1, 3);
-  EXPECT_EQ(together.images(1, 2), 3u);
-  EXPECT_EQ(together.images(2, 3), 0u);
-  EXPECT_EQ(together.images(1, 1), 0u);
+  EXPECT_EQ(together.pairs(1, 2), 3u);
+  EXPECT_EQ(together.pairs(2, 3), 0u);
+  EXPECT_EQ(together.pairs(1, 1), 0u);
   together.remove(2);
-  EXPECT_EQ(together.images(1, 2), 0u);
+  EXPECT_EQ(together.pairs(1, 2), 0u);
 }
 
 namespace
@@ -114,4 +119,21 @@ TEST(JointSightings, ASecondBoxNowAndThenIsNoSecondThing)
   }
   map.consolidate();
   EXPECT_EQ(map.objects().size(), 1u) << map.asString();
+}
+
+TEST(JointSightings, SecondBoxesInAFewImagesInARowAreNoSecondThing)
+{
+  CQuadricObjectMap map;
+  SyntheticCamera camera(6);
+  const TrueObject suitcase = cuboid("suitcase", {0, 0, 0.3}, {0.7, 0.4, 0.6}, 0.4);
+  const TrueObject again = cuboid("suitcase", {0.06, 0.03, 0.28}, {0.55, 0.36, 0.56}, 0.4);
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto T = poseAround(i, 40);
+    const bool twice = i == 1 || i == 3 || i == 5;
+    map.insertObservation(
+        camera.observe(T, twice ? std::vector{suitcase, again} : std::vector{suitcase}), T);
+  }
+  map.consolidate();
+  EXPECT_EQ(map.confirmedObjects().size(), 1u) << map.asString();
 }

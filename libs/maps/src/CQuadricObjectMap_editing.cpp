@@ -173,11 +173,12 @@ bool CQuadricObjectMap::isDue(const Entry& object) const
   return object.observations() >= (1 + insertionOptions.estimateGrowth) * object.estimatedFrom;
 }
 
-/** Do images tell that two objects are two? Or were both in a file, whose run has decided? */
+/** Do images tell that two objects are two? Or did what was known before, which is sure of both? */
 bool CQuadricObjectMap::areTwoThings(const Entry& a, const Entry& b) const
 {
-  return (a.estimator.isFromFile() && b.estimator.isFromFile()) ||
-         together_.areTwo(a, b, insertionOptions.merging.maxTogether);
+  const auto wasSure = [](const Entry& e) { return e.confirmed && e.estimator.hasPrior(); };
+  return (wasSure(a) && wasSure(b)) ||
+         together_.showTwoThings(a, b, insertionOptions.merging.maxTogether);
 }
 
 /** Merges each touched object with those that are one with it, (13.4) to (13.6). */

@@ -1,65 +1,70 @@
 #include "quadmap/maps/JointSightings.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace quadmap
 {
 void JointSightings::add(const std::set<ObjectId>& seen)
 {
-  for (auto a = seen.begin(); a != seen.end(); ++a)
-    for (auto b = std::next(a); b != seen.end(); ++b) ++images_[{*a, *b}];
+  for (const ObjectId a : seen)
+    for (const ObjectId b : seen)
+      if (a != b) ++pairs_[a][b];
 }
 
-unsigned JointSightings::images(ObjectId a, ObjectId b) const
+unsigned JointSightings::pairs(ObjectId a, ObjectId b) const
 {
-  const auto found = images_.find(std::minmax(a, b));
-  return found == images_.end() ? 0 : found->second;
+  const auto ofA = pairs_.find(a);
+  if (ofA == pairs_.end()) return 0;
+  const auto found = ofA->second.find(b);
+  return found == ofA->second.end() ? 0 : found->second;
 }
 
-unsigned JointSightings::twice(ObjectId id) const
+unsigned JointSightings::pairsWithMerged(ObjectId id) const
 {
-  const auto found = twice_.find(id);
-  return found == twice_.end() ? 0 : found->second;
+  const auto found = pairsWithMerged_.find(id);
+  return found == pairsWithMerged_.end() ? 0 : found->second;
 }
 
-bool JointSightings::areTwo(const MapObject& a, const MapObject& b, double maxShare) const
+bool JointSightings::showTwoThings(const MapObject& a, const MapObject& b, double maxShare) const
 {
-  const auto often = [&](unsigned images, unsigned ofAll)
-  {
-    constexpr unsigned kOnce = 1;
-    return images > kOnce && images > maxShare * ofAll;
-  };
-  const unsigned together = images(a.id, b.id), before = twice(a.id) + twice(b.id);
-  return often(together, std::min(a.observations(), b.observations())) ||
-         often(together + before, std::max(a.observations(), b.observations()));
+  // By chance a detector draws two boxes for one thing in a few images in a row. What these start
+  // has hardly any other boxes.
+  constexpr unsigned kFew = 3, kOnce = 1;
+  const unsigned together = pairs(a.id, b.id);
+  if (together == 0) return false;
+  const unsigned all = together + pairsWithMerged(a.id) + pairsWithMerged(b.id);
+  const auto [less, more] = std::minmax({a.observations(), b.observations()});
+  return (together > kFew && together > maxShare * less) || (all > kOnce && all > maxShare * more);
 }
 
 void JointSightings::merge(ObjectId kept, ObjectId absorbed)
 {
-  if (const unsigned both = images(kept, absorbed) + twice(absorbed)) twice_[kept] += both;
-  twice_.erase(absorbed);
-  const auto heirOf = [&](ObjectId id) { return id == absorbed ? kept : id; };
-  std::map<std::pair<ObjectId, ObjectId>, unsigned> merged;
-  for (const auto& [pair, count] : images_)
-  {
-    const ObjectId a = heirOf(pair.first), b = heirOf(pair.second);
-    if (a != b) merged[std::minmax(a, b)] += count;
-  }
-  images_ = std::move(merged);
+  if (const unsigned both = pairs(kept, absorbed) + pairsWithMerged(absorbed))
+    pairsWithMerged_[kept] += both;
+  if (const auto found = pairs_.find(absorbed); found != pairs_.end())
+    for (const auto& [other, count] : found->second)
+      if (other != kept)
+      {
+        pairs_[kept][other] += count;
+        pairs_[other][kept] += count;
+      }
+  remove(absorbed);
 }
 
 void JointSightings::remove(ObjectId id)
 {
-  twice_.erase(id);
-  for (auto it = images_.begin(); it != images_.end();)
-    it = it->first.first == id || it->first.second == id ? images_.erase(it) : std::next(it);
+  pairsWithMerged_.erase(id);
+  if (const auto found = pairs_.find(id); found != pairs_.end())
+  {
+    for (const auto& partner : found->second) pairs_[partner.first].erase(id);
+    pairs_.erase(found);
+  }
 }
 
 void JointSightings::clear()
 {
-  images_.clear();
-  twice_.clear();
+  pairs_.clear();
+  pairsWithMerged_.clear();
 }
 
 }  // namespace quadmap

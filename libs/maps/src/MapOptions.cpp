@@ -204,8 +204,9 @@ void describeMerging(InsertionOptions& o, OptionList& list)
       "Labels agree when at least this share of the measurements does.");
   list.number(
       "mergeMaxTogether", o.merging.maxTogether, {0, 1}, "",
-      "Share of a thing's images in which a detector draws two boxes for it, at most. Two objects "
-      "that have a box each more often are two things.");
+      "Two objects stay two when both have a box in the same image for more than this share of the "
+      "boxes of the one that is seen less: a detector draws two for one thing less often. Not used "
+      "by method quadric.");
 }
 
 void describeWaiting(InsertionOptions& o, OptionList& list)

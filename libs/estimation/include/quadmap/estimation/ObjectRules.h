@@ -32,8 +32,9 @@ struct MergeOptions
   double anyLabelIoU = 0.5;  //!< IoU at which the labels no longer matter, (0, 1]
   double penetration = 0.6;  //!< Or: centres nearer than this share of both half widths, >= 0
   double minLabelAgreement = 0.5;  //!< Of their labels (see labelAgreement), in [0, 1]
-  /** Share of the images of one thing in which a detector draws two boxes for it, at most, in
-   * [0, 1]. Two objects that have a box each more often are two things. */
+  /** Two objects that have a box each in the same image for more than this share of the boxes of
+   * the one that is seen less stay two, in [0, 1]: a detector draws two for one thing less often.
+   * Not used by method quadric. */
   double maxTogether = 0.25;
 };
 

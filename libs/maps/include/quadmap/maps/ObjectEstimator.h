@@ -107,8 +107,8 @@ class ObjectEstimator
 
   const std::deque<ObjectView>& views() const { return views_; }
 
-  /** Did a file, or who called fromEstimate(), know the object? */
-  bool isFromFile() const { return !prior_.empty(); }
+  /** Does it hold what was known before its measurements, from a file or from fromEstimate()? */
+  bool hasPrior() const { return !prior_.empty(); }
 
  private:
   ObjectEvidence evidenceAt(
