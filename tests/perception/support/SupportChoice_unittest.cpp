@@ -194,6 +194,20 @@ TEST(SupportChoice, KeepsAChairPushedUnderATableOnTheFloor)
   }
 }
 
+TEST(SupportChoice, KeepsAChairBehindAnEdgeSeenFromAboveOnTheFloor)
+{
+  for (const double height : {1.5, 1.7})
+    for (const double top : {0.55, 0.74})  // of a bed, or a table
+    {
+      SyntheticFrame frame = frameFrom(0, height, 0.6);
+      frame.add(1.2, 0.0, 0.0, 0.0, {0.8, 1.4, top});
+      const std::size_t back = frame.boxes.size();
+      frame.add(1.64, 0.1, 0.0, 0.0, {0.04, 0.42, 0.92});
+      const std::string what = std::to_string(top) + " m, from " + std::to_string(height) + " m";
+      EXPECT_SUPPORT(chosenFor(frame, back, "chair"), 0.0, what);
+    }
+}
+
 TEST(SupportChoice, PutsThingsOnTheTableTheyStandOn)
 {
   struct Thing

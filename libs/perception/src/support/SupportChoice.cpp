@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -145,7 +146,7 @@ class SupportJudge
   double standingScore(int i) const
   {
     const auto e = evidenceOn(i);
-    if (e.endsAbove()) return 0;
+    if (e.endsAbove()) return -std::numeric_limits<double>::infinity();
     return kCovered * e.covered + kBelow * e.below + kGap * (1 - std::exp(-e.gap / kGapScale)) +
            kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) +
            kTouching * touching(planes_.plane(i).plane) + usual(i) +

@@ -76,6 +76,42 @@ double coverage(
   return std::max(0.0, 1.0 - surface.extent.outside(p) / kFall);
 }
 
+/** "absent" of equation (6.1). \param points Of the object, the lowest first. */
+double absentShare(
+    const DepthCloud& cloud,
+    const Plane& plane,
+    const std::vector<Eigen::Vector3d>& points,
+    const ImageBox& box,
+    bool gapIsHigh,
+    const PerceptionOptions& options)
+{
+  const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
+  const std::size_t step = 1 + lowest / kMaxLines;
+  const double end = plane.signedDistance(points.front());
+  const std::vector<double> shares =
+      gapIsHigh ? std::vector<double>{0.1, 0.2, 0.3, 0.5, 0.7} : std::vector<double>{0.3, 0.5, 0.7};
+  double absent = 0;
+  int lines = 0;
+  for (std::size_t i = 0; i < lowest; i += step, ++lines)
+  {
+    const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
+    const double height = plane.signedDistance(points[i]);
+    const auto isFree = [&](double share)
+    {
+      // Just below the end, what hides the rest is hardly nearer.
+      if (gapIsHigh && (1 - share) * height > end - margin) return false;
+      return isAbsent(cloud, box, points[i] - share * height * plane.n, margin);
+    };
+    const auto free = std::count_if(shares.begin(), shares.end(), isFree);
+    // What has ended does not go on behind what hides the rest of the line.
+    if (gapIsHigh)
+      absent += free > 0 ? 1 : 0;
+    else
+      absent += static_cast<double>(free) / static_cast<double>(shares.size());
+  }
+  return absent / lines;
+}
+
 }  // namespace
 
 RoughObject roughObject(
@@ -140,25 +176,7 @@ StandingEvidence standingEvidence(
   out.covered /= looked;
 
   if (out.gap == 0) return out;  // nothing is in between
-  const std::size_t lowest = std::max<std::size_t>(1, points.size() / 5);
-  const std::size_t lineStep = 1 + lowest / kMaxLines;
-  const std::vector<double> shares = out.isHigh() ? std::vector<double>{0.1, 0.2, 0.3, 0.5, 0.7}
-                                                  : std::vector<double>{0.3, 0.5, 0.7};
-  int lines = 0;
-  for (std::size_t i = 0; i < lowest; i += lineStep, ++lines)
-  {
-    const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
-    const auto isAbsentAt = [&](double share)
-    {
-      const Eigen::Vector3d p = points[i] - share * plane.signedDistance(points[i]) * plane.n;
-      return isAbsent(cloud, box, p, margin);
-    };
-    const auto absent = std::count_if(shares.begin(), shares.end(), isAbsentAt);
-    // What ends somewhere on the way down has ended, whatever hides the rest of the way.
-    out.absent += out.isHigh() ? (absent > 0 ? 1.0 : 0.0)
-                               : static_cast<double>(absent) / static_cast<double>(shares.size());
-  }
-  out.absent /= lines;
+  out.absent = absentShare(cloud, plane, points, box, out.isHigh(), options);
   return out;
 }
 

@@ -46,12 +46,22 @@ struct StandingEvidence
   double gap = 0;      //!< From the plane to its lowest points [m], >= 0
   double top = 0;      //!< From the plane to its highest point [m]
   /** Share of the gap, outside the box, where the object would show but does not. Of a high gap it
-   * is the share of the ways down on which the object ends somewhere. */
+   * is the share of the lines down on which the object ends somewhere. */
   double absent = 0;
 
-  /** Is the gap higher than the parts of what stands that a camera fails to see, as thin legs? */
-  bool isHigh() const { return gap > 0.5; }
-  bool endsAbove() const { return isHigh() && absent > 0.5; }
+  /** Is the gap higher than the parts of what stands that depth and boxes miss, as thin legs? */
+  bool isHigh() const
+  {
+    constexpr double kHighestUnseen = 0.5;  // [m]
+    return gap > kHighestUnseen;
+  }
+
+  /** Does the object end in the air, far above the plane? */
+  bool endsAbove() const
+  {
+    constexpr double kMost = 0.5;
+    return isHigh() && absent > kMost;
+  }
 };
 
 /** A horizontal surface that something may stand on. */
