@@ -49,6 +49,9 @@ TEST(PlaneExtent, KnowsHowFarOutsideAPointIs)
     {
       const double oracle = outsideBySweeping(points, 1.5 * p);
       EXPECT_NEAR(extent.outside(1.5 * p), oracle, 1e-3) << count << " points";
+      const Eigen::Vector3d way = extent.toExtent(1.5 * p);
+      EXPECT_NEAR(way.norm(), std::max(0.0, oracle), 1e-3) << count << " points";
+      EXPECT_LT(extent.outside(1.5 * p + way), 1e-9) << count << " points";
       for (const double margin : {0.0, 0.02, 0.1, 0.5})
       {
         if (std::abs(oracle - margin) < 1e-3) continue;  // the sweep's step
@@ -64,4 +67,5 @@ TEST(PlaneExtent, ReachesEverywhereWhenNothingIsSaid)
   const PlaneExtent floor;
   EXPECT_TRUE(floor.isEverywhere());
   EXPECT_TRUE(floor.isWithin({1e6, 0, 0}, 0.0));
+  EXPECT_EQ(floor.toExtent({1e6, 0, 0}).norm(), 0);
 }

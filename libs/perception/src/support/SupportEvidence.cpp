@@ -1,6 +1,7 @@
 #include "support/SupportEvidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -61,19 +62,52 @@ bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3
   return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
 }
 
-/** How surely a surface reaches under a point, in [0, 1]: "covered" of equation (6.1). It is 1
- * inside the extent of the surface. Outside it falls to 0 within 8 cm, as a rim is known to some
- * centimetres. The top of a thing ends within the thing's box. */
-double coverage(
-    const PinholeCamera& camera, const SupportSurface& surface, const Eigen::Vector3d& p)
+/** Does the camera look down past a surface somewhere between a point and its extent? A keyboard is
+ * too thin to tell along the ray, but what shows beside it lies clearly below its top. */
+bool looksPastRim(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    const Eigen::Vector3d& point,
+    const PerceptionOptions& options)
 {
-  constexpr double kFall = 0.08;  // [m]
   const Plane& plane = surface.plane;
-  if (surface.box && !appearsIn(camera, *surface.box, p - plane.signedDistance(p) * plane.n))
+  const Eigen::Vector3d foot = point - plane.signedDistance(point) * plane.n;
+  const auto looksPast = [&](const Eigen::Vector3d& p)
+  {
+    if (p.z() < 0.1) return false;
+    const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
+    const int c = static_cast<int>(std::lround(pixel.x()));
+    const int r = static_cast<int>(std::lround(pixel.y()));
+    if (!cloud.inside(c, r) || !cloud.valid(c, r)) return false;
+    const Eigen::Vector3d seen = cloud.point(c, r).cast<double>();
+    return plane.signedDistance(seen) < -options.onPlane(seen.z());
+  };
+  const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
+  constexpr std::array kShares = {0.0, 0.3, 0.6, 0.9};
+  return std::any_of(
+      kShares.begin(), kShares.end(),
+      [&](double share) { return looksPast(foot + share * toExtent); });
+}
+
+/** How surely a surface reaches under a point, in [0, 1]: "covered" of equation (6.1). It is 1
+ * inside the extent of the surface. Outside it falls to 0 within 8 cm when the rim is seen, which
+ * is known to some centimetres. It falls more slowly where the surface may go on out of sight,
+ * behind or under the object. The top of a thing ends within the thing's box. */
+double coverage(
+    const DepthCloud& cloud,
+    const SupportSurface& surface,
+    const Eigen::Vector3d& p,
+    const PerceptionOptions& options)
+{
+  constexpr double kSeenFall = 0.08, kHiddenFall = 0.4;  // [m]
+  const Plane& plane = surface.plane;
+  if (surface.box &&
+      !appearsIn(cloud.camera(), *surface.box, p - plane.signedDistance(p) * plane.n))
     return 0.0;
   if (surface.extent.isWithin(p, 0.0)) return 1.0;
-  if (!surface.extent.isWithin(p, kFall)) return 0.0;
-  return std::max(0.0, 1.0 - surface.extent.outside(p) / kFall);
+  if (!surface.extent.isWithin(p, kHiddenFall)) return 0.0;
+  const bool isRim = looksPastRim(cloud, surface, p, options);
+  return std::max(0.0, 1.0 - surface.extent.outside(p) / (isRim ? kSeenFall : kHiddenFall));
 }
 
 /** "absent" of equation (6.1). \param points Of the object, the lowest first. */
@@ -172,7 +206,7 @@ StandingEvidence standingEvidence(
   const std::size_t step = 1 + points.size() / kMaxFeet;
   int looked = 0;
   for (std::size_t i = 0; i < points.size(); i += step, ++looked)
-    out.covered += coverage(cloud.camera(), surface, points[i]);
+    out.covered += coverage(cloud, surface, points[i], options);
   out.covered /= looked;
 
   if (out.gap == 0) return out;  // nothing is in between

@@ -44,19 +44,37 @@ double PlaneExtent::area() const
   return 0.5 * twice;
 }
 
-double PlaneExtent::outside(const Eigen::Vector3d& p) const
+PlaneExtent::Rim PlaneExtent::nearestRim(const Eigen::Vector2d& q) const
 {
-  if (isEverywhere()) return -std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d q = along_ * p;
-  bool isInside = corners_.size() > 2;
-  double nearest = std::numeric_limits<double>::infinity();  // point of the rim, squared [m^2]
+  Rim out;
+  out.isInside = corners_.size() > 2;
+  double nearest = std::numeric_limits<double>::infinity();  // squared [m^2]
   for (std::size_t i = 0; i < corners_.size(); ++i)
   {
     const Eigen::Vector2d &a = corners_[i], &b = corners_[(i + 1) % corners_.size()];
-    nearest = std::min(nearest, (nearestOnSegment(q, a, b) - q).squaredNorm());
-    isInside = isInside && cross(b - a, q - a) >= 0;
+    const Eigen::Vector2d step = nearestOnSegment(q, a, b) - q;
+    if (const double squared = step.squaredNorm(); squared < nearest)
+    {
+      nearest = squared;
+      out.step = step;
+    }
+    out.isInside = out.isInside && cross(b - a, q - a) >= 0;
   }
-  return isInside ? -std::sqrt(nearest) : std::sqrt(nearest);
+  return out;
+}
+
+double PlaneExtent::outside(const Eigen::Vector3d& p) const
+{
+  if (isEverywhere()) return -std::numeric_limits<double>::infinity();
+  const Rim rim = nearestRim(along_ * p);
+  return rim.isInside ? -rim.step.norm() : rim.step.norm();
+}
+
+Eigen::Vector3d PlaneExtent::toExtent(const Eigen::Vector3d& p) const
+{
+  if (isEverywhere()) return Eigen::Vector3d::Zero();
+  const Rim rim = nearestRim(along_ * p);
+  return rim.isInside ? Eigen::Vector3d::Zero() : Eigen::Vector3d(along_.transpose() * rim.step);
 }
 
 bool PlaneExtent::isWithin(const Eigen::Vector3d& p, double margin) const

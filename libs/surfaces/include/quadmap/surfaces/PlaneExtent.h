@@ -18,6 +18,9 @@ class PlaneExtent
   /** How far the foot of a point is outside [m]; negative inside. */
   double outside(const Eigen::Vector3d& p) const;
 
+  /** From a point along the surface to the nearest one above the extent [m]; zero inside. */
+  Eigen::Vector3d toExtent(const Eigen::Vector3d& p) const;
+
   /** Is outside() below a margin [m], >= 0? Mostly known from the sides alone, in a fifth of the
    * time. */
   bool isWithin(const Eigen::Vector3d& p, double margin) const;
@@ -32,6 +35,13 @@ class PlaneExtent
     Eigen::Vector2d outwards;  // unit
     double offset;             // outwards.q is less inside [m]
   };
+
+  struct Rim
+  {
+    bool isInside = false;
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();  // from a point to the nearest of the rim [m]
+  };
+  Rim nearestRim(const Eigen::Vector2d& q) const;
 
   Eigen::Matrix<double, 2, 3> along_ = Eigen::Matrix<double, 2, 3>::Zero();
   std::vector<Eigen::Vector2d> corners_;  // counter-clockwise
