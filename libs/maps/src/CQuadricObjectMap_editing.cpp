@@ -181,7 +181,7 @@ bool CQuadricObjectMap::areTwoThings(const Entry& a, const Entry& b) const
          together_.showTwoThings(a, b, insertionOptions.merging.maxTogether);
 }
 
-/** Merges each touched object with those that are one with it, (13.4) to (13.6). */
+/** Merges each touched object with those that are one with it, (13.4) to (13.7). */
 void CQuadricObjectMap::mergeOverlapping(std::set<ObjectId> touched)
 {
   while (!touched.empty())

@@ -34,7 +34,8 @@ bool JointSightings::showTwoThings(const MapObject& a, const MapObject& b, doubl
   if (together == 0) return false;
   const unsigned all = together + pairsWithMerged(a.id) + pairsWithMerged(b.id);
   const auto [less, more] = std::minmax({a.observations(), b.observations()});
-  return (together > kFew && together > maxShare * less) || (all > kOnce && all > maxShare * more);
+  const bool beside = together > kFew && together > maxShare * less;  // (13.6)
+  return beside || (all > kOnce && all > maxShare * more);            // (13.7)
 }
 
 void JointSightings::merge(ObjectId kept, ObjectId absorbed)
