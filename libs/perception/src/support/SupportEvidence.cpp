@@ -51,15 +51,24 @@ bool appearsIn(const PinholeCamera& camera, const ImageBox& box, const Eigen::Ve
          pixel.y() > box.y1 - error.y() && pixel.y() < box.y2 + error.y();
 }
 
+/** What the camera sees in the direction of a point [m]; nothing where no depth was measured. */
+std::optional<Eigen::Vector3d> seenTowards(const DepthCloud& cloud, const Eigen::Vector3d& p)
+{
+  if (p.z() < 0.1) return {};
+  const Eigen::Vector2d cell = cloud.camera().project(p) / cloud.stride();
+  const int c = static_cast<int>(std::lround(cell.x()));
+  const int r = static_cast<int>(std::lround(cell.y()));
+  if (!cloud.inside(c, r) || !cloud.valid(c, r)) return {};
+  return cloud.point(c, r).cast<double>();
+}
+
 /** Would an object at a point show outside its box, with nothing nearer in front? A detector would
  * have drawn the box around it: the object is not there. */
 bool isAbsent(const DepthCloud& cloud, const ImageBox& box, const Eigen::Vector3d& p, double margin)
 {
-  if (p.z() < 0.1 || appearsIn(cloud.camera(), box, p)) return false;
-  const Eigen::Vector2d pixel = cloud.camera().project(p);
-  const int c = static_cast<int>(std::lround(pixel.x() / cloud.stride()));
-  const int r = static_cast<int>(std::lround(pixel.y() / cloud.stride()));
-  return cloud.inside(c, r) && cloud.valid(c, r) && cloud.depth(c, r) > p.z() - margin;
+  if (appearsIn(cloud.camera(), box, p)) return false;
+  const auto seen = seenTowards(cloud, p);
+  return seen && seen->z() > p.z() - margin;
 }
 
 /** Does the camera look down past a surface somewhere between a point and its extent? A keyboard is
@@ -74,13 +83,8 @@ bool looksPastRim(
   const Eigen::Vector3d foot = point - plane.signedDistance(point) * plane.n;
   const auto looksPast = [&](const Eigen::Vector3d& p)
   {
-    if (p.z() < 0.1) return false;
-    const Eigen::Vector2d pixel = cloud.camera().project(p) / cloud.stride();
-    const int c = static_cast<int>(std::lround(pixel.x()));
-    const int r = static_cast<int>(std::lround(pixel.y()));
-    if (!cloud.inside(c, r) || !cloud.valid(c, r)) return false;
-    const Eigen::Vector3d seen = cloud.point(c, r).cast<double>();
-    return plane.signedDistance(seen) < -options.onPlane(seen.z());
+    const auto seen = seenTowards(cloud, p);
+    return seen && plane.signedDistance(*seen) < -options.onPlane(seen->z());
   };
   const Eigen::Vector3d toExtent = surface.extent.toExtent(point);
   constexpr std::array kShares = {0.0, 0.3, 0.6, 0.9};
