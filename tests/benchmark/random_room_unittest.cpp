@@ -35,7 +35,7 @@ double f1OfRoom(int seed, double noise)
 
 // Perception must not count on the noise of one camera: with twice the noise of the room's sensor
 // it loses things that are far or thin, but not the room. Wanted is to lose none. Over these rooms
-// F1 falls from .98 to .90.
+// F1 falls from .98 to .93.
 TEST(RandomRoom, TwiceTheNoiseOfDepthCostsFewObjects)
 {
   double usual = 0, twice = 0;
@@ -46,7 +46,7 @@ TEST(RandomRoom, TwiceTheNoiseOfDepthCostsFewObjects)
     twice += f1OfRoom(seed, 2) / static_cast<double>(seeds.size());
   }
   EXPECT_GE(usual, 0.93);
-  EXPECT_GE(twice, usual - 0.1) << "two objects of twenty-seven, and a bit";
+  EXPECT_GE(twice, usual - 0.075) << "two objects of twenty-seven";
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ TEST(PerceptionOptions, ReadsEveryKey)
 {
   EXPECT_EQ(read("minRange = 0.5").minRange, 0.5);
   EXPECT_EQ(read("maxRange = 4").maxRange, 4.0);
-  EXPECT_EQ(read("depthSigmaFloor = 0.002").depthSigmaFloor, 0.002);
-  EXPECT_EQ(read("depthSigmaGrowth = 0.003").depthSigmaGrowth, 0.003);
+  EXPECT_EQ(read("depthSigmaFloor = 0.002").depthNoise.floor, 0.002);
+  EXPECT_EQ(read("depthSigmaGrowth = 0.003").depthNoise.growth, 0.003);
   EXPECT_EQ(read("planeMinArea = 0.02").planeMinArea, 0.02);
   EXPECT_NEAR(read("planeMaxTilt_deg = 5").planeMaxTilt, 5 * M_PI / 180, 1e-12);
   EXPECT_EQ(read("planeTolerance = 0.02").planeTolerance, 0.02);

@@ -71,7 +71,7 @@ void forEachPoint(
     {
       if (!cloud.valid(c, r) || cloud.isFlyingPixel(c, r)) continue;
       const Eigen::Vector3f p_optical = cloud.point(c, r);
-      const double sigma = trusted.depthSigma(p_optical.z()) / trusted.depthSigmaFloor;
+      const double sigma = trusted.depthSigma(p_optical.z()) / trusted.depthNoise.floor;
       MeasuredPoint point;
       point.position = T_map_optical * p_optical;
       point.toCamera = (eye - point.position).normalized();

@@ -103,7 +103,7 @@ ObjectMeasurement rejected(const std::string& reason)
 
 struct FramePerception::Impl
 {
-  PerceptionOptions options;
+  PerceptionOptions configured;
   LabelTable labels;
 
   struct Result
@@ -126,7 +126,8 @@ struct FramePerception::Impl
       const ScenePlanes& planes,
       const ObjectTask& task,
       const ObjectCloud& object,
-      const std::vector<BoxAtDepth>& screens) const;
+      const std::vector<BoxAtDepth>& screens,
+      const PerceptionOptions& options) const;
 };
 
 auto FramePerception::Impl::measure(
@@ -136,8 +137,10 @@ auto FramePerception::Impl::measure(
     const std::vector<SurfacePatch>& known_sensor) const -> Result
 {
   Result out;
-  // 4 Depth noise (4.1)
-  const DepthCloud cloud(scan, options);
+  // 4 Depth noise (4.1) - (4.3)
+  const DepthCloud cloud(scan, configured);
+  PerceptionOptions options = configured;
+  options.depthNoise = cloud.noise();
   out.coarseDepth = cloud.coarse(kCoarseColumns, kCoarseRows);
   // 5 Planes: pieces (5.1), up and floor, main heights (5.2), known surfaces
   auto pieces = segmentPlanes(cloud, options);
@@ -158,7 +161,7 @@ auto FramePerception::Impl::measure(
   const auto screens = screensOf(cloud, tasks, objects);
   // 8 Cuboid, 9 Edges, 10 Choice and seed
   for (std::size_t i = 0; i < tasks.size(); ++i)
-    out.boxes.push_back(measureBox(cloud, scene.planes, tasks[i], objects[i], screens));
+    out.boxes.push_back(measureBox(cloud, scene.planes, tasks[i], objects[i], screens, options));
   return out;
 }
 
@@ -167,7 +170,8 @@ ObjectMeasurement FramePerception::Impl::measureBox(
     const ScenePlanes& planes,
     const ObjectTask& task,
     const ObjectCloud& object,
-    const std::vector<BoxAtDepth>& screens) const
+    const std::vector<BoxAtDepth>& screens,
+    const PerceptionOptions& options) const
 {
   const ImageBox& box = task.detection->box;
   const auto visible = insideImage(cloud, box);

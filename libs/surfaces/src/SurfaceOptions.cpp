@@ -9,11 +9,15 @@ void SurfaceOptions::describe(OptionList& list)
   list.number("minRange", minRange, {1e-3, 100}, "m", "Nearer depth is not trusted.");
   list.number("maxRange", maxRange, {1e-3, 1000}, "m", "Farther depth is too noisy for shapes.");
   list.number(
-      "depthSigmaFloor", depthSigmaFloor, {1e-6, 1}, "m",
+      "depthSigmaFloor", depthNoise.floor, {1e-6, 1}, "m",
       "Depth noise at 0.4 m: sigma(z) = depthSigmaFloor + depthSigmaGrowth (z - 0.4 m)^2.");
   list.number(
-      "depthSigmaGrowth", depthSigmaGrowth, {0, 1}, "1/m",
+      "depthSigmaGrowth", depthNoise.growth, {0, 1}, "1/m",
       "Growth of the depth noise in that equation.");
+  list.flag(
+      "depthNoiseFromImage", depthNoiseFromImage,
+      "True: each image tells by which factor, from 1 to 4, its depth noise is larger than that. "
+      "False: the equation holds as it is.");
   list.number(
       "planeMinArea", planeMinArea, {1e-5, 1}, "",
       "Smallest plane that may be a support, as a share of the image.");

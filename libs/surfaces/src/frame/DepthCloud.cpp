@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "frame/FrameNoise.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/obs/FrameAgreement.h"
 
@@ -36,7 +37,7 @@ void requireDepth(const mrpt::obs::CObservation3DRangeScan& scan)
 
 DepthCloud::DepthCloud(
     const mrpt::obs::CObservation3DRangeScan& scan, const SurfaceOptions& options) :
-    options_(options)
+    noise_(options.depthNoise)
 {
   requireDepth(scan);
   const auto& range = scan.rangeImage;
@@ -72,13 +73,14 @@ DepthCloud::DepthCloud(
   for (int r = 0; r < rows_; r += kSparse)
     for (int c = 0; c < columns_; c += kSparse)
       if (valid(c, r)) sparsePoints_.push_back(point(c, r).cast<double>());
+  if (options.depthNoiseFromImage) noise_ = noise_.times(noiseFactor(*this));
 }
 
 int DepthCloud::normalReach(float z) const
 {
   // Shorter base lines drown in the quantisation of depth and in its noise.
   constexpr double kMinBase = 0.03, kSigmas = 2.0;  // [m], of depth
-  const double base = std::max(kMinBase, kSigmas * options_.depthSigma(double(z)));
+  const double base = std::max(kMinBase, kSigmas * noise_.sigma(double(z)));
   const double cellsPerMetre = std::abs(camera_.fx) / (double(z) * stride_);
   return std::clamp(static_cast<int>(base * cellsPerMetre + 0.5), 2, 8);
 }

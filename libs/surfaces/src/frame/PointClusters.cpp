@@ -17,8 +17,8 @@ class DepthScale
   DepthScale(double gap, const SurfaceOptions& options) : gap_(gap)
   {
     constexpr double kSigmas = 2.0;
-    const double floor = kSigmas * options.depthSigmaFloor;
-    const double growth = kSigmas * options.depthSigmaGrowth;
+    const double floor = kSigmas * options.depthNoise.floor;
+    const double growth = kSigmas * options.depthNoise.growth;
     if (floor > gap_) gap_ = floor;
     if (!(growth > 0)) return;
     from_ = kNearest + std::sqrt((gap_ - floor) / growth);
@@ -33,7 +33,7 @@ class DepthScale
   }
 
  private:
-  static constexpr double kNearest = SurfaceOptions::kDepthSigmaGrowsFrom;
+  static constexpr double kNearest = DepthNoise::kGrowsFrom;
   double gap_;
   double from_ = 1e9;  // depth from which the noise decides [m]
   double width_ = 0, slope_ = 0, offset_ = 0;

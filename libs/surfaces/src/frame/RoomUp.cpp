@@ -7,7 +7,7 @@ namespace quadmap
 namespace
 {
 const double kStraight = std::sin(kPlaneAccuracy);
-constexpr double kNear = M_SQRT1_2;  // cosine, of 45 degrees
+constexpr double kNearUp = M_SQRT1_2;  // cosine, of 45 degrees
 
 /** The planes that agree with a direction. */
 struct Agreement
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3d> candidates(
   const auto add = [&](const Eigen::Vector3d& direction)
   {
     const double cosine = direction.dot(guess);
-    if (std::abs(cosine) > kNear) out.push_back(cosine > 0 ? direction : -direction);
+    if (std::abs(cosine) > kNearUp) out.push_back(cosine > 0 ? direction : -direction);
   };
   for (std::size_t i = 0; i < planes.size(); ++i)
   {
@@ -53,7 +53,7 @@ std::vector<Eigen::Vector3d> candidates(
     for (std::size_t j = 0; j < i; ++j)
     {
       const Eigen::Vector3d along = planes[i].plane.n.cross(planes[j].plane.n);
-      if (along.norm() > kNear) add(along.normalized());
+      if (along.norm() > kNearUp) add(along.normalized());
     }
   }
   return out;

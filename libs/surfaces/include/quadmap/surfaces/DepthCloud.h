@@ -39,6 +39,9 @@ class DepthCloud
     return {rayX_[static_cast<std::size_t>(c)] * z, rayY_[static_cast<std::size_t>(r)] * z, z};
   }
 
+  /** What the depths err by: the noise of the options, times the factor that the image shows. */
+  const DepthNoise& noise() const { return noise_; }
+
   /** Points of every fourth valid cell of every fourth row [m]: statistics over the whole frame
    * need no more than these 5000. */
   const std::vector<Eigen::Vector3d>& sparsePoints() const { return sparsePoints_; }
@@ -85,7 +88,7 @@ class DepthCloud
   std::size_t index(int c, int r) const { return static_cast<std::size_t>(r * columns_ + c); }
 
   PinholeCamera camera_;
-  SurfaceOptions options_;
+  DepthNoise noise_;
   int stride_ = 1, columns_ = 0, rows_ = 0;
   std::vector<float> depth_, rayX_, rayY_;
   std::vector<Eigen::Vector3d> sparsePoints_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "quadmap/base/OptionGroup.h"
+#include "quadmap/surfaces/DepthNoise.h"
 
 namespace quadmap
 {
@@ -11,11 +12,8 @@ struct SurfaceOptions : public OptionGroup
   double minRange = 0.3;  //!< Nearer depth is not trusted [m], > 0
   double maxRange = 6.0;  //!< Farther depth is too noisy for shapes [m], > minRange
 
-  /** Depth noise of a structured-light camera, sigma(z) = floor + growth (z - 0.4 m)^2, after
-   * Nguyen, Izadi, Lovell, 3DIMPVT 2012. */
-  double depthSigmaFloor = 0.0012;                     //!< [m], > 0
-  double depthSigmaGrowth = 0.0019;                    //!< [1/m], >= 0
-  static constexpr double kDepthSigmaGrowsFrom = 0.4;  //!< [m]
+  DepthNoise depthNoise;            //!< INI `depthSigmaFloor`, `depthSigmaGrowth`
+  bool depthNoiseFromImage = true;  //!< Each image tells by which factor its noise is larger
 
   double planeMinArea = 0.008;  //!< Smallest plane worth a support, share of the image, in (0, 1)
   double planeMaxTilt = 0.17;   //!< A horizontal plane's normal to up [rad]; INI `planeMaxTilt_deg`
@@ -25,11 +23,7 @@ struct SurfaceOptions : public OptionGroup
   double onPlane(double z) const { return 0.5 * planeTolerance + 2.0 * depthSigma(z); }
 
   /** Standard deviation of a depth [m]. */
-  double depthSigma(double z) const
-  {
-    const double far = z > kDepthSigmaGrowsFrom ? z - kDepthSigmaGrowsFrom : 0.0;
-    return depthSigmaFloor + depthSigmaGrowth * far * far;
-  }
+  double depthSigma(double z) const { return depthNoise.sigma(z); }
 
  protected:
   void describe(OptionList& list) override;

@@ -13,7 +13,7 @@ namespace quadmap
 // is a bound at one depth: a part for what is uneven, and a multiple of the depth's standard
 // deviation, equation (4.1).
 
-/** Does a point lie on a plane of the frame? Equation (4.2). */
+/** Does a point lie on a plane of the frame? Equation (4.4). */
 inline bool isOnPlane(const Eigen::Vector3d& p, const Plane& plane, const SurfaceOptions& options)
 {
   return std::abs(plane.signedDistance(p)) <= options.onPlane(p.z());
@@ -23,7 +23,7 @@ inline bool isOnPlane(const Eigen::Vector3d& p, const Plane& plane, const Surfac
  * a book, is higher above the table. */
 constexpr double kSameHeight = 0.02;
 
-/** The bound for a surface that an object may stand on. It is wider than (4.2), because the point
+/** The bound for a surface that an object may stand on. It is wider than (4.4), because the point
  * may be where the object and the surface meet. */
 inline double contactTolerance(double z, const SurfaceOptions& options)
 {

@@ -1,0 +1,91 @@
+#include "frame/FrameNoise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace quadmap
+{
+namespace
+{
+// Pixels beside each other share their noise, as cameras match windows of them. Windows are at most
+// 14 px of an image 640 px wide; pixels so far apart err by themselves.
+constexpr double kUncorrelated = 14;
+constexpr int kBlock = 8;    // cells: the width of a piece of the image
+constexpr int kStep = 2;     // every second cell of a block
+constexpr int kEnough = 16;  // of the 32 bends in a block: it is not at a rim
+// Half the blocks of an image may be bent or lie at rims: the median of the others is its quartile.
+constexpr double kQuantile = 0.25;
+constexpr double kUsualBlocks = 20;  // a factor of 1 counts as many blocks
+// The quartile for images of the camera of (4.1), whose steps of disparity and jitter across the
+// image are not in that equation.
+constexpr double kUsual = 1.1;
+// An image with less than the usual noise does not show that surfaces are more even. The most is
+// what stereo cameras have far away; what looks worse is all bent.
+constexpr double kLeast = 1, kMost = 4;
+
+/** Mean bend, equation (4.2): second difference of inverse depth, which a plane has none of. */
+class Bends
+{
+ public:
+  explicit Bends(const DepthCloud& cloud) :
+      cloud_(cloud),
+      apart_(std::max(
+          1,
+          static_cast<int>(
+              std::lround(kUncorrelated / 640 * cloud.camera().width / cloud.stride()))))
+  {
+  }
+
+  /** Adds that at a cell, along a row or a column. */
+  void add(int c, int r, int dc, int dr)
+  {
+    dc *= apart_;
+    dr *= apart_;
+    if (!cloud_.inside(c - dc, r - dr) || !cloud_.inside(c + dc, r + dr)) return;
+    const double z = double(cloud_.depth(c, r)), before = double(cloud_.depth(c - dc, r - dr));
+    const double after = double(cloud_.depth(c + dc, r + dr));
+    if (!(z > 0 && before > 0 && after > 0)) return;
+    sum_ += z * z * std::abs(1 / before - 2 / z + 1 / after) / cloud_.noise().sigma(z);
+    ++count_;
+  }
+
+  int count() const { return count_; }
+
+  /** Standard deviation of a depth over what it is believed to be. */
+  double ratio() const { return sum_ / count_ * std::sqrt(M_PI_2 / 6); }
+
+ private:
+  const DepthCloud& cloud_;
+  int apart_;  // cells
+  double sum_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace
+
+double noiseFactor(const DepthCloud& cloud)
+{
+  std::vector<double> ratios;
+  for (int top = 0; top + kBlock <= cloud.rows(); top += kBlock)
+    for (int left = 0; left + kBlock <= cloud.columns(); left += kBlock)
+    {
+      Bends bends(cloud);
+      for (int r = top; r < top + kBlock; r += kStep)
+        for (int c = left; c < left + kBlock; c += kStep)
+        {
+          bends.add(c, r, 1, 0);
+          bends.add(c, r, 0, 1);
+        }
+      if (bends.count() >= kEnough) ratios.push_back(bends.ratio());
+    }
+  if (ratios.empty()) return 1;
+  const double blocks = static_cast<double>(ratios.size());
+  const auto quartile = ratios.begin() + static_cast<std::ptrdiff_t>(kQuantile * blocks);
+  std::nth_element(ratios.begin(), quartile, ratios.end());
+  return std::clamp(
+      (blocks * *quartile / kUsual + kUsualBlocks) / (blocks + kUsualBlocks), kLeast, kMost);
+}
+
+}  // namespace quadmap
