@@ -65,6 +65,26 @@ TEST(FramePerception, MeasuresACabinetOnTheFloorAtAnyYaw)
   }
 }
 
+TEST(FramePerception, ClaimsLessOfAnImageThatIsNoisier)
+{
+  const auto sigmasOfFaces = [](double noise, double most)
+  {
+    SyntheticFrame frame;
+    frame.noise = noise;
+    frame.add(2.0, 0.1, 0.0, 0.2, {0.78, 0.43, 0.56});
+    PerceptionOptions options;
+    options.maxDepthNoiseFactor = most;
+    const auto m = measured(frame, frame.detect(0, "suitcase"), options);
+    EXPECT_TRUE(m.complete) << m.reason;
+    double sigma = 0;
+    for (const auto& face : m.complete->faces)
+      if (face.kind == FaceKind::Measured) sigma += face.sigma;
+    return sigma;
+  };
+  EXPECT_GT(sigmasOfFaces(0.004, 4), 1.1 * sigmasOfFaces(0.004, 1));
+  EXPECT_EQ(sigmasOfFaces(0.001, 4), sigmasOfFaces(0.001, 1)) << "less noise than a Kinect's";
+}
+
 TEST(FramePerception, FindsUpFromTheFloorWhenNobodyKnowsIt)
 {
   SyntheticFrame frame;

@@ -21,6 +21,7 @@ TEST(PerceptionOptions, ReadsEveryKey)
   EXPECT_EQ(read("maxRange = 4").maxRange, 4.0);
   EXPECT_EQ(read("depthSigmaFloor = 0.002").depthNoise.floor, 0.002);
   EXPECT_EQ(read("depthSigmaGrowth = 0.003").depthNoise.growth, 0.003);
+  EXPECT_EQ(read("maxDepthNoiseFactor = 2").maxDepthNoiseFactor, 2.0);
   EXPECT_EQ(read("planeMinArea = 0.02").planeMinArea, 0.02);
   EXPECT_NEAR(read("planeMaxTilt_deg = 5").planeMaxTilt, 5 * M_PI / 180, 1e-12);
   EXPECT_EQ(read("planeTolerance = 0.02").planeTolerance, 0.02);
@@ -46,7 +47,7 @@ TEST(PerceptionOptions, RefusesWhatItDoesNotUnderstand)
 {
   for (const char* line :
        {"maxRnge = 4", "maxRange = 4m", "maxRange = -1", "minPoints = 2", "minCompleteIoU = 1.5",
-        "minRange = 7", "models = some"})
+        "minRange = 7", "maxDepthNoiseFactor = 0.5", "models = some"})
     EXPECT_THROW(read(line), std::invalid_argument) << line;
 }
 

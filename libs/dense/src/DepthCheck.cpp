@@ -124,6 +124,7 @@ class RayCount
   {
     SurfaceOptions surface;
     surface.maxRange = options.maxRange;
+    surface.maxDepthNoiseFactor = 1;
     return surface;
   }
 

@@ -141,6 +141,7 @@ auto FramePerception::Impl::measure(
   const DepthCloud cloud(scan, configured);
   PerceptionOptions options = configured;
   options.depthNoise = cloud.noise();
+  options.maxDepthNoiseFactor = 1;
   out.coarseDepth = cloud.coarse(kCoarseColumns, kCoarseRows);
   // 5 Planes: pieces (5.1), up and floor, main heights (5.2), known surfaces
   auto pieces = segmentPlanes(cloud, options);

@@ -14,10 +14,10 @@ void SurfaceOptions::describe(OptionList& list)
   list.number(
       "depthSigmaGrowth", depthNoise.growth, {0, 1}, "1/m",
       "Growth of the depth noise in that equation.");
-  list.flag(
-      "depthNoiseFromImage", depthNoiseFromImage,
-      "True: each image tells by which factor, from 1 to 4, its depth noise is larger than that. "
-      "False: the equation holds as it is.");
+  list.number(
+      "maxDepthNoiseFactor", maxDepthNoiseFactor, {1, 100}, "",
+      "Each image tells by which factor, up to this one, its depth is noisier than that. 1: the "
+      "equation holds as it is.");
   list.number(
       "planeMinArea", planeMinArea, {1e-5, 1}, "",
       "Smallest plane that may be a support, as a share of the image.");

@@ -73,7 +73,8 @@ DepthCloud::DepthCloud(
   for (int r = 0; r < rows_; r += kSparse)
     for (int c = 0; c < columns_; c += kSparse)
       if (valid(c, r)) sparsePoints_.push_back(point(c, r).cast<double>());
-  if (options.depthNoiseFromImage) noise_ = noise_.times(noiseFactor(*this));
+  if (options.maxDepthNoiseFactor > 1)
+    noise_ = noise_.times(noiseFactor(*this, options.maxDepthNoiseFactor));
 }
 
 int DepthCloud::normalReach(float z) const

@@ -17,28 +17,25 @@ constexpr int kStep = 2;     // every second cell of a block
 constexpr int kEnough = 16;  // of the 32 bends in a block: it is not at a rim
 // Half the blocks of an image may be bent or lie at rims: the median of the others is its quartile.
 constexpr double kQuantile = 0.25;
-constexpr double kUsualBlocks = 20;  // a factor of 1 counts as many blocks
-// The quartile for images of the camera of (4.1), whose steps of disparity and jitter across the
-// image are not in that equation.
+// The quartile for furnished rooms and the camera of (4.1). Its steps of disparity and its jitter
+// across the image are not in that equation; of blocks of planes the quartile is below the mean.
 constexpr double kUsual = 1.1;
-// An image with less than the usual noise does not show that surfaces are more even. The most is
-// what stereo cameras have far away; what looks worse is all bent.
-constexpr double kLeast = 1, kMost = 4;
+constexpr double kUsualBlocks = 20;  // a factor of 1 counts as many blocks
 
-/** Mean bend, equation (4.2): second difference of inverse depth, which a plane has none of. */
+/** So many cells apart errors are independent. */
+int spacing(const DepthCloud& cloud)
+{
+  const double cells = kUncorrelated / 640 * cloud.camera().width / cloud.stride();
+  return std::max(1, static_cast<int>(std::ceil(cells)));
+}
+
+/** The mean bend of some cells, equation (4.2). A plane has none. */
 class Bends
 {
  public:
-  explicit Bends(const DepthCloud& cloud) :
-      cloud_(cloud),
-      apart_(std::max(
-          1,
-          static_cast<int>(
-              std::lround(kUncorrelated / 640 * cloud.camera().width / cloud.stride()))))
-  {
-  }
+  explicit Bends(const DepthCloud& cloud) : cloud_(cloud), apart_(spacing(cloud)) {}
 
-  /** Adds that at a cell, along a row or a column. */
+  /** Adds the bend at a cell along a row or a column, if all three depths are there. */
   void add(int c, int r, int dc, int dr)
   {
     dc *= apart_;
@@ -65,7 +62,7 @@ class Bends
 
 }  // namespace
 
-double noiseFactor(const DepthCloud& cloud)
+double noiseFactor(const DepthCloud& cloud, double most)
 {
   std::vector<double> ratios;
   for (int top = 0; top + kBlock <= cloud.rows(); top += kBlock)
@@ -84,8 +81,9 @@ double noiseFactor(const DepthCloud& cloud)
   const double blocks = static_cast<double>(ratios.size());
   const auto quartile = ratios.begin() + static_cast<std::ptrdiff_t>(kQuantile * blocks);
   std::nth_element(ratios.begin(), quartile, ratios.end());
-  return std::clamp(
-      (blocks * *quartile / kUsual + kUsualBlocks) / (blocks + kUsualBlocks), kLeast, kMost);
+  // An image with less noise does not show that surfaces are more even, hence at least 1.
+  const double shown = std::clamp(*quartile / kUsual, 1.0, most);
+  return (blocks * shown + kUsualBlocks) / (blocks + kUsualBlocks);
 }
 
 }  // namespace quadmap

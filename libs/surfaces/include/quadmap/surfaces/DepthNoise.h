@@ -8,8 +8,8 @@ struct DepthNoise
 {
   static constexpr double kGrowsFrom = 0.4;  //!< [m]
 
-  double floor = 0.0012;   //!< Up to that depth [m], > 0
-  double growth = 0.0019;  //!< With the square of what is beyond it [1/m], >= 0
+  double floor = 0.0012;   //!< Standard deviation up to kGrowsFrom [m], > 0
+  double growth = 0.0019;  //!< Its growth with (z - kGrowsFrom)^2 [1/m], >= 0
 
   double sigma(double z) const  //!< [m]
   {

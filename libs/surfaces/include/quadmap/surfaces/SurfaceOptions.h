@@ -12,8 +12,10 @@ struct SurfaceOptions : public OptionGroup
   double minRange = 0.3;  //!< Nearer depth is not trusted [m], > 0
   double maxRange = 6.0;  //!< Farther depth is too noisy for shapes [m], > minRange
 
-  DepthNoise depthNoise;            //!< INI `depthSigmaFloor`, `depthSigmaGrowth`
-  bool depthNoiseFromImage = true;  //!< Each image tells by which factor its noise is larger
+  DepthNoise depthNoise;  //!< INI `depthSigmaFloor`, `depthSigmaGrowth`
+  /** Each image tells by which factor its noise is larger, up to this one, >= 1; 1: it is as said.
+   * 4 is what stereo has at a range; an image of clutter alone seems to have more. */
+  double maxDepthNoiseFactor = 4;
 
   double planeMinArea = 0.008;  //!< Smallest plane worth a support, share of the image, in (0, 1)
   double planeMaxTilt = 0.17;   //!< A horizontal plane's normal to up [rad]; INI `planeMaxTilt_deg`
