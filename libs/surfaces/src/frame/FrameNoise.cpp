@@ -21,6 +21,8 @@ constexpr double kQuantile = 0.25;
 // across the image are not in that equation; of blocks of planes the quartile is below the mean.
 constexpr double kUsual = 1.1;
 constexpr double kUsualBlocks = 20;  // a factor of 1 counts as many blocks
+// The furniture of an image changes its factor by a tenth or two: so much more noise is none.
+constexpr double kUnclear = 1.2;
 
 /** So many cells apart errors are independent. */
 int spacing(const DepthCloud& cloud)
@@ -83,7 +85,8 @@ double noiseFactor(const DepthCloud& cloud, double most)
   std::nth_element(ratios.begin(), quartile, ratios.end());
   // An image with less noise does not show that surfaces are more even, hence at least 1.
   const double shown = std::clamp(*quartile / kUsual, 1.0, most);
-  return (blocks * shown + kUsualBlocks) / (blocks + kUsualBlocks);
+  const double factor = (blocks * shown + kUsualBlocks) / (blocks + kUsualBlocks);
+  return factor < kUnclear ? 1 : factor;
 }
 
 }  // namespace quadmap
