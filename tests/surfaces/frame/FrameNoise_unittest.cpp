@@ -77,7 +77,7 @@ TEST(FrameNoise, IsInTheCloudUnlessTheOptionsAreToBeBelieved)
   EXPECT_DOUBLE_EQ(
       DepthCloud(scan, options).noise().sigma(2), factorOf(scan) * DepthNoise().sigma(2));
   options.maxDepthNoiseFactor = 1;
-  EXPECT_EQ(DepthCloud(scan, options).noise().sigma(2), DepthNoise().sigma(2));
+  EXPECT_DOUBLE_EQ(DepthCloud(scan, options).noise().sigma(2), DepthNoise().sigma(2));
 }
 
 TEST(FrameNoise, IsTheUsualOneWhereAnImageShowsNothing)
