@@ -77,7 +77,7 @@ TEST(FramePerception, ClaimsLessOfAnImageThatIsNoisier)
     const auto m = measured(frame, frame.detect(0, "suitcase"), options);
     EXPECT_TRUE(m.complete) << m.reason;
     double sigma = 0;
-    for (const auto& face : m.complete->faces)
+    for (const auto& face : m.complete.value().faces)
       if (face.kind == FaceKind::Measured) sigma += face.sigma;
     return sigma;
   };

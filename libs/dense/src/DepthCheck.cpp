@@ -124,7 +124,7 @@ class RayCount
   {
     SurfaceOptions surface;
     surface.maxRange = options.maxRange;
-    surface.maxDepthNoiseFactor = 1;
+    surface.maxDepthNoiseFactor = 1;  // the noise is not asked of the cloud
     return surface;
   }
 

@@ -60,7 +60,7 @@ void forEachPoint(
 {
   SurfaceOptions trusted;
   trusted.maxRange = options.maxRange;
-  trusted.maxDepthNoiseFactor = 1;
+  trusted.maxDepthNoiseFactor = 1;  // the noise is not asked of the cloud
   const DepthCloud cloud(*image.scan, trusted);
   const ColourImage colours(*image.scan);
   const Eigen::Isometry3f T_map_optical =

@@ -52,8 +52,8 @@ double factorOf(const mrpt::obs::CObservation3DRangeScan& scan)
 }  // namespace
 
 // The images lack the steps and the jitter of the camera of (4.1), and the windows make blocks of
-// planes differ: hence less than the factor, by the same in all rooms.
-TEST(FrameNoise, IsThatOfTheImageWhateverTheRoom)
+// planes differ: hence less than the factor, by nearly the same in both rooms.
+TEST(FrameNoise, IsThatOfTheImageInBothRooms)
 {
   for (const bool isFurnished : {false, true})
     for (const int window : {1, 7, 12})
