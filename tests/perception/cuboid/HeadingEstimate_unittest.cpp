@@ -136,6 +136,28 @@ TEST(HeadingEstimate, ClaimsTheSigmaItHasOnOneNarrowFace)
   expectHonest(result);
 }
 
+TEST(HeadingEstimate, OfWhatLeansIsThatOfItsFace)
+{
+  // The box of a camera that looks at it from the side cuts it askew: the higher, the farther on.
+  constexpr double kLean = 18 * kDegree, kYaw = 0.6, kStep = 0.01, kHalf = 0.2, kAskew = 0.5;
+  const Eigen::Vector3d along(-std::sin(kYaw), std::cos(kYaw), 0);
+  const Eigen::Vector3d ahead(std::cos(kYaw), std::sin(kYaw), 0), z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = std::cos(kLean) * z - std::sin(kLean) * ahead;
+  const Eigen::Vector3d normal = std::cos(kLean) * ahead + std::sin(kLean) * z;
+  UprightCloud cloud = emptyCloud(2.0);
+  Rng rng(14);
+  for (double s = -kHalf; s < kHalf; s += kStep)
+    for (double h = -kHalf; h < kHalf; h += kStep)
+    {
+      cloud.points.emplace_back((s + kAskew * h) * along + h * up + gauss(rng, 0.002) * normal);
+      const Eigen::Vector3d noise(gauss(rng, 0.02), gauss(rng, 0.02), gauss(rng, 0.02));
+      cloud.normals.emplace_back((normal + noise).normalized());
+    }
+  const HeadingEstimate heading = estimateHeading(cloud, {});
+  ASSERT_TRUE(heading.defined);
+  EXPECT_NEAR(nearestEquivalentYaw(heading.yaw, kYaw), kYaw, 0.5 * kDegree);
+}
+
 TEST(HeadingEstimate, TrustsNeitherOfTwoFacesThatContradictEachOther)
 {
   Rng rng(13);

@@ -5,6 +5,7 @@
 
 #include "cloud/Precision.h"
 #include "cuboid/FaceSigmas.h"
+#include "quadmap/geometry/LineFit.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 
@@ -14,7 +15,7 @@ namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
 constexpr double kFaceCosine = 0.85;  // of the normals of a face's own points
-constexpr double kMost = 0.95;        // share of a top's points
+constexpr double kMost = 0.95;        // share of a top's or leaning side's points
 constexpr double kOfFront = 0.95;     // share of a screen's points; its rim has up to one in twenty
 
 }  // namespace
@@ -183,8 +184,32 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
       FaceKind::Measured,
       face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
 
-  if (face == kTop) raiseTop(std::move(shell), out);
+  if (face == kTop)
+    raiseTop(std::move(shell), out);
+  else
+    reachOfLeaning(face, out);
   return out;
+}
+
+/** Moves a side that leans to its outermost end. What leans by less is taken to be upright: up is
+ * known to a degree or two, and noise must not move sides outwards. */
+void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
+{
+  constexpr double kLeast = 5.0 * M_PI / 180.0, kSigmas = 3.0;
+  std::vector<Eigen::Vector2d> own;  // height, and along the outward normal
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cosine(face, i) > kFaceCosine) own.emplace_back(points_[kTop / 2][i], along(face, i));
+  const auto line = fitLine(own, shellDepth());
+  if (!line || std::abs(line->angle) < std::max(kLeast, kSigmas * std::sqrt(line->variance)))
+    return;
+  const double slope = std::tan(line->angle);
+  std::vector<double> atFoot;  // where the side would be at the height 0
+  for (const auto& p : own) atFoot.push_back(p.y() - slope * p.x());
+  const double foot = median(atFoot);
+  std::vector<double> ends;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (std::abs(atFoot[i] - foot) < 0.5 * shellDepth()) ends.push_back(foot + slope * own[i].x());
+  if (!ends.empty()) side.position = std::max(side.position, quantile(std::move(ends), kMost));
 }
 
 std::optional<double> FaceEstimator::reachOfFront(std::size_t back) const

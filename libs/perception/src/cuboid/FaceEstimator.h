@@ -122,6 +122,7 @@ class FaceEstimator
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
   double shellDepth() const;
+  void reachOfLeaning(std::size_t face, FaceEstimate& side) const;
   void raiseTop(std::vector<double> shell, FaceEstimate& top) const;
   FaceEstimate outline(std::size_t face, const Outline& lines) const;
   bool leadsUp(std::size_t face, double position) const;

@@ -50,16 +50,33 @@ NormalPeak peakOfNormals(const UprightCloud& cloud)
   return out;
 }
 
-/** The line that the face with a normal near `heading` makes seen from above. */
+/** The line that the face with a normal near `heading` makes seen along its own slope, equation
+ * (8.13). Seen from above, what leans (a screen, the back of a chair) is a strip, whose ends the
+ * box may cut askew. */
 std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
 {
   constexpr double kMaxNormalAngle = 20.0 * M_PI / 180.0, kShell = 0.04;  // [m]
   const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
-  std::vector<Eigen::Vector2d> points;
-  points.reserve(cloud.points.size());
+  std::vector<std::size_t> own;
+  std::vector<double> slopes;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (cloud.normals[i] && cloud.normals[i]->head<2>().dot(n) > std::cos(kMaxNormalAngle))
-      points.emplace_back(cloud.points[i].head<2>().dot(t), cloud.points[i].head<2>().dot(n));
+  {
+    if (!cloud.normals[i]) continue;
+    const Eigen::Vector3d& normal = *cloud.normals[i];
+    const double ahead = normal.head<2>().dot(n);
+    if (ahead <= std::cos(kMaxNormalAngle)) continue;
+    own.push_back(i);
+    slopes.push_back(normal.z() / ahead);
+  }
+  if (own.empty()) return {};
+  const double slope = median(std::move(slopes));
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(own.size());
+  for (const std::size_t i : own)
+  {
+    const Eigen::Vector3d& p = cloud.points[i];
+    points.emplace_back(p.head<2>().dot(t), p.head<2>().dot(n) + slope * p.z());
+  }
   return fitLine(std::move(points), kShell);
 }
 
