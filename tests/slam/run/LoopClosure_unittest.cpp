@@ -18,23 +18,27 @@ TEST(LoopClosure, MakesDoublesOne)
   EXPECT_LT(report.trajectory->ateRmse, 0.15) << "[m]; 0.45 with the doubles";
 }
 
-// The odometry drifts as far as from one room to the other. What the robot passes in between tells
-// that it did not.
+// The odometry drifts as far as from one room to the other, so that in some of the runs it alone
+// would take them for one. What the robot passes in between tells that they are two.
 TEST(LoopClosure, LeavesRoomsFurnishedAlikeTwo)
 {
-  auto scene = simulator::readScene(QUADMAP_SOURCE_DIR "/tests/slam/run/RoomsAlike.ini");
-  scene.options.resize(160, 120);
-  const auto [result, report] = driftingRun(std::move(scene), 10, 3);
-  EXPECT_EQ(result.loops.closed, 0);
-  EXPECT_LT(report.trajectory->ateRmse, 0.3) << "[m]; 0.67 with one room for both";
-  const OdometryDrift odometry(result.keyframes, result.correction->stepNoise.atLeastClaimed());
-  const auto sighted = sightedObjects(result);
-  const auto labels = LabelTable::installed();
-  const ConstellationOptions options;
-  const DoublesRules rules{sighted, labels, options};
-  EXPECT_TRUE(
-      findDoubles(rules, doublesCandidates(rules, odometry), odometry, [] { return false; }))
-      << "the odometry alone would allow it";
+  int allowed = 0;
+  for (const std::uint64_t seed : {2, 3, 4})
+  {
+    auto scene = simulator::readScene(QUADMAP_SOURCE_DIR "/tests/slam/run/RoomsAlike.ini");
+    scene.options.resize(160, 120);
+    const auto [result, report] = driftingRun(std::move(scene), 10, seed);
+    EXPECT_EQ(result.loops.closed, 0) << seed;
+    EXPECT_LT(report.trajectory->ateRmse, 0.3) << seed << " [m]; 0.67 with one room for both";
+    const OdometryDrift odometry(result.keyframes, result.correction->stepNoise.atLeastClaimed());
+    const auto sighted = sightedObjects(result);
+    const auto labels = LabelTable::installed();
+    const ConstellationOptions options;
+    const DoublesRules rules{sighted, labels, options};
+    const auto candidates = doublesCandidates(rules, odometry);
+    allowed += findDoubles(rules, candidates, odometry, [] { return false; }) ? 1 : 0;
+  }
+  EXPECT_GE(allowed, 1);
 }
 
 TEST(LoopClosure, LeavesARunThatCanGoOnInAMap)
