@@ -191,16 +191,15 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   return out;
 }
 
-/** Moves a side that leans to its outermost end. What leans by less is taken to be upright: up is
- * known to a degree or two, and noise must not move sides outwards. */
+/** Moves a side that leans to its outermost end. */
 void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
 {
-  constexpr double kLeast = 5.0 * M_PI / 180.0, kSigmas = 3.0;
+  constexpr double kSigmas = 3.0;
   std::vector<Eigen::Vector2d> own;  // height, and along the outward normal
   for (std::size_t i = 0; i < size(); ++i)
     if (cosine(face, i) > kFaceCosine) own.emplace_back(points_[kTop / 2][i], along(face, i));
   const auto line = fitLine(own, shellDepth());
-  if (!line || std::abs(line->angle) < std::max(kLeast, kSigmas * std::sqrt(line->variance)))
+  if (!line || std::abs(line->angle) < std::max(kUpright, kSigmas * std::sqrt(line->variance)))
     return;
   const double slope = std::tan(line->angle);
   std::vector<double> atFoot;  // where the side would be at the height 0

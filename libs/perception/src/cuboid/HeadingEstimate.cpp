@@ -69,7 +69,8 @@ std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
     slopes.push_back(normal.z() / ahead);
   }
   if (own.empty()) return {};
-  const double slope = median(std::move(slopes));
+  double slope = median(std::move(slopes));
+  if (std::abs(slope) < std::tan(kUpright)) slope = 0;
   std::vector<Eigen::Vector2d> points;
   points.reserve(own.size());
   for (const std::size_t i : own)
