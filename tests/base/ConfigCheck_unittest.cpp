@@ -101,13 +101,14 @@ TEST(RequireReadableIni, AcceptsWhatMrptReads)
 TEST(RequireReadableIni, RefusesWhatMrptWouldSilentlyDrop)
 {
   const TemporaryFolder folder;
-  const std::vector<std::pair<std::string, std::string>> cases = {
+  std::vector<std::pair<std::string, std::string>> cases = {
       {           "[a]\nx 1\n",    ":2: expected"},
       {           "[a]\n= 1\n",    ":2: expected"},
       {          "[a\nx = 1\n",       ":1: \"]\""},
       {"[a]\nx = 1\n\nX = 2\n",   ":4: key \"x\""},
       { "[a]\nx=1\n[b]\n[A]\n", ":4: section [a]"},
   };
+  cases.emplace_back(std::string("[a]\nx=1\0\n[b]\n", 13), ":2: has a zero byte");
   for (const auto& [text, expected] : cases)
   {
     const auto path = folder.write("bad.ini", text);

@@ -56,6 +56,7 @@ class IniLineCheck
   std::string check(const std::string& rawLine)
   {
     const std::string line = trim(rawLine);
+    if (line.find('\0') != std::string::npos) return "has a zero byte, at which MRPT stops reading";
     if (isProgram(line)) return "@define, ${}, $env{} and $eval{} are not allowed";
     const bool continuation = continued_;
     continued_ = !line.empty() && line.back() == '\\';
