@@ -155,6 +155,15 @@ TEST(OutputSet, AMixtureIsRefusedFileByFile)
   EXPECT_EQ(errorOf([&] { requireOneRun(folder.path("other.txt")); }), "") << "is of no set";
 }
 
+TEST(OutputSet, AMixtureIsRefusedBehindALinkOfAnotherName)
+{
+  const TemporaryFolder folder, other;
+  leaveMixture(folder);
+  std::filesystem::create_symlink(folder.path(kNames[0]), other.path("another"));
+  EXPECT_NE(
+      errorOf([&] { requireOneRun(other.path("another")); }).find("two runs"), std::string::npos);
+}
+
 TEST(OutputSet, FilesThatAreNoResultsAreOpenedWithoutASearch)
 {
   const TemporaryFolder folder;

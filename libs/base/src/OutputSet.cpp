@@ -226,12 +226,11 @@ void OutputSet::commit()
 
 void requireOneRun(const std::string& file)
 {
-  const fs::path path = withoutLink(file);
-  const std::string wanted = fs::path(file).filename().string();
-  for (const fs::path& folder : {fs::path(file).parent_path(), path.parent_path()})
+  for (const fs::path& path : {fs::path(file), withoutLink(file)})
   {
     std::error_code error;
-    const fs::path listed = folder.empty() ? "." : folder;
+    const std::string wanted = path.filename().string();
+    const fs::path folder = path.parent_path(), listed = folder.empty() ? "." : folder;
     for (fs::directory_iterator it(listed, error), end; !error && it != end; it.increment(error))
     {
       if (!isStaging(it->path())) continue;
