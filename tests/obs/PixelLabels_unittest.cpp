@@ -213,6 +213,6 @@ TEST_F(PixelLabels, SoManySeparatePartsAreNoObjects)
                 {0, "chair"}
   });
   EXPECT_NE(
-      errorOf([&] { boxesOf(scan); }).find("more than 1000 separate parts"), std::string::npos);
+      errorOf([&] { boxesOf(scan); }).find("more than 300 separate parts"), std::string::npos);
   EXPECT_TRUE(boxesOf(scan, 5)->objects.empty());
 }

@@ -59,6 +59,16 @@ TEST(ReadTumTrajectory, NamesFileAndLineOfWhatIsWrong)
   }
 }
 
+TEST(ReadTumTrajectory, RefusesMorePosesThanAnHourHas)
+{
+  std::string lines;
+  for (int i = 0; i <= 400'000; ++i) lines += "1 0 0 0 0 0 0 1\n";
+  const TemporaryFolder folder;
+  const auto path = folder.write("many.tum", lines);
+  const auto error = errorOf([&] { readTumTrajectory(path); });
+  EXPECT_NE(error.find(path + ": has more than the 400000 poses"), std::string::npos) << error;
+}
+
 TEST(ReadTumTrajectory, NamesAFileThatCannotBeRead)
 {
   const TemporaryFolder folder;

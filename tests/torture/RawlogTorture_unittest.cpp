@@ -302,12 +302,11 @@ TEST_F(RawlogTorture, Sidecar)
                 hugeNumbers(whole.substr(0, whole.size() / 2), 30);
   auto many = room_.boxesOf(*scans_[0], room_.robotAt(0));
   many->objects.resize(CObservationObjects::kMostObjects, many->objects[0]);
-  const auto thousand = bytesOf({many});
-  cases.push_back({"a thousand boxes", thousand});
+  const auto most = bytesOf({many});
+  cases.push_back({"as many boxes as possible", most});
   cases.push_back(
       {"100,000 boxes",
-       with(thousand, littleEndian(CObservationObjects::kMostObjects), littleEndian(100000)),
-       true});
+       with(most, littleEndian(CObservationObjects::kMostObjects), littleEndian(100000)), true});
   ObjectMask mask;
   mask.width = mask.height = 4096;
   mask.pixels.append(4096 * 4096, false);

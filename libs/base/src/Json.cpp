@@ -59,7 +59,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
  private:
   bool countValue()
   {
-    constexpr std::size_t kMostValues = 8'000'000;  // 20,000 keyframes with 40 boxes each
+    constexpr std::size_t kMostValues = 5'000'000;  // 20,000 keyframes with 25 boxes each
     if (++values_ > kMostValues) throw std::runtime_error("holds too many values");
     return true;
   }

@@ -26,6 +26,7 @@ namespace
 constexpr std::size_t kColumns = 8;
 /** A pose at 100 Hz for an hour. In memory a line takes many times its length. */
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 25;
+constexpr int kMostPoses = 400'000;
 
 mrpt::poses::CPose3D poseFrom(const Eigen::Quaterniond& q, const Eigen::Vector3d& t)
 {
@@ -77,12 +78,16 @@ void forEachLine(const std::string& path, const F& f)
   requireOneRun(path);
   auto file = openModestText(path, kMostBytes);
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number)
+  for (int number = 1, poses = 0; std::getline(file, line); ++number)
   {
     std::istringstream text(line.substr(0, line.find('#')));
     std::vector<std::string> words;
     for (std::string word; text >> word;) words.push_back(word);
-    if (!words.empty()) f(words, number);
+    if (words.empty()) continue;
+    if (++poses > kMostPoses)
+      throw std::runtime_error(mrpt::format(
+          "%s: has more than the %d poses that a trajectory may have", path.c_str(), kMostPoses));
+    f(words, number);
   }
   if (file.bad()) throw std::runtime_error(path + ": read error");
 }

@@ -165,8 +165,11 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
 {
   const std::string noInformation =
       "EDGE3 0 1 1 0 0 0 0 0.5 0 0 0 0 0 0  0 0 0 0 0  0 0 0 0  0 0 0  0 0  0\n";
+  std::string many;
+  for (int i = 0; i <= 400'000; ++i) many += "EDGE3\n";
   const std::pair<std::string, std::string> cases[] = {
-      {                                "","no pose graph, it has no VERTEX3 line"                                          },
+      {                              many,"400000 lines"                                          },
+      {                                "",             "no pose graph, it has no VERTEX3 line"},
       {                 "VERTEX3 0 1 2\n",                                           "VERTEX3"},
       {kNodes + "VERTEX3 0 0 0 0 0 0 0\n",           "x.graph:10: node 0 is in line 2 already"},
       {kNodes + "EDGE3 2 9 1 0 0 0 0 0\n", "x.graph:10: an edge of node 9, which is not there"},

@@ -30,7 +30,7 @@ class CObservationObjects : public mrpt::obs::CObservation
 
  public:
   /** Most objects of an image. Detectors end at 100 or 300; association takes cubic time. */
-  static constexpr std::uint32_t kMostObjects = 1000;
+  static constexpr std::uint32_t kMostObjects = 300;
   /** Most pixels of all masks of an image, 64 MB. */
   static constexpr std::uint64_t kMostMaskPixels = std::uint64_t{1} << 26;
 
