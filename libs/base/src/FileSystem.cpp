@@ -18,15 +18,18 @@ void failToWrite(const std::string& path, int error)
   throw std::runtime_error(pathAfterCommit(path) + ": cannot be written: " + std::strerror(error));
 }
 
-fs::path withoutLink(const fs::path& path)
+std::vector<fs::path> linkChain(const fs::path& path)
 {
-  constexpr int kMostLinks = 40;  // as many as Linux follows
-  fs::path target = path;
+  constexpr std::size_t kMostLinks = 40;  // as many as Linux follows
+  std::vector<fs::path> chain{path};
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i)
-    target = target.parent_path() / fs::read_symlink(target, error);  // which may be absolute
-  return target;
+  while (chain.size() <= kMostLinks && fs::is_symlink(chain.back(), error))
+    chain.push_back(  // what it reads may be absolute
+        chain.back().parent_path() / fs::read_symlink(chain.back(), error));
+  return chain;
 }
+
+fs::path withoutLink(const fs::path& path) { return linkChain(path).back(); }
 
 bool isDevice(const fs::path& path)
 {

@@ -5,12 +5,17 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 /** What OutputFile and OutputSet share. */
 namespace quadmap
 {
 /** \exception std::runtime_error Always: this path, and the text of errno. */
 [[noreturn]] void failToWrite(const std::string& path, int error);
+
+/** A path, and where it leads, link by link. The last one is no link, unless there are more of them
+ * than Linux follows. */
+std::vector<std::filesystem::path> linkChain(const std::filesystem::path& path);
 
 /** What a path stands for: the target of a link. */
 std::filesystem::path withoutLink(const std::filesystem::path& path);

@@ -226,7 +226,7 @@ void OutputSet::commit()
 
 void requireOneRun(const std::string& file)
 {
-  for (const fs::path& path : {fs::path(file), withoutLink(file)})
+  for (const fs::path& path : linkChain(file))
   {
     std::error_code error;
     const std::string wanted = path.filename().string();
