@@ -14,7 +14,8 @@ struct ObjectsBudget
   /** Runs of equal pixels in the masks. They take memory and time, where pixels take none. A
    * hundred objects as high as an image of 2160 rows have less than half, at two runs a row. */
   std::uint64_t maskRuns = std::uint64_t{1} << 20;
-  /** Bytes of labels and reasons. Labels are compared often. */
+  /** Bytes of labels and reasons, as labels are compared often. Ours have less than 100 an object.
+   */
   std::uint64_t textBytes = 256'000;
 };
 

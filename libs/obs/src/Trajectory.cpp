@@ -24,8 +24,8 @@ namespace quadmap
 namespace
 {
 constexpr std::size_t kColumns = 8;
-/** A pose at 100 Hz for an hour. In memory a line takes many times its length. */
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 25;
+/** A pose at 100 Hz for more than an hour. A short line takes 30 times its length in memory. */
 constexpr int kMostPoses = 400'000;
 
 mrpt::poses::CPose3D poseFrom(const Eigen::Quaterniond& q, const Eigen::Vector3d& t)

@@ -26,7 +26,8 @@ class GraphLines
 
   void add(const std::string& line)
   {
-    ++line_;
+    constexpr unsigned kMost = 400'000;  // 100,000 poses with edges; 0.7 kB of memory each
+    if (++line_ > kMost) fail(line_, mrpt::format("a graph may have %u lines", kMost));
     std::istringstream words(line);
     std::string first;
     if (!(words >> first)) return;
