@@ -57,6 +57,30 @@ UprightCloud emptyCloud(double range)
   return out;
 }
 
+constexpr double kAskewYaw = 0.6;  // [rad]
+
+/** A face that is cut askew, the higher the farther on, as by the box of a camera that looks at it
+ * from the side. \param lean Of the face, \param normals ... and of its normals [rad]. */
+UprightCloud askewFace(double lean, double normals)
+{
+  constexpr double kStep = 0.01, kHalf = 0.2, kAskew = 0.5;
+  const Eigen::Vector3d along(-std::sin(kAskewYaw), std::cos(kAskewYaw), 0);
+  const Eigen::Vector3d ahead(std::cos(kAskewYaw), std::sin(kAskewYaw), 0);
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = std::cos(lean) * z - std::sin(lean) * ahead;
+  const Eigen::Vector3d normal = std::cos(normals) * ahead + std::sin(normals) * z;
+  UprightCloud cloud = emptyCloud(2.0);
+  Rng rng(14);
+  for (double s = -kHalf; s < kHalf; s += kStep)
+    for (double h = -kHalf; h < kHalf; h += kStep)
+    {
+      cloud.points.emplace_back((s + kAskew * h) * along + h * up + gauss(rng, 0.002) * ahead);
+      const Eigen::Vector3d noise(gauss(rng, 0.02), gauss(rng, 0.02), gauss(rng, 0.02));
+      cloud.normals.emplace_back((normal + noise).normalized());
+    }
+  return cloud;
+}
+
 /** Mean and variance of (yaw - truth) / sigma. */
 struct Normalised
 {
@@ -138,24 +162,21 @@ TEST(HeadingEstimate, ClaimsTheSigmaItHasOnOneNarrowFace)
 
 TEST(HeadingEstimate, OfWhatLeansIsThatOfItsFace)
 {
-  // The box of a camera that looks at it from the side cuts it askew: the higher, the farther on.
-  constexpr double kLean = 18 * kDegree, kYaw = 0.6, kStep = 0.01, kHalf = 0.2, kAskew = 0.5;
-  const Eigen::Vector3d along(-std::sin(kYaw), std::cos(kYaw), 0);
-  const Eigen::Vector3d ahead(std::cos(kYaw), std::sin(kYaw), 0), z = Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d up = std::cos(kLean) * z - std::sin(kLean) * ahead;
-  const Eigen::Vector3d normal = std::cos(kLean) * ahead + std::sin(kLean) * z;
-  UprightCloud cloud = emptyCloud(2.0);
-  Rng rng(14);
-  for (double s = -kHalf; s < kHalf; s += kStep)
-    for (double h = -kHalf; h < kHalf; h += kStep)
-    {
-      cloud.points.emplace_back((s + kAskew * h) * along + h * up + gauss(rng, 0.002) * normal);
-      const Eigen::Vector3d noise(gauss(rng, 0.02), gauss(rng, 0.02), gauss(rng, 0.02));
-      cloud.normals.emplace_back((normal + noise).normalized());
-    }
-  const HeadingEstimate heading = estimateHeading(cloud, {});
+  for (const double lean : {-18.0, 12.0, 18.0})
+  {
+    const HeadingEstimate heading = estimateHeading(askewFace(lean * kDegree, lean * kDegree), {});
+    ASSERT_TRUE(heading.defined) << lean;
+    const double error = nearestEquivalentYaw(heading.yaw, kAskewYaw) - kAskewYaw;
+    EXPECT_NEAR(error, 0, 0.5 * kDegree) << lean;
+    EXPECT_LT(std::abs(error), 3 * heading.sigma) << lean;
+  }
+}
+
+TEST(HeadingEstimate, NormalsThatLeanByLittleDoNotTurnWhatIsUpright)
+{
+  const HeadingEstimate heading = estimateHeading(askewFace(0, 4 * kDegree), {});
   ASSERT_TRUE(heading.defined);
-  EXPECT_NEAR(nearestEquivalentYaw(heading.yaw, kYaw), kYaw, 0.5 * kDegree);
+  EXPECT_NEAR(nearestEquivalentYaw(heading.yaw, kAskewYaw), kAskewYaw, 0.5 * kDegree);
 }
 
 TEST(HeadingEstimate, TrustsNeitherOfTwoFacesThatContradictEachOther)

@@ -58,10 +58,14 @@ Errors errorsOf(const SyntheticFrame& frame)
 
 }  // namespace
 
-TEST(LeaningThings, HaveTheHeadingOfTheirFace)
+TEST(LeaningThings, HaveTheHeadingOfTheirFaceWhenABoardHidesACorner)
 {
   for (const double lean : kLeans_deg)
-    EXPECT_NEAR(errorsOf(leaningPanel(lean)).heading, 0, M_PI / 180) << lean;
+  {
+    SyntheticFrame frame = leaningPanel(lean);
+    frame.boxes.push_back({Ellipsoid({1.1, 0.36, 0.95, 0, 0, 0.5}, {0.01, 0.08, 0.4}), true});
+    EXPECT_NEAR(errorsOf(frame).heading, 0, M_PI / 180) << lean;
+  }
 }
 
 TEST(LeaningThings, EndWhereTheirFrontDoes)

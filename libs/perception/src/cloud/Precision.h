@@ -24,8 +24,8 @@ constexpr double kEndSlack = 0.05;
 /** What a straight end, of a face or a rim, spreads over along its normal [m]. */
 constexpr double kEndWidth = 0.03;
 
-/** What leans by less is taken to be upright [rad]: up is known to a degree or two, and noise must
- * neither move sides outwards nor turn headings. */
+/** What leans by less than these 5 degrees is taken to be upright [rad]: up is known to a degree or
+ * two, and noise must neither move sides outwards nor turn headings. */
 constexpr double kUpright = 0.087;
 
 /** By this share of their size boxes of a detector are wrong without anything being amiss. */
