@@ -53,18 +53,20 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
   return missed;
 }
 
-/** An object's independent looks, times the probability that it exists. */
-LookCounts CQuadricObjectMap::likelyLooks(const Entry& object) const
+/** The independent looks at an object, once it surely exists. How often false alarms came tells
+ * nothing of how well things are found: two of them would vouch for each other. */
+LookCounts CQuadricObjectMap::tellingLooks(const Entry& object) const
 {
-  const LookCounts looks = object.looks.independent(insertionOptions.existence);
-  return {object.existence() * looks.seen, object.existence() * looks.missed};
+  const auto& existence = insertionOptions.existence;
+  if (object.existenceLogOdds <= existence.confirmLogOdds) return {};
+  return object.looks.independent(existence);
 }
 
 /** The sums of all objects of a label, from which its detection probability is learnt, (13.3). */
-std::map<std::string, LookCounts> CQuadricObjectMap::likelyLooksByLabel() const
+std::map<std::string, LookCounts> CQuadricObjectMap::tellingLooksByLabel() const
 {
   std::map<std::string, LookCounts> counts;
-  for (const auto& [id, object] : objects_) counts[object.label()] += likelyLooks(object);
+  for (const auto& [id, object] : objects_) counts[object.label()] += tellingLooks(object);
   return counts;
 }
 
@@ -75,7 +77,7 @@ double CQuadricObjectMap::detectionProbabilityByOthers(
 {
   const auto& existence = insertionOptions.existence;
   LookCounts others = ofLabels.at(object.label());
-  others -= likelyLooks(object);
+  others -= tellingLooks(object);
   return detectionProbability(others, existence.detectionProbability, existence);
 }
 
@@ -83,7 +85,7 @@ double CQuadricObjectMap::detectionProbabilityByOthers(
 void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
 {
   const auto& existence = insertionOptions.existence;
-  const auto ofLabels = likelyLooksByLabel();
+  const auto ofLabels = tellingLooksByLabel();
   for (const ObjectId id : looked)
   {
     Entry& object = require(id);
@@ -100,7 +102,7 @@ CQuadricObjectMap::Revisits CQuadricObjectMap::revisits() const
   // image should have shown is missing when it is blurred.
   constexpr double kSurelyGone = 4.6;
   Revisits revisits;
-  const auto ofLabels = likelyLooksByLabel();
+  const auto ofLabels = tellingLooksByLabel();
   for (const auto& [id, object] : objects_)
     if (const auto after =
             object.looks.afterReturn(detectionProbabilityByOthers(object, ofLabels), existence))

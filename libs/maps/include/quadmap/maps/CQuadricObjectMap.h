@@ -340,8 +340,8 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   ObjectId startObject(const std::vector<WaitingList::Entry>& entries);
   void addView(Entry& object, const WaitingList::Entry& entry);
   std::set<ObjectId> countMisses(const Frame& frame, const std::set<ObjectId>& touched);
-  LookCounts likelyLooks(const Entry& object) const;
-  std::map<std::string, LookCounts> likelyLooksByLabel() const;
+  LookCounts tellingLooks(const Entry& object) const;
+  std::map<std::string, LookCounts> tellingLooksByLabel() const;
   double detectionProbabilityByOthers(
       const Entry& object, const std::map<std::string, LookCounts>& ofLabels) const;
   void judge(const std::set<ObjectId>& looked);
