@@ -307,6 +307,36 @@ TEST(FramePerception, MirrorsWithANegativeFocalLength)
   EXPECT_LT(compare(frame, *m.complete, frame.boxes[0].cuboid).center, 0.02);
 }
 
+TEST(FramePerception, TellsWhatItsEdgesAreJudgedBy)
+{
+  SyntheticFrame frame;
+  frame.add(2.0, 0.1, 0.0, 0.2, {0.5, 0.5, 0.5});
+  frame.add(1.2, 0.3, 0.0, 0.2, {0.2, 0.2, 0.3});  // hides a part of the first
+  DetectedObject outside = frame.detect(0, "suitcase");
+  outside.box = {-50, 10, -20, 40};
+  CObservationObjects boxes =
+      frame.observation({frame.detect(0, "suitcase"), frame.detect(1, "suitcase"), outside});
+  const PerceptionOptions options;
+  const FramePerception perception(options, labels());
+  const auto evidence = perception.edgeEvidence(frame.scan(), boxes, frame.up_sensor());
+  perception.measure(frame.scan(), boxes, frame.up_sensor());
+  ASSERT_EQ(evidence.size(), 3u);
+  EXPECT_FALSE(evidence[2]);
+  int hidden = 0, usable = 0;
+  for (std::size_t b = 0; b < 2; ++b)
+    for (std::size_t e = 0; e < 4; ++e)
+    {
+      const EdgeEvidence& edge = evidence[b].value()[e];
+      const bool isUsable = !edge.isRefused && hiddenProbability(edge.side, edge.hidden) <=
+                                                   options.maxHiddenProbability;
+      EXPECT_EQ(boxes.objects[b].measurement.edges.value()[e].state == EdgeState::Usable, isUsable)
+          << b << ' ' << e;
+      ++(isUsable ? usable : hidden);
+    }
+  EXPECT_GT(hidden, 0);
+  EXPECT_GT(usable, 0);
+}
+
 TEST(FramePerception, RejectsBoxesThatShowNothing)
 {
   SyntheticFrame frame;

@@ -109,8 +109,9 @@ struct FramePerception::Impl
   struct Result
   {
     CoarseDepth coarseDepth;
-    std::vector<ObjectMeasurement> boxes;  // one for each detection
-    FrameSurfaces surfaces;                // sensor frame
+    std::vector<ObjectMeasurement> boxes;              // one for each detection
+    std::vector<std::optional<BoxEvidence>> evidence;  // of their edges, where there are any
+    FrameSurfaces surfaces;                            // sensor frame
   };
 
   /** The algorithm, step by step. The numbers are those of the sections of doc/mathematics.md. */
@@ -120,8 +121,14 @@ struct FramePerception::Impl
       const std::optional<Eigen::Vector3d>& up_sensor,
       const std::vector<SurfacePatch>& known_sensor) const;
 
+  struct MeasuredBox
+  {
+    ObjectMeasurement measurement;
+    std::optional<BoxEvidence> evidence;
+  };
+
   /** The steps for one box. */
-  ObjectMeasurement measureBox(
+  MeasuredBox measureBox(
       const DepthCloud& cloud,
       const ScenePlanes& planes,
       const ObjectTask& task,
@@ -150,6 +157,7 @@ auto FramePerception::Impl::measure(
   {
     out.boxes.assign(
         detections.size(), rejected("no up direction: neither a pose nor a plane in the frame"));
+    out.evidence.resize(detections.size());
     return out;
   }
   auto planes = classifyPlanes(cloud, std::move(pieces), *up, toOptical(known_sensor), options);
@@ -162,21 +170,25 @@ auto FramePerception::Impl::measure(
   const auto screens = screensOf(cloud, tasks, objects);
   // 8 Cuboid, 9 Edges, 10 Choice and seed
   for (std::size_t i = 0; i < tasks.size(); ++i)
-    out.boxes.push_back(measureBox(cloud, scene.planes, tasks[i], objects[i], screens, options));
+  {
+    auto box = measureBox(cloud, scene.planes, tasks[i], objects[i], screens, options);
+    out.boxes.push_back(std::move(box.measurement));
+    out.evidence.push_back(box.evidence);
+  }
   return out;
 }
 
-ObjectMeasurement FramePerception::Impl::measureBox(
+auto FramePerception::Impl::measureBox(
     const DepthCloud& cloud,
     const ScenePlanes& planes,
     const ObjectTask& task,
     const ObjectCloud& object,
     const std::vector<BoxAtDepth>& screens,
-    const PerceptionOptions& options) const
+    const PerceptionOptions& options) const -> MeasuredBox
 {
   const ImageBox& box = task.detection->box;
   const auto visible = insideImage(cloud, box);
-  if (!visible) return rejected(box.isValid() ? "box outside the image" : "box without area");
+  if (!visible) return {rejected(box.isValid() ? "box outside the image" : "box without area"), {}};
   // 8 The cuboid: heading (8.1) - (8.5), faces (8.6) - (8.12)
   std::optional<CompleteMeasurement> cuboid;
   if (!object.empty()) cuboid = fitCuboid(cloud, planes, object, task.label, options);
@@ -187,11 +199,11 @@ ObjectMeasurement FramePerception::Impl::measureBox(
   // 9 Edges (9.1) - (9.5)
   EdgeContext context{object, task.label, planes.up, seed ? seed->z() : 0, screens, {}};
   if (cuboid) context.cuboidBox = projectCuboidBox(cloud.camera(), cuboid->object_sensor);
-  const auto edges = measureEdges(cloud, box, context, options);
+  const auto judged = measureEdges(cloud, box, context, options);
   // 10 Choice
   std::optional<Eigen::Vector3d> seed_sensor;
   if (seed) seed_sensor = toSensor(*seed);
-  return chooseKind(verdict, object, seed_sensor, edges, options);
+  return {chooseKind(verdict, object, seed_sensor, judged.edges, options), judged.evidence};
 }
 
 FramePerception::FramePerception(const PerceptionOptions& options, const LabelTable& labels) :
@@ -212,6 +224,15 @@ FrameSurfaces FramePerception::measure(
   for (std::size_t i = 0; i < boxes.objects.size(); ++i)
     boxes.objects[i].measurement = std::move(result.boxes[i]);
   return std::move(result.surfaces);
+}
+
+std::vector<std::optional<BoxEvidence>> FramePerception::edgeEvidence(
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const CObservationObjects& boxes,
+    const std::optional<Eigen::Vector3d>& up_sensor,
+    const std::vector<SurfacePatch>& known_sensor) const
+{
+  return impl_->measure(scan, boxes.objects, up_sensor, known_sensor).evidence;
 }
 
 }  // namespace quadmap

@@ -2,6 +2,15 @@
 
 namespace quadmap
 {
+namespace
+{
+/** The map's z axis in the sensor frame. */
+Eigen::Vector3d upOf(const mrpt::poses::CPose3D& T_map_sensor)
+{
+  return T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
+}
+}  // namespace
+
 FrameSurfaces measureInRoom(
     const FramePerception& perception,
     const mrpt::obs::CObservation3DRangeScan& scan,
@@ -9,9 +18,7 @@ FrameSurfaces measureInRoom(
     const mrpt::poses::CPose3D& T_map_sensor,
     const RoomPlanes& room)
 {
-  // The map's z axis in the sensor frame.
-  const Eigen::Vector3d up_sensor = T_map_sensor.getRotationMatrix().asEigen().row(2).transpose();
-  return perception.measure(scan, boxes, up_sensor, room.around(T_map_sensor));
+  return perception.measure(scan, boxes, upOf(T_map_sensor), room.around(T_map_sensor));
 }
 
 FrameSurfaces measureAndRemember(
@@ -24,6 +31,14 @@ FrameSurfaces measureAndRemember(
   FrameSurfaces surfaces = measureInRoom(perception, scan, boxes, T_map_sensor, room);
   room.add(surfaces, T_map_sensor);
   return surfaces;
+}
+
+std::vector<std::optional<BoxEvidence>> RoomPerception::edgeEvidence(
+    const mrpt::obs::CObservation3DRangeScan& scan,
+    const CObservationObjects& boxes,
+    const mrpt::poses::CPose3D& T_map_sensor) const
+{
+  return perception_.edgeEvidence(scan, boxes, upOf(T_map_sensor), room_.around(T_map_sensor));
 }
 
 }  // namespace quadmap

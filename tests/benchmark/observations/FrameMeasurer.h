@@ -22,6 +22,13 @@ class FrameMeasurer
     return boxes;
   }
 
+  /** What the edges of its boxes are judged by. \param frame The next one of the walk. */
+  std::vector<std::optional<BoxEvidence>> edgeEvidence(const ObservedFrame& frame) const
+  {
+    return perception_.edgeEvidence(
+        *frame.simulated.scan, *frame.simulated.objects, frame.T_map_sensor);
+  }
+
  private:
   RoomPerception perception_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "quadmap/perception/RoomPerception.h"
+#include "quadmap/rooms/RandomRoom.h"
 
 namespace quadmap::observations
 {
@@ -32,6 +33,12 @@ std::vector<std::optional<TrueObject>> truthOf(
   return out;
 }
 
+simulator::Scene sceneOf(const std::string& name, std::uint64_t seed)
+{
+  if (name == "random") return simulator::randomRoom(seed);
+  return simulator::readScene(simulator::findScene(name));
+}
+
 }  // namespace
 
 void runScene(
@@ -42,7 +49,7 @@ void runScene(
 {
   for (const auto seed : run.seeds)
   {
-    simulator::Scene scene = simulator::readScene(simulator::findScene(run.scene));
+    simulator::Scene scene = sceneOf(run.scene, seed);
     scene.options.camera.resize(run.width, run.height);
     const simulator::Simulator room(std::move(scene), labels, seed);
     RoomPerception perception(perceptionOptions, labels);

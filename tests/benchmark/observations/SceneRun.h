@@ -17,7 +17,8 @@ namespace quadmap::observations
 /** Which simulated frames are looked at. */
 struct RunOptions
 {
-  std::string scene = "home";  //!< Name of an installed scene or path of a scene file
+  /** Name of an installed scene, path of a scene file, or "random": another room per seed. */
+  std::string scene = "home";
   std::vector<std::uint64_t> seeds = {1, 2, 3};
   int width = 320, height = 240;  //!< Of the images [px]
   std::size_t framesStep = 1;     //!< Every n-th frame, >= 1

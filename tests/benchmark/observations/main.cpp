@@ -5,6 +5,7 @@
 #include "../../../apps/common/CommandLine.h"
 #include "AblationTable.h"
 #include "EdgeTable.h"
+#include "EdgeWeights.h"
 #include "OrientationTable.h"
 #include "ResidualTable.h"
 #include "quadmap/base/ConfigCheck.h"
@@ -24,16 +25,24 @@ struct Cli
       "observation_tables",
       "Measures the objects of simulated frames at their true poses and prints a table. residuals: "
       "residuals of the map's factors at the true state, in units of their sigmas; edges: how well "
-      "the usable box edges are told from the others; ablation: the map's errors with each model "
-      "and rule; orientation: errors of the measured headings per class.",
+      "the usable box edges are told from the others; edge-weights: the weights of what tells "
+      "them, "
+      "fitted anew; ablation: the map's errors with each model and rule; orientation: errors of "
+      "the "
+      "measured headings per class.",
       "benchmark"};
-  std::vector<std::string> tables{"residuals", "edges", "ablation", "orientation"};
+  std::vector<std::string> tables{"residuals", "edges", "edge-weights", "ablation", "orientation"};
   TCLAP::ValuesConstraint<std::string> tableConstraint{tables};
   TCLAP::UnlabeledValueArg<std::string> table{"TABLE", "What to print.", true,
                                               "",      &tableConstraint, line.args()};
   TCLAP::ValueArg<std::string> scene{
-      "",      "scene",    "Installed scene, or path of a scene file.", false, "home",
-      "SCENE", line.args()};
+      "",
+      "scene",
+      "Installed scene, path of a scene file, or random: another room for each seed.",
+      false,
+      "home",
+      "SCENE",
+      line.args()};
   TCLAP::ValueArg<std::string> seeds{
       "",        "seeds",    "Of the simulations, separated by commas.", false, "1,2,3",
       "N,N,...", line.args()};
@@ -44,7 +53,8 @@ struct Cli
   TCLAP::ValueArg<double> invalidBeyond{
       "",
       "invalid-beyond",
-      "edges: one is invalid when the object's outline ends further beyond it [px of 640].",
+      "edges, edge-weights: one is invalid when the object's outline ends further beyond it [px of "
+      "640].",
       false,
       18,
       "PX",
@@ -90,6 +100,8 @@ Rows printTable(Cli& cli)
   const std::string& table = cli.table.getValue();
   if (table == "edges")
     return printEdgeTable(run, {cli.invalidBeyond.getValue()}, cli.perLabel.getValue(), std::cout);
+  if (table == "edge-weights")
+    return printEdgeWeights(run, {cli.invalidBeyond.getValue()}, std::cout);
   if (table == "ablation") return printAblationTable(run, std::cout);
   if (table == "orientation") return printOrientationTable(run, std::cout);
   std::ofstream raw;

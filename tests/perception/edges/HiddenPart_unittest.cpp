@@ -1,6 +1,8 @@
-#include "edges/HiddenPart.h"
+#include "quadmap/perception/HiddenPart.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace quadmap
 {
@@ -79,6 +81,25 @@ TEST(HiddenPart, SomethingNearerAlongALongSideIsMoreThanChance)
   longer.length_px = 400;
   EXPECT_GT(
       hiddenProbability(ObjectSide::Lateral, longer), hiddenProbability(ObjectSide::Lateral, e));
+}
+
+TEST(HiddenPart, TheProbabilityIsThatOfItsTerms)
+{
+  HiddenEvidence e = nothingHidden();
+  e.nearer = 0.7;
+  e.cuboidBeyond_px = 20;
+  e.tooLow = 2;
+  e.anyContact = true;
+  for (const auto side : kEachSide)
+  {
+    const auto terms = hiddenTerms(side, e);
+    ASSERT_FALSE(terms.empty());
+    EXPECT_EQ(terms.front().evidence, 1);  // the constant
+    double logOdds = 0;
+    for (const auto& term : terms) logOdds += term.evidence * term.weight;
+    const double p = hiddenProbability(side, e);
+    EXPECT_NEAR(std::log(p / (1 - p)), logOdds, 1e-9);
+  }
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "cloud/Precision.h"
 #include "edges/EdgeStrips.h"
-#include "edges/HiddenPart.h"
 #include "edges/ObjectEnd.h"
 #include "edges/Occluders.h"
 #include "quadmap/geometry/Projection.h"
@@ -55,22 +54,28 @@ class EdgeJudge
       const auto edge = static_cast<BoxEdge>(i);
       ends_.emplace_back(cloud, context, edge, options);
       depth_[i] = depthNear(edge);
-      nearBorder_[i] = isNearBorder(edge, depth_[i]);
+      nearBorder_[i] = isCutByBorder(edge, depth_[i]);
       nearer_[i] = nearerShare(edge, depth_[i]);
     }
   }
 
-  EdgeState state(BoxEdge edge) const
+  EdgeEvidence evidence(BoxEdge edge) const
   {
-    const auto i = static_cast<std::size_t>(edge);
-    if (nearBorder_[i]) return EdgeState::NearImageBorder;
-    const HiddenEvidence seen = evidence(edge);
-    const bool isHidden = isBeforeTheFoot(edge, seen) ||
-                          hiddenProbability(sideOf(edge), seen) > options_.maxHiddenProbability;
+    const HiddenEvidence seen = hiddenEvidence(edge);
+    return {sideOf(edge), seen, isNearBorder(edge) || isBeforeTheFoot(edge, seen)};
+  }
+
+  EdgeState state(BoxEdge edge, const EdgeEvidence& seen) const
+  {
+    if (isNearBorder(edge)) return EdgeState::NearImageBorder;
+    const bool isHidden =
+        seen.isRefused || hiddenProbability(seen.side, seen.hidden) > options_.maxHiddenProbability;
     return isHidden ? EdgeState::Occluded : EdgeState::Usable;
   }
 
  private:
+  bool isNearBorder(BoxEdge edge) const { return nearBorder_[static_cast<std::size_t>(edge)]; }
+
   /** Is this a lower edge of a box that is too low to show the foot of its object? What leads up to
    * the object, as a table to a chair behind it, shows no jump in depth. A box that is cut above is
    * low for that reason. */
@@ -140,7 +145,7 @@ class EdgeJudge
   }
 
   /** So near to the border of the image that the border may have cut the object. */
-  bool isNearBorder(BoxEdge edge, double depth) const
+  bool isCutByBorder(BoxEdge edge, double depth) const
   {
     const auto& camera = cloud_.camera();
     const double distance = distanceToBorder(camera, box_, edge);
@@ -152,7 +157,7 @@ class EdgeJudge
 
   double sizeAcross(BoxEdge edge) const { return isUpright(edge) ? box_.width() : box_.height(); }
 
-  HiddenEvidence evidence(BoxEdge edge) const
+  HiddenEvidence hiddenEvidence(BoxEdge edge) const
   {
     const auto i = static_cast<std::size_t>(edge);
     HiddenEvidence e;
@@ -209,15 +214,20 @@ class EdgeJudge
 
 }  // namespace
 
-std::array<EdgeMeasurement, 4> measureEdges(
+JudgedEdges measureEdges(
     const DepthCloud& cloud,
     const ImageBox& box,
     const EdgeContext& context,
     const PerceptionOptions& options)
 {
   const EdgeJudge judge(cloud, box, context, options);
-  auto out = edgesWithoutDepth(cloud.camera(), box, options);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].state = judge.state(static_cast<BoxEdge>(i));
+  JudgedEdges out{edgesWithoutDepth(cloud.camera(), box, options), {}};
+  for (std::size_t i = 0; i < out.edges.size(); ++i)
+  {
+    const auto edge = static_cast<BoxEdge>(i);
+    out.evidence[i] = judge.evidence(edge);
+    out.edges[i].state = judge.state(edge, out.evidence[i]);
+  }
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "cloud/ObjectCloud.h"
 #include "quadmap/obs/LabelTable.h"
 #include "quadmap/obs/ObjectMeasurement.h"
+#include "quadmap/perception/HiddenPart.h"
 #include "quadmap/perception/PerceptionOptions.h"
 #include "quadmap/surfaces/DepthCloud.h"
 
@@ -30,10 +31,17 @@ struct EdgeContext
   std::optional<ImageBox> cuboidBox;  //!< Of the object's cuboid, unclipped [px]
 };
 
+/** The edges of a box, and what they were judged by. */
+struct JudgedEdges
+{
+  std::array<EdgeMeasurement, 4> edges;
+  BoxEvidence evidence;
+};
+
 /** The four box edges as tangent planes in the sensor frame, with what speaks against each: near
  * the image border, or the object probably goes on behind something nearer (doc/mathematics.md,
  * "Edges"). */
-std::array<EdgeMeasurement, 4> measureEdges(
+JudgedEdges measureEdges(
     const DepthCloud& cloud,
     const ImageBox& box,
     const EdgeContext& context,

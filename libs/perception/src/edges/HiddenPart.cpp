@@ -1,4 +1,4 @@
-#include "edges/HiddenPart.h"
+#include "quadmap/perception/HiddenPart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,27 +23,51 @@ double cuboidBeyond(const HiddenEvidence& e)
 
 }  // namespace
 
-double hiddenProbability(ObjectSide side, const HiddenEvidence& e)
+// The weights come from a logistic regression over simulated rooms, together with ten more pieces
+// of evidence, which were left out later; the first one of the sides was then raised by 0.1.
+// `observation_tables edge-weights` fits them anew (doc/benchmarks.md, "Box edges").
+std::vector<HiddenTerm> hiddenTerms(ObjectSide side, const HiddenEvidence& e)
+{
+  const double cuboid = cuboidBeyond(e);
+  const double contact = e.anyContact ? 1.0 : 0.0;
+  const double low = std::min(e.tooLow, kMostTooLow);
+  const double length = std::log(std::max(e.length_px, kMinSize));
+  const double size = std::log(std::max(e.size_px, kMinSize));
+  std::vector<HiddenTerm> terms;
+  const auto add = [&](const char* name, double evidence, double weight) {
+    terms.push_back({name, evidence, weight});
+  };
+  switch (side)
+  {
+    case ObjectSide::Top:
+      add("constant", 1, -8.8);
+      add("slant", e.endAtBorder, 2.2);
+      add("cuboid", cuboid, 0.7);
+      add("contact", contact, 2.35);
+      add("low", low, 0.73);
+      break;
+    case ObjectSide::Bottom:
+      add("constant", 1, -13.5);
+      add("nearer", e.nearer, 3.3);
+      add("cuboid", cuboid, 2.3);
+      add("coverage", e.coverageUnsupported, 2.4);
+      add("ln(size)", size, 1.4);
+      add("low", low, 0.85);
+      break;
+    case ObjectSide::Lateral:
+      add("constant", 1, -6.6);
+      add("nearer ln(length)", e.nearer * length, 1.18);
+      add("slant", e.endAtBorder, 4.2);
+      add("cuboid", cuboid, 1.73);
+      break;
+  }
+  return terms;
+}
+
+double hiddenProbability(ObjectSide side, const HiddenEvidence& evidence)
 {
   double logOdds = 0;
-  const auto add = [&](double piece, double top, double bottom, double lateral)
-  {
-    logOdds += piece * (side == ObjectSide::Top      ? top
-                        : side == ObjectSide::Bottom ? bottom
-                                                     : lateral);
-  };
-  // Equation (9.2). The weights come from a logistic regression over simulated rooms
-  // (doc/benchmarks.md, "Box edges"). They were fitted together with ten more pieces of evidence,
-  // which were left out later; the first one of the sides was then raised by 0.1.
-  add(1, -8.8, -13.5, -6.6);
-  add(e.nearer, 0, 3.3, 0);
-  add(e.nearer * std::log(std::max(e.length_px, kMinSize)), 0, 0, 1.18);
-  add(e.endAtBorder, 2.2, 0, 4.2);
-  add(cuboidBeyond(e), 0.7, 2.3, 1.73);
-  add(e.coverageUnsupported, 0, 2.4, 0);
-  add(std::log(std::max(e.size_px, kMinSize)), 0, 1.4, 0);
-  add(e.anyContact ? 1.0 : 0.0, 2.35, 0, 0);
-  add(std::min(e.tooLow, kMostTooLow), 0.73, 0.85, 0);
+  for (const auto& term : hiddenTerms(side, evidence)) logOdds += term.weight * term.evidence;
   return 1.0 / (1.0 + std::exp(-logOdds));
 }
 

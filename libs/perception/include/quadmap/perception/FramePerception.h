@@ -8,6 +8,7 @@
 
 #include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/LabelTable.h"
+#include "quadmap/perception/HiddenPart.h"
 #include "quadmap/perception/PerceptionOptions.h"
 #include "quadmap/surfaces/SurfacePatch.h"
 
@@ -34,6 +35,14 @@ class FramePerception
   FrameSurfaces measure(
       const mrpt::obs::CObservation3DRangeScan& scan,
       CObservationObjects& boxes,
+      const std::optional<Eigen::Vector3d>& up_sensor,
+      const std::vector<SurfacePatch>& known_sensor = {}) const;
+
+  /** What measure() judges the edges of each box by, to fit the weights of (9.2) to; nothing for a
+   * box that shows no part of the image. Parameters and exceptions as above. */
+  std::vector<std::optional<BoxEvidence>> edgeEvidence(
+      const mrpt::obs::CObservation3DRangeScan& scan,
+      const CObservationObjects& boxes,
       const std::optional<Eigen::Vector3d>& up_sensor,
       const std::vector<SurfacePatch>& known_sensor = {}) const;
 

@@ -47,6 +47,13 @@ class RoomPerception
     return measureAndRemember(perception_, scan, boxes, T_map_sensor, room_);
   }
 
+  /** What measure() would judge the edges of the boxes of the next frame by; the room stays as it
+   * is. */
+  std::vector<std::optional<BoxEvidence>> edgeEvidence(
+      const mrpt::obs::CObservation3DRangeScan& scan,
+      const CObservationObjects& boxes,
+      const mrpt::poses::CPose3D& T_map_sensor) const;
+
   const RoomPlanes& room() const { return room_; }  //!< Surfaces known so far
 
  private:

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
 namespace quadmap
 {
 /** What speaks for and against that an object goes on beyond an edge of its box. */
@@ -34,8 +38,28 @@ enum class ObjectSide
   Lateral
 };
 
+/** One term of the sum of doc/mathematics.md, (9.2). */
+struct HiddenTerm
+{
+  std::string name;  //!< As in the table after (9.2)
+  double evidence;   //!< e_j
+  double weight;     //!< w_j
+};
+
+/** The terms that count for a side, the constant first. */
+std::vector<HiddenTerm> hiddenTerms(ObjectSide side, const HiddenEvidence& evidence);
+
 /** Probability that the object goes on beyond an edge, hidden by something nearer or cut off by
- * the image (doc/mathematics.md, "Edges"). */
+ * the image, doc/mathematics.md, (9.2). */
 double hiddenProbability(ObjectSide side, const HiddenEvidence& evidence);
+
+/** What an edge of a box is judged by. */
+struct EdgeEvidence
+{
+  ObjectSide side = ObjectSide::Lateral;
+  HiddenEvidence hidden;
+  bool isRefused = false;  //!< For another reason: near the border, or before a foot out of sight
+};
+using BoxEvidence = std::array<EdgeEvidence, 4>;  //!< In the order of BoxEdge
 
 }  // namespace quadmap
