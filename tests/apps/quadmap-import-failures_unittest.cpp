@@ -49,6 +49,9 @@ TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)
   expect("associations.txt", "1 2 3\n", "associations.txt:1: expected 4 columns");
   expect("rgb/f3.png", "", "rgb/f3.png: no such file");
   expect("depth/f3.png", "x", "depth/f3.png: cannot be read as an image");
+  expect(
+      "detections/f3.txt", "1 cup 1 -1e300 -1e300 1e300 1e300\n",
+      "detections/f3.txt: cup (x1=-1e+300 y1=-1e+300 x2=1e+300 y2=1e+300) reaches far outside");
   expect("detections/f3.txt", "1 cup 1 9 9 5 5\n", "detections/f3.txt: cup (x1=9 y1=9 x2=5 y2=5)");
   expect("groundtruth.txt", "1 2\n", "groundtruth.txt:1");
   expect(

@@ -9,6 +9,7 @@
 
 #include "../obs/TemporaryFolder.h"
 #include "SampleScene.h"
+#include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/review/KeyframeContent.h"
 
 using namespace quadmap;
@@ -165,6 +166,33 @@ TEST_F(SimpleMapFile, PosesThatAreNoneAreReported)
       errorWith(CPose3D(0, 1e300, 0, 0, 0, 0), {}),
       path_ + ": keyframe 1 of 1: its pose is 1e+300 m away, which is absurd");
   EXPECT_NE(errorWith({}, mirrored).find("has no rotation"), std::string::npos);
+}
+
+TEST_F(SimpleMapFile, BoxesThatAreNoneAreReported)
+{
+  const auto errorWith = [&](const ImageBox& box)
+  {
+    mrpt::maps::CSimpleMap map;
+    const auto boxes = CObservationObjects::Create();
+    boxes->sensorLabel = "camera";
+    boxes->cameraParams.ncols = 64;
+    boxes->cameraParams.nrows = 48;
+    boxes->objects.emplace_back();
+    boxes->objects[0].label = "cup";
+    boxes->objects[0].box = box;
+    mrpt::obs::CSensoryFrame observations;
+    observations.insert(boxes);
+    map.insert(mrpt::poses::CPose3DPDFGaussian(), observations);
+    EXPECT_TRUE(map.saveToFile(path_));
+    SimpleMapReader reader(path_);
+    return errorOf([&] { reader.next(); });
+  };
+  EXPECT_EQ(errorWith({-9, 1, 70, 9}), "");
+  EXPECT_EQ(
+      errorWith({-1e300, 1, 1e300, 9}),
+      path_ +
+          ": keyframe 1 of 1: box 0 (cup) of camera: (x1=-1e+300 y1=1 x2=1e+300 y2=9) reaches far "
+          "outside the 64x48 image");
 }
 
 TEST_F(SimpleMapFile, OtherFilesAreReported)

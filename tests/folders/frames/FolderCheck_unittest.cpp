@@ -153,13 +153,14 @@ TEST(FolderCheck, FindsUnusableBoxes)
   recording.files.write(
       SampleRecording::boxesFile(2),
       "1 a 0.5 9 9 5 5\n1 b 0.5 70 1 90 9\n1 c 0.5 1 1 1 9\n1 d 0.5 nan 1 2 9\n1 e 7 1 1 9 9\n"
-      "1 good 0.5 1 1 9 9\n");
+      "1 f 0.5 -1e300 -1e300 1e300 1e300\n1 good 0.5 1 1 9 9\n");
   recording.files.write(SampleRecording::boxesFile(3), "1 a 0.5\n");
   const auto problems = check(recording);
   ASSERT_EQ(problems.size(), 1u);
   const auto& boxes = problems.at("box");
-  ASSERT_EQ(boxes.size(), 6u);
-  const char* const parts[] = {"inverted", "outside", "no area", "not finite", "score", "columns"};
+  ASSERT_EQ(boxes.size(), 7u);
+  const char* const parts[] = {"inverted", "outside", "no area", "not finite",
+                               "score",    "far",     "columns"};
   for (std::size_t i = 0; i < boxes.size(); ++i)
     EXPECT_NE(boxes[i].find(parts[i]), std::string::npos) << boxes[i];
 }

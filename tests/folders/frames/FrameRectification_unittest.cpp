@@ -171,6 +171,7 @@ TEST(FrameRectification, LeavesEdgesAtTheBorderThere)
   EXPECT_GT(box.y1, 100) << "not at the border: rectified";
   const ImageBox wrong = rectification.box({9, 9, 5, 5});
   EXPECT_EQ(wrong.x1, 9) << "what is no box is left as it is";
+  EXPECT_EQ(rectification.box({-1e300, -1e300, 1e300, 1e300}).x2, 1e300);
 }
 
 TEST(FrameRectification, BringsColourToTheSizeOfDepth)

@@ -236,6 +236,8 @@ TEST(RawlogErrors, BoxesNobodyCanUse)
   expect("has no area", {5, 5, 9, 5});
   expect("outside the 64x48 image", {70, 5, 80, 9});
   expect("outside the 64x48 image", {5, -9, 8, -2});
+  expect("reaches far outside the 64x48 image", {-1e300, -1e300, 1e300, 1e300});
+  expect("reaches far outside the 64x48 image", {1, 1, 5, 641});
   expect("score 1.5", {1, 1, 5, 5}, 1.5);
   expect("score nan", {1, 1, 5, 5}, kNaN);
 }

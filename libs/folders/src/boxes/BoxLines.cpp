@@ -66,16 +66,6 @@ ImageBox boundsOfOutline(const TextLine& line)
   return bounds;
 }
 
-/** Detectors draw boxes beyond the image, but not by ten times its size. A number that is none is
- * told of with all that is wrong with a box. */
-bool isNearImage(const ImageBox& box, const mrpt::img::TCamera& camera)
-{
-  constexpr double kFarthest = 10;
-  const double far = kFarthest * std::max(camera.ncols, camera.nrows);
-  const auto isFar = [&](double x) { return std::abs(x) > far; };
-  return !isFar(box.x1) && !isFar(box.y1) && !isFar(box.x2) && !isFar(box.y2);
-}
-
 /** Text files beside each other, one per image. */
 class BoxLines : public BoxReader
 {
@@ -88,12 +78,7 @@ class BoxLines : public BoxReader
     const std::string file = fileOf(frame);
     if (!fs::exists(file)) return std::nullopt;
     std::vector<DetectedObject> objects;
-    for (const auto& line : readTextLines(file))
-    {
-      objects.push_back(boxIn(line, camera));
-      if (const auto& box = objects.back().box; !isNearImage(box, camera))
-        throw std::runtime_error(line.place + ": the box lies far outside the image");
-    }
+    for (const auto& line : readTextLines(file)) objects.push_back(boxIn(line, camera));
     requireFewBoxes(objects.size(), file);
     return objects;
   }

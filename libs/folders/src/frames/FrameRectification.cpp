@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frames/ResizedCamera.h"
+#include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
 {
@@ -173,7 +174,8 @@ cv::Mat FrameRectification::depth(const cv::Mat& image) const
 ImageBox FrameRectification::box(const ImageBox& box) const
 {
   constexpr double kAtBorder = 2;  // detectors round [px]
-  if (!box.isValid()) return box;  // left to those who say why
+  if (!box.isValid() || isFarOutside(box, from_.ncols, from_.nrows))
+    return box;  // left to those who say why
   const double right = to_.ncols - 1.0, bottom = to_.nrows - 1.0;
   ImageBox b = boundsOfOutline(box, from_, to_);
   if (box.x1 <= kAtBorder) b.x1 = std::min(b.x1, 0.0);

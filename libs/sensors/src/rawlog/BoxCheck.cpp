@@ -2,10 +2,19 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace quadmap
 {
+bool isFarOutside(const ImageBox& box, unsigned width, unsigned height)
+{
+  constexpr double kFarthest = 10;
+  const double far = kFarthest * std::max(width, height);
+  const auto isFar = [far](double x) { return std::abs(x) > far; };
+  return isFar(box.x1) || isFar(box.y1) || isFar(box.x2) || isFar(box.y2);
+}
+
 std::optional<std::string> whyUnusable(
     const ImageBox& box, double score, unsigned width, unsigned height)
 {
@@ -15,6 +24,8 @@ std::optional<std::string> whyUnusable(
     if (!std::isfinite(x)) return corners + " has numbers that are not finite";
   if (box.x2 < box.x1 || box.y2 < box.y1) return corners + " is inverted";
   if (!box.isValid()) return corners + " has no area";
+  if (isFarOutside(box, width, height))
+    return corners + mrpt::format(" reaches far outside the %ux%u image", width, height);
   if (!box.clipped(width, height).isValid())
     return corners + mrpt::format(" lies outside the %ux%u image", width, height);
   if (!(score >= 0 && score <= 1)) return corners + mrpt::format(": score %g not in [0, 1]", score);

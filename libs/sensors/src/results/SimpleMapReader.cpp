@@ -10,7 +10,9 @@
 #include <stdexcept>
 
 #include "quadmap/base/ArchiveFields.h"
+#include "quadmap/obs/CObservationObjects.h"
 #include "quadmap/obs/Plausible.h"
+#include "quadmap/sensors/BoxCheck.h"
 #include "records/UnreadableRecord.h"
 
 namespace quadmap
@@ -35,15 +37,31 @@ bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
   return name == expected && readScalar<std::uint8_t>(archive) == kVersion;
 }
 
-/** Why the pose of a keyframe, or of a camera in it, cannot be one. */
+std::optional<std::string> whyNoBoxes(const CObservationObjects& boxes)
+{
+  const auto& camera = boxes.cameraParams;
+  for (std::size_t i = 0; i < boxes.objects.size(); ++i)
+    if (const auto why =
+            whyUnusable(boxes.objects[i].box, boxes.objects[i].score, camera.ncols, camera.nrows))
+      return mrpt::format(
+          "box %zu (%s) of %s: %s", i, boxes.objects[i].label.c_str(), boxes.sensorLabel.c_str(),
+          why->c_str());
+  return std::nullopt;
+}
+
+/** Why the pose of a keyframe, or of a camera in it, or a box, cannot be one. */
 std::optional<std::string> whyNoKeyframe(const SimpleMapReader::Keyframe& keyframe)
 {
   if (const auto why = whyNoPose(keyframe.pose->getMeanVal())) return "its pose " + *why;
   for (const auto& observation : *keyframe.observations)
+  {
     if (const auto scan =
             std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation))
       if (const auto why = whyNoPose(scan->sensorPose, kFarthestOnRobot))
         return "the sensorPose of " + scan->sensorLabel + " " + *why;
+    if (const auto boxes = std::dynamic_pointer_cast<CObservationObjects>(observation))
+      if (const auto why = whyNoBoxes(*boxes)) return why;
+  }
   return std::nullopt;
 }
 
