@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/KeepGreatest.h"
 #include "quadmap/obs/TimeOrder.h"
 #include "quadmap/sensors/BoxCheck.h"
 
@@ -24,6 +25,14 @@ void drop(FolderImportReport& report, const FolderImportOptions& options, const 
   report.dropped.push_back(what);
 }
 
+/** Leaves as many boxes as an image may have. \return How many were left out. */
+std::size_t keepSurest(std::vector<DetectedObject>& objects)
+{
+  return keepGreatest(
+      objects, CObservationObjects::kMostObjects,
+      [](const DetectedObject& object) { return object.score; });
+}
+
 CObservationObjects::Ptr loadBoxes(
     const FrameFolder& folder,
     std::size_t frame,
@@ -42,6 +51,9 @@ CObservationObjects::Ptr loadBoxes(
     else
       usable.push_back(object);
   }
+  const std::size_t found = usable.size();
+  if (keepSurest(usable) > 0 && report.crowdedImages++ == 0)
+    report.firstCrowded = folder.boxesFile(frame) + " (" + std::to_string(found) + " boxes)";
   boxes->objects = std::move(usable);
   return boxes;
 }

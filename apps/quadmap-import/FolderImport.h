@@ -30,6 +30,8 @@ struct FolderImportReport
   std::size_t frames = 0, poses = 0, boxes = 0;  //!< Numbers of what was written
   std::size_t withoutDetections = 0;             //!< Number of frames that the files of boxes lack
   std::string firstWithoutDetections;            //!< Where the boxes of the first of them should be
+  std::size_t crowdedImages = 0;     //!< Number of images with more boxes than one may have
+  std::string firstCrowded;          //!< Where the boxes of the first of them are
   bool hasOdometry = false;          //!< A rawlog has some, be it at the times of its images or not
   std::size_t copiedImages = 0;      //!< Number of colour images that were not encoded anew
   std::vector<std::string> dropped;  //!< One text for each that keepGoing left out

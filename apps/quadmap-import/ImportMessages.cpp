@@ -35,6 +35,15 @@ void reportMissingDetections(const FolderImportReport& report, bool keepGoing)
   std::cerr << "quadmap-import: warning: " << oneLine(text) << "\n";
 }
 
+void reportCrowdedImages(const FolderImportReport& report)
+{
+  if (report.crowdedImages == 0) return;
+  std::cerr << "quadmap-import: warning: " << report.crowdedImages << " of " << report.frames
+            << " images have more than " << CObservationObjects::kMostObjects
+            << " boxes, of which those with the highest scores are kept; the first is "
+            << oneLine(report.firstCrowded) << "\n";
+}
+
 void reportMissingPoses(const std::string& poses, const FolderImportReport& report)
 {
   if (report.poses < report.frames)

@@ -20,6 +20,9 @@ void reportUnpaired(const FrameFolder& folder);
  *  \exception std::runtime_error If no image has one, unless the import is to go on. */
 void reportMissingDetections(const FolderImportReport& report, bool keepGoing);
 
+/** Of an image with more boxes than one may have, the surest are kept. */
+void reportCrowdedImages(const FolderImportReport& report);
+
 /** Frames without a pose are mapped only where the poses around them are known.
  *  \param poses Where the poses are from. */
 void reportMissingPoses(const std::string& poses, const FolderImportReport& report);

@@ -38,6 +38,7 @@ void import(const FrameFolder& folder, ImportCli& cli)
     throw std::runtime_error(folder.folder() + ": no frame could be imported");
   reportUnpaired(folder);
   reportMissingDetections(report, options.keepGoing);
+  reportCrowdedImages(report);
   if (options.posesAs != PosesAs::None && !folder.poses().empty())
     reportMissingPoses(folder.poses(), report);
   writer.finish();

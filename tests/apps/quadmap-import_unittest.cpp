@@ -137,6 +137,46 @@ TEST_F(QuadmapImport, TellsWhichImagesHaveNoFileOfBoxes)
       << result.err;
 }
 
+TEST_F(QuadmapImport, KeepsTheSurestBoxesOfACrowdedImage)
+{
+  // 400 boxes of image f2, of which the score of the k-th is k/1000; the first 120 are cups.
+  std::string lines, results;
+  for (int k = 0; k < 400; ++k)
+  {
+    const bool isCup = k < 120;
+    lines += mrpt::format("1 %s %.3f 1 1 9 9\n", isCup ? "cup" : "book", k * 1e-3);
+    results += mrpt::format(
+        R"(%s{"image_id": "f2", "category_id": %d, "bbox": [1, 1, 8, 8], "score": %.3f})",
+        k == 0 ? "" : ",", isCup ? 47 : 84, k * 1e-3);
+  }
+  recording_.files.write("detections/f2.txt", lines);
+  const std::string coco = recording_.files.write("r.json", "[" + results + "]");
+  const std::string detections = recording_.files.path("detections");
+  for (const auto& [place, image] :
+       {std::pair(detections, detections + "/f2.txt"), std::pair(coco, coco + ": image f2")})
+  {
+    const auto result = run("tum IN -o OUT/x.rawlog --detections " + place);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(
+        result.err.find(
+            "quadmap-import: warning: 1 of 6 images have more than 300 boxes, of which those with "
+            "the highest scores are kept; the first is " +
+            image + " (400 boxes)\n"),
+        kNotFound)
+        << result.err;
+    RawlogSource source(out_.path("x.rawlog"), {});
+    std::size_t cups = 0, all = 0;
+    while (const auto frame = source.next())
+      for (const auto& object : frame->objects->objects)
+      {
+        ++all;
+        cups += object.label == "cup" ? 1 : 0;
+      }
+    EXPECT_EQ(all, place == coco ? 300u : 305u);
+    EXPECT_EQ(cups, 20u) << "of scores from 0.1 on";
+  }
+}
+
 TEST_F(QuadmapImport, TellsWhichImagesHaveNoPartner)
 {
   std::filesystem::remove(recording_.files.path("associations.txt"));

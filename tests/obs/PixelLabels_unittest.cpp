@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -199,20 +200,45 @@ TEST_F(PixelLabels, UpTo64LabelsAreRead)
   EXPECT_EQ(boxesOf(scan)->objects.size(), 1u);
 }
 
-TEST_F(PixelLabels, SoManySeparatePartsAreNoObjects)
+TEST_F(PixelLabels, OfTooManySeparatePartsTheLargestAreKept)
 {
-  std::vector<std::string> rows;  // squares of two pixels
-  for (int row = 0; row < 120; ++row)
+  std::vector<std::string> rows;  // 40 x 40 squares of two pixels, those of the last row of three
+  for (int row = 0; row < 121; ++row)
   {
     rows.emplace_back(120, '.');
     for (std::size_t column = 0; column < 120; ++column)
-      if (row % 3 != 2 && column % 3 != 2) rows.back()[column] = 'a';
+      if ((row % 3 != 2 || row == 119) && column % 3 != 2) rows.back()[column] = 'a';
   }
+  rows.back() = std::string(120, '.');
   const auto scan = labelledScan(
       rows, {
                 {0, "chair"}
   });
-  EXPECT_NE(
-      errorOf([&] { boxesOf(scan); }).find("more than 300 separate parts"), std::string::npos);
-  EXPECT_TRUE(boxesOf(scan, 5)->objects.empty());
+  std::set<std::string> unknown;
+  std::size_t leftOut = 0;
+  const auto boxes = boxesFromPixelLabels(scan, LabelTable::installed(), 1, unknown, &leftOut);
+  EXPECT_EQ(leftOut, 1300u);
+  ASSERT_EQ(boxes->objects.size(), 300u);
+  const auto isHigh = [](const DetectedObject& object) { return object.box.height() == 2; };
+  EXPECT_EQ(std::count_if(boxes->objects.begin(), boxes->objects.end(), isHigh), 40);
+  EXPECT_EQ(boxes->objects.front().box.y1, 0) << "of equal ones the first";
+  EXPECT_TRUE(boxesOf(scan, 7)->objects.empty());
+}
+
+TEST_F(PixelLabels, OfSeveralLabelsWithTooManyPartsTheLargestAreKept)
+{
+  std::vector<std::string> rows(60, std::string(120, '.'));
+  for (std::size_t row = 0; row < 60; ++row)
+    for (std::size_t column = 0; column < 120; ++column)
+      if (row % 4 < 3 && column % 3 != 2) rows[row][column] = row < 48 ? 'a' : 'b';
+  for (std::size_t row = 0; row < 48; row += 4) rows[row] = std::string(120, '.');  // 480 of 2 x 2
+  const auto scan = labelledScan(
+      rows, {
+                {0, "chair"},
+                {1,   "cup"}
+  });
+  const auto boxes = boxesOf(scan);
+  const auto isCup = [](const DetectedObject& object) { return object.label == "cup"; };
+  EXPECT_EQ(boxes->objects.size(), 300u);
+  EXPECT_EQ(std::count_if(boxes->objects.begin(), boxes->objects.end(), isCup), 120);
 }

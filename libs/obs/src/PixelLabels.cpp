@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "quadmap/obs/KeepGreatest.h"
+
 namespace quadmap
 {
 namespace
@@ -87,17 +89,21 @@ std::uint32_t hashOf(const std::string& name)
   return hash;
 }
 
-/** Box and mask of some components of a connected component analysis. It is nothing when they are
- * less than two pixels wide or high. */
-std::optional<DetectedObject> objectOf(
-    const cv::Mat& componentOf, const cv::Mat& stats, const std::vector<int>& components)
+/** The smallest rectangle around some components of a connected component analysis. */
+cv::Rect areaOf(const cv::Mat& stats, const std::vector<int>& components)
 {
   cv::Rect area;
   for (const int c : components)
     area |= cv::Rect(
         stats.at<int>(c, cv::CC_STAT_LEFT), stats.at<int>(c, cv::CC_STAT_TOP),
         stats.at<int>(c, cv::CC_STAT_WIDTH), stats.at<int>(c, cv::CC_STAT_HEIGHT));
-  if (area.width < 2 || area.height < 2) return std::nullopt;
+  return area;
+}
+
+/** Box and mask of some components in an area. */
+DetectedObject objectOf(
+    const cv::Mat& componentOf, int count, const std::vector<int>& components, const cv::Rect& area)
+{
   DetectedObject object;
   object.box = {
       static_cast<double>(area.x), static_cast<double>(area.y),
@@ -107,7 +113,7 @@ std::optional<DetectedObject> objectOf(
   mask.y0 = static_cast<unsigned>(area.y);
   mask.width = static_cast<unsigned>(area.width);
   mask.height = static_cast<unsigned>(area.height);
-  std::vector<bool> isPart(static_cast<std::size_t>(stats.rows), false);
+  std::vector<bool> isPart(static_cast<std::size_t>(count), false);
   for (const int c : components) isPart[static_cast<std::size_t>(c)] = true;
   for (int y = area.y; y < area.y + area.height; ++y)
     for (int x = area.x; x < area.x + area.width; ++x)
@@ -115,46 +121,95 @@ std::optional<DetectedObject> objectOf(
   return object;
 }
 
-void addObjects(
-    const std::string& name,
-    const cv::Mat& pixels,
-    int minPixels,
-    std::uint64_t& maskPixelsLeft,
-    std::vector<DetectedObject>& objects)
+/** The largest objects of an image, in the order in which they are found. */
+class LargestObjects
 {
-  constexpr int kConnectivity = 8;
-  cv::Mat componentOf, stats, centroids;
-  const int count =
-      cv::connectedComponentsWithStats(pixels, componentOf, stats, centroids, kConnectivity);
-  std::vector<int> large;
-  for (int c = 1; c < count; ++c)
-    if (stats.at<int>(c, cv::CC_STAT_AREA) >= minPixels) large.push_back(c);
-  if (large.empty()) return;
+ public:
+  explicit LargestObjects(int minPixels) : minPixels_(minPixels) {}
 
-  const bool isInstance = withoutNumber(name) != name;
-  std::vector<std::vector<int>> groups;
-  if (isInstance)
-    groups.push_back(large);
-  else
-    for (const int c : large) groups.push_back({c});
-  for (const auto& group : groups)
+  /** Adds what an image of the pixels with one label shows. */
+  void add(const std::string& name, const cv::Mat& pixels)
   {
-    auto object = objectOf(componentOf, stats, group);
-    if (!object) continue;
-    if (objects.size() == CObservationObjects::kMostObjects)
-      throw std::runtime_error(mrpt::format(
-          "its pixel labels have more than %u separate parts (minLabelPixels leaves out small "
-          "ones)",
-          CObservationObjects::kMostObjects));
-    maskPixelsLeft -= std::min<std::uint64_t>(maskPixelsLeft, object->mask->pixels.size());
-    if (maskPixelsLeft == 0)
+    constexpr int kConnectivity = 8;
+    cv::Mat componentOf, stats, centroids;
+    const int count =
+        cv::connectedComponentsWithStats(pixels, componentOf, stats, centroids, kConnectivity);
+    const bool isInstance = withoutNumber(name) != name;
+    std::vector<Group> groups = groupsIn(stats, isInstance);
+    keepLargest(groups);  // before their masks are made, which are many in an image of noise
+    for (const Group& group : groups)
+    {
+      found_.push_back({objectOf(componentOf, count, group.components, group.area), group.pixels});
+      DetectedObject& object = found_.back().object;
+      object.label = name;
+      if (isInstance) object.instanceId = hashOf(name);
+      requireModestMasks();
+    }
+    keepLargest(found_);
+  }
+
+  std::size_t leftOut() const { return leftOut_; }
+
+  std::vector<DetectedObject> take()
+  {
+    std::vector<DetectedObject> objects;
+    for (Found& found : found_) objects.push_back(std::move(found.object));
+    return objects;
+  }
+
+ private:
+  /** Components that are one object, the area that they are in, and their number of pixels. */
+  struct Group
+  {
+    std::vector<int> components;
+    cv::Rect area;
+    std::int64_t pixels = 0;
+  };
+  struct Found
+  {
+    DetectedObject object;
+    std::int64_t pixels = 0;
+  };
+
+  /** Of an instance all components are one object. What is less than two pixels wide or high is
+   * none. */
+  std::vector<Group> groupsIn(const cv::Mat& stats, bool isInstance) const
+  {
+    std::vector<Group> groups;
+    for (int c = 1; c < stats.rows; ++c)
+    {
+      const int pixels = stats.at<int>(c, cv::CC_STAT_AREA);
+      if (pixels < minPixels_) continue;
+      if (groups.empty() || !isInstance) groups.emplace_back();
+      groups.back().components.push_back(c);
+      groups.back().pixels += pixels;
+    }
+    for (Group& group : groups) group.area = areaOf(stats, group.components);
+    const auto isThin = [](const Group& g) { return g.area.width < 2 || g.area.height < 2; };
+    groups.erase(std::remove_if(groups.begin(), groups.end(), isThin), groups.end());
+    return groups;
+  }
+
+  template <typename Item>
+  void keepLargest(std::vector<Item>& items)
+  {
+    leftOut_ += keepGreatest(
+        items, CObservationObjects::kMostObjects, [](const Item& item) { return item.pixels; });
+  }
+
+  void requireModestMasks() const
+  {
+    std::uint64_t sum = 0;
+    for (const Found& found : found_) sum += found.object.mask->pixels.size();
+    if (sum >= CObservationObjects::kMostMaskPixels)
       throw std::runtime_error(
           "its pixel labels have parts that reach around each other too often");
-    object->label = name;
-    if (isInstance) object->instanceId = hashOf(name);
-    objects.push_back(std::move(*object));
   }
-}
+
+  int minPixels_;
+  std::vector<Found> found_;
+  std::size_t leftOut_ = 0;
+};
 
 }  // namespace
 
@@ -162,7 +217,8 @@ CObservationObjects::Ptr boxesFromPixelLabels(
     const mrpt::obs::CObservation3DRangeScan& scan,
     const LabelTable& labels,
     int minPixels,
-    std::set<std::string>& unknown)
+    std::set<std::string>& unknown,
+    std::size_t* leftOut)
 {
   if (!scan.hasPixelLabels()) return nullptr;
   auto boxes = CObservationObjects::Create();
@@ -175,7 +231,8 @@ CObservationObjects::Ptr boxesFromPixelLabels(
   const cv::Size depth(
       static_cast<int>(scan.cameraParams.ncols), static_cast<int>(scan.cameraParams.nrows));
   requireSameProportions(image, depth);
-  std::uint64_t used = 0, maskPixelsLeft = CObservationObjects::kMostMaskPixels;
+  LargestObjects objects(minPixels);
+  std::uint64_t used = 0;
   for (const std::uint64_t bits : image.bits) used |= bits;
   for (const auto& [index, name] : scan.pixelLabels->pixelLabelNames)
   {
@@ -183,12 +240,14 @@ CObservationObjects::Ptr boxesFromPixelLabels(
     const std::uint64_t bit = index < kBits ? std::uint64_t{1} << index : 0;
     if ((used & bit) == 0) continue;
     if (labels.properties(name).known)
-      addObjects(name, pixelsWith(bit, image, depth), minPixels, maskPixelsLeft, boxes->objects);
+      objects.add(name, pixelsWith(bit, image, depth));
     else
       unknown.insert(withoutNumber(name));
     used &= ~bit;
   }
   if (used != 0) unknown.insert("labels without a name");
+  boxes->objects = objects.take();
+  if (leftOut) *leftOut = objects.leftOut();
   return boxes;
 }
 

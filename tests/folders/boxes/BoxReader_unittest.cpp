@@ -179,6 +179,9 @@ TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
   expect("1.5 0.5 0.5 0.5 0.5\n", "1: class 1.5 is none");
   expect("0 0.5 0.5 0.5 0.5x\n", "1: '0.5x' is not a number");
   expect("0 0.1 0.1 0.2 0.1 0.2 0.2 0.1 1.2\n", "1: expected 5 columns, got 9");
+  std::string many;
+  for (int i = 0; i <= 100'000; ++i) many += "0 0.5 0.5 0.5 0.5\n";
+  expect(many, " more than 100000 boxes in one image");
   expectIn(errorOfReading("a.png", "", files_.path("no.names")), "no.names: cannot be read");
   files_.write("my.names", "cup\n" + std::string(201, 'x') + "\n");
   expectIn(

@@ -165,6 +165,15 @@ TEST(FolderCheck, FindsUnusableBoxes)
     EXPECT_NE(boxes[i].find(parts[i]), std::string::npos) << boxes[i];
 }
 
+TEST(FolderCheck, FindsImagesWithMoreBoxesThanOneMayHave)
+{
+  const SampleRecording recording;
+  std::string lines;
+  for (int i = 0; i < 301; ++i) lines += "1 chair 0.5 1 1 9 9\n";
+  recording.files.write(SampleRecording::boxesFile(2), lines);
+  expectOnly(check(recording), "box", "f2.txt: has 301 boxes, of which the 300 ");
+}
+
 TEST(FolderCheck, FindsPosesThatJump)
 {
   const SampleRecording recording;

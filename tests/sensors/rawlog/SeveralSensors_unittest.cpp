@@ -245,6 +245,29 @@ TEST(PixelLabelSource, TinyAndMisshapenLabels)
   EXPECT_EQ(readAll(file, options).size(), 1u);
 }
 
+TEST(PixelLabelSource, WarnsOfImagesWithTooManyObjects)
+{
+  const TemporaryFolder folder;
+  auto scan = labelledScan(kStart, "a");
+  scan->pixelLabels->setSize(kRows, kColumns);
+  scan->pixelLabels->setLabelName(3, "chair");
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column) scan->pixelLabels->unsetAll(row, column, 0);
+  for (int row = 0; row < 48; ++row)  // 16 x 21 squares of two pixels
+    for (int column = 0; column < 63; ++column)
+      if (row % 3 != 2 && column % 3 != 2) scan->pixelLabels->setLabel(row, column, 3);
+  const auto file = writeObjects(folder.path("x.rawlog"), {scan});
+  RawlogSource source(file, withPixelLabels());
+  std::vector<std::string> warnings;
+  source.sendWarningsTo([&](const std::string& text) { warnings.push_back(text); });
+  EXPECT_EQ(readAll(source).at(0).objects->objects.size(), 300u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(
+      warnings[0], file +
+                       ": record 0 (a): its pixel labels have 336 separate parts, of which the "
+                       "largest 300 are kept (minLabelPixels leaves out small ones)");
+}
+
 TEST(RgbdScan, TheMemoryOfItsImagesIsKnown)
 {
   auto scan = sampleScan(kStart);

@@ -10,7 +10,6 @@
 
 #include "quadmap/base/ShareFiles.h"
 #include "quadmap/folders/ClassNames.h"
-#include "quadmap/obs/CObservationObjects.h"
 #include "text/TextLines.h"
 
 namespace quadmap
@@ -78,8 +77,11 @@ class BoxLines : public BoxReader
     const std::string file = fileOf(frame);
     if (!fs::exists(file)) return std::nullopt;
     std::vector<DetectedObject> objects;
-    for (const auto& line : readTextLines(file)) objects.push_back(boxIn(line, camera));
-    requireFewBoxes(objects.size(), file);
+    for (const auto& line : readTextLines(file))
+    {
+      objects.push_back(boxIn(line, camera));
+      requireFewBoxes(objects.size(), file);
+    }
     return objects;
   }
 
@@ -217,10 +219,10 @@ std::string noteOfNamedClasses(const std::string& place, const std::string& labe
 
 void requireFewBoxes(std::size_t boxes, const std::string& place)
 {
-  if (boxes > CObservationObjects::kMostObjects)
+  constexpr std::size_t kMost = 100'000;  // four times what detectors find before suppression
+  if (boxes > kMost)
     throw std::runtime_error(mrpt::format(
-        "%s: %zu boxes in one image, at most %u can be used", place.c_str(), boxes,
-        CObservationObjects::kMostObjects));
+        "%s: more than %zu boxes in one image, which is absurd", place.c_str(), kMost));
 }
 
 bool hasYoloBoxes(const std::string& folder)

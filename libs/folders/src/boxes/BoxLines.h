@@ -38,7 +38,8 @@ std::string noteOfUnnamedClasses(const std::string& place);
 /** The note of boxes that have the names of their classes; empty when no other names are given. */
 std::string noteOfNamedClasses(const std::string& place, const std::string& labels);
 
-/** \exception std::runtime_error If there are more than a record can have; names the place. */
+/** Of an image with more boxes than a record may have, the import keeps the surest, but not of as
+ * many as would take gigabytes. \exception std::runtime_error Names the place. */
 void requireFewBoxes(std::size_t boxes, const std::string& place);
 
 }  // namespace quadmap

@@ -211,8 +211,18 @@ void RawlogSource::Impl::addPixelLabels(RgbdFrame& frame)
 {
   try
   {
+    std::size_t leftOut = 0;
     frame.objects = boxesFromPixelLabels(
-        *frame.scan, *options.pixelLabelClasses, options.minLabelPixels, unknownPixelLabels_);
+        *frame.scan, *options.pixelLabelClasses, options.minLabelPixels, unknownPixelLabels_,
+        &leftOut);
+    if (leftOut > 0)
+      warnOnce(InputProblem{
+          reader.file(), frame.record, frame.scan->sensorLabel,
+          mrpt::format(
+              "its pixel labels have %zu separate parts, of which the largest %u are kept "
+              "(minLabelPixels leaves out small ones)",
+              leftOut + frame.objects->objects.size(), CObservationObjects::kMostObjects)}
+                   .text());
     frame.objectsFromPixelLabels = frame.objects != nullptr;
     sawPixelLabels = sawPixelLabels || frame.objects;
   }

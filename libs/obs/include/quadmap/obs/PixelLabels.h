@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <cstddef>
 #include <set>
 #include <string>
 
@@ -20,12 +21,16 @@ namespace quadmap
  * objects.
  * \param minPixels Groups of fewer pixels of the depth image are ignored.
  * \param unknown Receives the names that the table lacks, without their numbers.
- * \return Null when the scan has no pixelLabels; boxes without objects when no label is known.
- * \exception std::runtime_error If the labels' image has other proportions than the depth image. */
+ * \param leftOut Receives how many objects were left out, as an observation has at most
+ * CObservationObjects::kMostObjects: those of the most pixels, of equal ones the first. May be
+ * null. \return Null when the scan has no pixelLabels; boxes without objects when no label is
+ * known. \exception std::runtime_error If the labels' image has other proportions than the depth
+ * image. */
 CObservationObjects::Ptr boxesFromPixelLabels(
     const mrpt::obs::CObservation3DRangeScan& scan,
     const LabelTable& labels,
     int minPixels,
-    std::set<std::string>& unknown);
+    std::set<std::string>& unknown,
+    std::size_t* leftOut = nullptr);
 
 }  // namespace quadmap
