@@ -25,6 +25,13 @@ TEST(ReadJson, NamesTheFileAndThePlaceOfWhatIsWrong)
       errorOf([&] { readJson("/nowhere/x.json"); }).find("cannot be read"), std::string::npos);
 }
 
+TEST(ReadJson, RefusesWhatFollowsAZeroByte)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.json", std::string("{\"b\": 1}\n\0{\"b\": 2}", 19));
+  EXPECT_EQ(errorOf([&] { readJson(path); }), path + ": has a zero byte");
+}
+
 TEST(ReadJson, RefusesKeysThatStandTwice)
 {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 #include "quadmap/base/Json.h"
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -81,6 +82,15 @@ class TreeLimit : public nlohmann::json_sax<Json>
   std::size_t values_ = 0, comparisons_ = 0;
   std::vector<std::unordered_set<std::string>> keys_;  // of each open object or array, so far
 };
+
+/** The parser takes a zero byte for the end of the text, and passes over what follows. */
+void requireNoZeroByte(std::istream& file)
+{
+  std::vector<char> block(std::size_t{1} << 16);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    if (std::memchr(block.data(), 0, static_cast<std::size_t>(file.gcount())))
+      throw std::runtime_error("has a zero byte");
+}
 }  // namespace
 
 Json readJson(const std::string& path)
@@ -91,6 +101,9 @@ Json readJson(const std::string& path)
   if (!file) throw std::runtime_error(path + ": cannot be read (does the file exist?)");
   try
   {
+    requireNoZeroByte(file);
+    file.clear();
+    file.seekg(0);
     // Counted apart: with a callback, the parser walks through the whole enclosing list each time
     // an object in it ends.
     TreeLimit limit;

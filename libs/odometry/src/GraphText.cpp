@@ -28,6 +28,7 @@ class GraphLines
   {
     constexpr unsigned kMost = 400'000;  // 100,000 poses with edges; 0.7 kB of memory each
     if (++line_ > kMost) fail(line_, mrpt::format("a graph may have %u lines", kMost));
+    if (line.find('\0') != std::string::npos) fail(line_, "has a zero byte");
     std::istringstream words(line);
     std::string first;
     if (!(words >> first)) return;

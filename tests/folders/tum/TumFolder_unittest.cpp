@@ -270,6 +270,7 @@ TEST(TumFolder, RejectsBadCalibrations)
   for (const std::string key : {"fx", "fy", "cx", "cy"}) expect(withValue(key, "1e300"), absurd);
   expect(withValue("fx", "1e-5"), absurd + " (focal length 1e-05, centre 31.5 in images 64 px");
   expect("k1: 1e300\n" + calibration, absurd + " (a coefficient of distortion is 1e+300)");
+  expect(std::string("# a\0\n", 5) + calibration, "has a zero byte (line 3)");
   expect("k1: -5\n" + calibration, "the lens (k1=-5 k2=0 p1=0 p2=0 k3=0) folds the image ");
   auto up = std::string(SampleRecording::kCalibration);
   up.replace(up.find("0., -1., 0."), 11, "0., 0., 0.");

@@ -79,6 +79,7 @@ TEST(RawlogErrors, ExternalDepthsAsText)
   ASSERT_EQ(frames.size(), 1u);
   EXPECT_TRUE(frames[0].scan->rangeImage == depth);
   isRefused("1 2\n3\n", "its rows differ in length");
+  isRefused(std::string("1 2\n\0 3 4\n5 6\n", 14), "it has a zero byte");
   isRefused("1 -2\n", "no depth of 0 to 65535");
   isRefused("1 65536\n", "no depth of 0 to 65535");
   isRefused("1 x\n", "no depth of 0 to 65535");

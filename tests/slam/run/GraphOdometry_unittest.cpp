@@ -177,8 +177,9 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
       {      kNodes + "# TIME 7 100.52\n",         "x.graph:10: node 7 has the time of node 1"},
       {         kNodes + "# TIME 3 102\n",              "a TIME of node 3, which is not there"},
       {       kNodes + "# TIME two 102\n",          "x.graph:10: expected # TIME node seconds"},
+      {    std::string("# TIME 0 1\0 2\n",                                                 14),"x.graph:1: has a zero byte"},
       {            kNodes + noInformation,
-       "the information of the edge between 0 and 1 is not positive definite"                 },
+       "the information of the edge between 0 and 1 is not positive definite"                                                   },
   };
   for (const auto& [text, expected] : cases)
   {

@@ -37,6 +37,8 @@ class FlatYaml
     for (std::string line; std::getline(file, line);)
     {
       ++number;
+      if (line.find('\0') != std::string::npos)
+        reject("has a zero byte (line " + std::to_string(number) + ")");
       if (!line.empty() && line.back() == '\r') line.pop_back();
       line = withoutComment(line);
       const std::string text = trim(line);

@@ -68,6 +68,7 @@ void loadDepthFile(const std::string& path, std::uint64_t mostPixels, CObservati
 std::vector<std::uint16_t> depthsIn(const std::string& row)
 {
   std::vector<std::uint16_t> depths;
+  if (row.find('\0') != std::string::npos) throw std::runtime_error("it has a zero byte");
   if (row[0] == '%' || row[0] == '#') return depths;  // a comment
   const char* next = row.c_str();
   while (next += std::strspn(next, " \t\r,"), *next != '\0')
