@@ -49,7 +49,9 @@ class GraphFile
     const auto file = openModestText(path, kMostBytes);
     std::stringstream text;
     text << file.rdbuf();
-    times = checkGraphText(text.str(), path);
+    const std::string whole = text.str();
+    times = checkGraphText(whole, path);
+    mayBeCut = !whole.empty() && whole.back() != '\n';
     read(text);
     if (graph.nodes.empty())
       throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line");
@@ -61,6 +63,7 @@ class GraphFile
 
   Graph graph;
   std::vector<NodeTime> times;
+  bool mayBeCut = false;  // within a number, which is then read as a shorter one
 
   /** Covariance of the step from a node to another one, when an edge joins them. It is zero for the
    * coordinates of which a planar edge says nothing. */
@@ -121,6 +124,7 @@ std::vector<TNodeID> chainOf(const Graph& graph)
 GraphOdometry::GraphOdometry(const std::string& path) : path_(path)
 {
   const GraphFile file(path);
+  mayBeCut_ = file.mayBeCut;
   std::vector<TNodeID> nodes;
   std::map<double, TNodeID> nodeAt;
   for (const auto& t : file.times) nodeAt.emplace(t.time, t.node);
@@ -202,6 +206,14 @@ bool GraphOdometry::isFarOutside(double time) const
 
 std::string GraphOdometry::warning() const
 {
+  std::string text = mayBeCut_ ? "ends without a line break: its last line may be cut off" : "";
+  if (const auto misfit = warningOfMisfit(); !misfit.empty())
+    text += (text.empty() ? "" : "; ") + misfit;
+  return text.empty() ? text : path_ + ": " + text;
+}
+
+std::string GraphOdometry::warningOfMisfit() const
+{
   const auto unused = std::count(wasUsed_.begin(), wasUsed_.end(), false);
   if (times_.empty() || unused == static_cast<std::ptrdiff_t>(poses_.size())) return {};
   std::string text;
@@ -211,7 +223,7 @@ std::string GraphOdometry::warning() const
     text += mrpt::format(
         "%s%zu of %zu images are before all poses or behind them, by more than these are apart",
         text.empty() ? "" : ", and ", imagesOutside_, images_);
-  return text.empty() ? text : path_ + ": " + text;
+  return text;
 }
 
 void GraphOdometry::requireAllUsed() const

@@ -143,6 +143,17 @@ TEST_F(GraphOdometryFile, TellsOfPosesAndImagesThatDoNotFit)
   EXPECT_EQ(warningAfter({42}), "") << "that no image has a pose is an error";
 }
 
+TEST_F(GraphOdometryFile, TellsThatItsLastNumberMayBeCut)
+{
+  const std::string text = kNodes + kForward, file = folder_.path("x.graph") + ": ";
+  const std::string mayBeCut = "ends without a line break: its last line may be cut off";
+  EXPECT_EQ(read(text).warning(), "");
+  EXPECT_EQ(read(text.substr(0, text.size() - 2)).warning(), file + mayBeCut);
+  auto graph = read(text.substr(0, text.size() - 2));
+  for (const double time : {100., 101.}) graph.poseAt(time);
+  EXPECT_EQ(graph.warning(), file + mayBeCut + "; 1 of 3 poses have the time of no image");
+}
+
 TEST_F(GraphOdometryFile, WithoutTimesNodesAreTheImagesInTheirOrder)
 {
   const std::string text =

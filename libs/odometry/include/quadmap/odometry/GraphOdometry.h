@@ -62,8 +62,10 @@ class GraphOdometry
       std::size_t from, std::size_t to, const PoseUncertaintyOptions& options) const;
 
   bool isFarOutside(double time) const;
+  std::string warningOfMisfit() const;
 
   std::string path_;
+  bool mayBeCut_ = false;                //!< The text ends without a line break
   std::vector<Pose> poses_;              //!< In the order of time
   std::vector<bool> wasUsed_;            //!< For each pose, whether an image has its time
   std::map<double, std::size_t> times_;  //!< From time [s] to index of the pose
