@@ -51,6 +51,20 @@ std::vector<ObjectRecord> readTruth(const ExportInput& input, const LabelTable& 
   return truth;
 }
 
+/** Marks the estimated objects that are none of the true ones, and the true ones that were missed.
+ */
+void compare(const ExportInput& input, SceneContent& content)
+try
+{
+  const ObjectEvaluation comparison = evaluateObjects(content.truth, content.objects, {});
+  for (const ObjectRecord& record : comparison.spurious) content.phantoms.insert(record.id);
+  for (const ObjectRecord& record : comparison.missed) content.missed.insert(record.id);
+}
+catch (const TooManyObjects& e)
+{
+  throw std::runtime_error(*input.truthPath + " and " + input.path + ": " + e.what());
+}
+
 SceneContent readScene(
     const ExportInput& input, const CQuadricObjectMap& map, const KeyframeVisitor& visit)
 {
@@ -59,9 +73,7 @@ SceneContent readScene(
   if (input.truthPath)
   {
     content.truth = readTruth(input, map.labels());
-    const ObjectEvaluation comparison = evaluateObjects(content.truth, content.objects, {});
-    for (const ObjectRecord& record : comparison.spurious) content.phantoms.insert(record.id);
-    for (const ObjectRecord& record : comparison.missed) content.missed.insert(record.id);
+    compare(input, content);
   }
   const fs::path path = input.path;
   if (!fs::is_directory(path)) return content;

@@ -363,6 +363,13 @@ TEST_F(QuadmapExport, NamesTheFileItCannotRead)
   expectError(
       "DIR/objects.quadmap --truth DIR/gt.json --trajectory DIR/trajectory.tum",
       "a map file has no trajectory");
+  auto many = sampleMap().toRecords();
+  many.resize(1001, many.front());
+  for (std::size_t i = 0; i < many.size(); ++i) many[i].id = std::to_string(i);
+  writeObjectsJson(folder_.path("many.json"), many);
+  expectError(
+      "DIR --truth DIR/many.json --in-place", "many.json and " + folder_.folder().string() +
+                                                  ": 1001 true objects, at most 1000 can be ");
   const auto cutInHalf = [&](const std::string& name)
   {
     const std::string whole = readFile(folder_.path(name));

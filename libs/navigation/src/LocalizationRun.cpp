@@ -209,8 +209,10 @@ class LocalizationRun
     if (!request_.keepGoing && odometry_.lacksMostPoses())
       return odometry_.missingPoses() + "; --keep-going leaves them out";
     if (result_.updates.empty())
-      return source_.hasBoxes() ? "none of its boxes can show an object of " + request_.mapFile
-                                : "no object boxes, neither in it nor beside it";
+      return source_.hasBoxes()
+                 ? "none of its boxes can show an object of " + request_.mapFile
+                 : "no object boxes, neither in it nor " +
+                       (request_.objectsFile.empty() ? "beside it" : "in " + request_.objectsFile);
     if (result_.trajectory().empty())
       return "the robot was not found in " + request_.mapFile + " (" +
              std::to_string(result_.updates.size()) + " images were compared with it)";

@@ -249,7 +249,8 @@ TEST(TumFolder, RejectsBadCalibrations)
   {
     const SampleRecording recording;
     recording.writeCalibration(calibration);
-    expectInOneLine(errorOfOpening(recording), "calibration.yaml: " + what);
+    expectInOneLine(
+        errorOfOpening(recording), recording.files.path("calibration.yaml") + ": " + what);
   };
   for (const std::string key : {"fx", "fy", "cx", "cy", "width", "height", "depth_factor"})
   {

@@ -365,6 +365,9 @@ TEST_F(RawlogRun, NoBoxesIsAnErrorUnlessToldToGoOn)
   r.boxes = false;
   auto request = requestFor(recording(r));
   expectFailure(request, "no object boxes, neither in it nor beside it");
+  request.objectsFile = folder_.write("empty.rawlog", "");
+  expectFailure(request, "no object boxes, neither in it nor in " + request.objectsFile);
+  request.objectsFile.clear();
   request.keepGoing = true;
   const auto summary = runOnRawlog(request);
   EXPECT_TRUE(summary.result.map.isEmpty());

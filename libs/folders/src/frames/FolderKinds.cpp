@@ -98,7 +98,7 @@ void requireCamera(const FolderContent& content)
   const FolderCamera& camera = content.camera;
   const auto require = [&](const std::optional<std::string>& why, const char* what)
   {
-    if (why) throw std::runtime_error(content.folder + ": " + camera.origin + ": " + what + *why);
+    if (why) throw std::runtime_error(placeOfCamera(content) + ": " + what + *why);
   };
   require(whyNoCalibration(camera.color), "");
   require(whyNotRectifiable(camera), "");

@@ -79,9 +79,15 @@ void takeDepthAsRegistered(FolderContent& content)
   if (columns == camera.color.ncols && rows == camera.color.nrows) return camera.depth.reset();
   if (camera.isDistorted())
     throw std::runtime_error(
-        content.folder + ": " + camera.origin +
+        placeOfCamera(content) +
         ": its lens distorts, and registered depth images of another size cannot be rectified");
   camera.depth = DepthCamera{resized(camera.color, columns, rows), {}};
+}
+
+std::string placeOfCamera(const FolderContent& content)
+{
+  const FolderCamera& camera = content.camera;
+  return camera.file.empty() ? content.folder + ": " + camera.origin : camera.file;
 }
 
 std::set<fs::path> filesIn(const fs::path& folder)

@@ -32,6 +32,9 @@ FolderCamera cameraOfFolder(
     const std::string& usual,
     double depthFactor);
 
+/** What a recording's camera is from, for messages: a file, or the folder and a camera's name. */
+std::string placeOfCamera(const FolderContent& content);
+
 /** Of recordings whose depth images are registered: their size is all that stays of the depth
  * camera. \exception std::runtime_error If the lens distorts and the size is another than that of
  * colour; names the folder. */

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <stdexcept>
 
+#include "frames/FolderReader.h"
 #include "quadmap/geometry/PoseReflection.h"
 
 namespace quadmap
@@ -31,7 +32,7 @@ FolderContent rightHanded(FolderContent content)
   const bool isLeftHanded = camera.color.fy() < 0;
   if (camera.depth && (camera.depth->camera.fy() < 0) != isLeftHanded)
     throw std::runtime_error(
-        content.folder + ": " + camera.origin +
+        placeOfCamera(content) +
         ": fy of colour and of depth must have the same sign, as a world is left-handed "
         "for both or for neither");
   if (!isLeftHanded) return content;

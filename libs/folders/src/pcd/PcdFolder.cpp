@@ -260,6 +260,7 @@ FolderContent readPcdFolder(const std::string& folder, const FrameFolderOptions&
     const CloudCamera known = cameraOfFirst(content.frames);
     content.camera.color = known.camera;
     content.camera.origin = fs::path(known.file).filename().string();
+    content.camera.file = known.file;
     content.images = std::make_shared<PcdImages>(known);
   }
   else

@@ -71,6 +71,7 @@ void readCamera(FolderContent& content)
         ": has no intrinsic/, which tells the camera; --camera NAME|FILE gives one");
   auto& camera = content.camera;
   camera.origin = "intrinsic/";
+  camera.file = content.folder + "/intrinsic";
   camera.depthFactor = kScanNetDepthFactor;
   const cv::Size colorSize = sizeOfImages(content.frames, &FolderFrame::color),
                  depthSize = sizeOfImages(content.frames, &FolderFrame::depth);

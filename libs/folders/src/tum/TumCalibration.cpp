@@ -223,6 +223,7 @@ FolderCamera readTumCalibration(const std::string& path)
   requireNoSlips(file);
   FolderCamera calibration;
   calibration.origin = std::filesystem::path(path).filename().string();
+  calibration.file = path;
   auto& camera = calibration.color;
   const double fx = file.number("fx"), fy = file.number("fy");
   if (fx <= 0) file.reject(mrpt::format("fx=%g: must be > 0", fx));

@@ -1,5 +1,7 @@
 #include "quadmap/sensors/ResultKeyframes.h"
 
+#include <mrpt/core/format.h>
+
 #include <stdexcept>
 
 namespace quadmap
@@ -46,7 +48,9 @@ std::optional<std::vector<KeyframeScan>> ResultKeyframes::next()
     if (!scan) continue;
     // A file beside the map could be any file of the user's.
     if (scan->rangeImage_isExternallyStored() || scan->intensityImage.isExternallyStored())
-      throw std::runtime_error(path_ + ": the images of a keyframe are not in it");
+      throw std::runtime_error(mrpt::format(
+          "%s: keyframe %zu of %zu: the images of %s are not in it", path_.c_str(), read_,
+          scans_.size(), scan->sensorLabel.c_str()));
     KeyframeScan image;
     image.scan = scan;
     image.T_map_robot = keyframe->pose->getMeanVal();

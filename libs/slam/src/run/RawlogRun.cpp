@@ -208,8 +208,10 @@ class RawlogRun
     return slam.method == SlamMethod::Odometry || source_->hasBoxes();
   }
 
-  const char* whyNoBoxes() const
+  std::string whyNoBoxes() const
   {
+    if (!request_.objectsFile.empty() && !request_.configuration.slam.findsBoxes())
+      return ": no object boxes, neither in it nor in " + request_.objectsFile;
     return request_.configuration.slam.findsBoxes()
                ? ": none of its images has colour, which the detector needs"
                : ": no object boxes, neither in it nor beside it, and no pixel labels; find some "

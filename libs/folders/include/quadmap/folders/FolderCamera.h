@@ -23,6 +23,7 @@ struct FolderCamera
 {
   /** Where this is from, for messages: "calibration.yaml", "camera fr1". */
   std::string origin;
+  std::string file;           //!< The path of that, if it is a file of the recording or of the user
   mrpt::img::TCamera color;   //!< Calibration of the images as they are in the files
   double depthFactor = 5000;  //!< Depth [m] = pixel value / depthFactor
   /** A pixel value that means no measurement, as 0 always does. */
