@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "quadmap/base/OutputSet.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/review/SceneBuilder.h"
 #include "quadmap/review/SceneRenderer.h"
 
@@ -42,10 +42,10 @@ void writeProposalPictures(
     const std::vector<ObjectRecord>& proposals,
     const DenseCloud& room,
     double cellSize,
-    const std::string& folder)
+    const std::string& folder,
+    OutputGroup& group)
 {
-  std::filesystem::create_directories(folder);
-  OutputSet files(folder, "proposals");
+  OutputSet& files = group.addFolder(folder, "proposals");
   const PictureSize size{800, 600};
   SceneOptions look;
   look.cloudPaleness = 0;
@@ -62,7 +62,6 @@ void writeProposalPictures(
         files.add(fileNameOf(proposal, ".png")));
   }
   removeFormerFiles(files, ".png");
-  files.commit();
 }
 
 }  // namespace quadmap

@@ -6,6 +6,7 @@
 #include "common/CommandLine.h"
 #include "common/ProgressBar.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/dense/ProposalFile.h"
 #include "quadmap/dense/RoomCloud.h"
 
@@ -55,9 +56,16 @@ std::vector<CuboidProposal> propose(const std::string& result, const DenseOption
   return proposals;
 }
 
+/** What is written, and what is said of it when it is there. */
+struct Output
+{
+  OutputGroup files;
+  std::string text;
+};
+
 /** The proposals of the file or, where there is none, new ones, which are written to it. */
 std::vector<JudgedProposal> proposalsOf(
-    const std::string& result, const std::string& file, const DenseOptions& options)
+    const std::string& result, const std::string& file, const DenseOptions& options, Output& output)
 {
   if (std::filesystem::exists(file))
   {
@@ -69,8 +77,8 @@ std::vector<JudgedProposal> proposalsOf(
   const auto proposals = propose(result, options);
   if (proposals.empty())
     throw std::runtime_error(result + ": no object has points enough for a proposal");
-  writeTextFile(file, proposalText(proposals));
-  std::cout << "wrote " << file << ": " << proposals.size() << " proposals\n";
+  writeTextFile(output.files.add(file), proposalText(proposals));
+  output.text += "wrote " + file + ": " + std::to_string(proposals.size()) + " proposals\n";
   return judged(proposals);
 }
 
@@ -78,37 +86,40 @@ void draw(
     const std::vector<JudgedProposal>& proposals,
     const std::string& result,
     const std::string& folder,
-    const DenseOptions& options)
+    const DenseOptions& options,
+    Output& output)
 {
   std::vector<ObjectRecord> records;
   for (const JudgedProposal& proposal : proposals) records.push_back(proposal.record);
   cli::ProgressBar bar;
   const DenseCloud room = fuseRoom(result, options, [&](double share) { bar(share); });
-  writeProposalPictures(records, room, options.roomCell, folder);
-  std::cout << "wrote " << records.size() << " pictures into " << folder << "\n";
+  writeProposalPictures(records, room, options.roomCell, folder, output.files);
+  output.text += "wrote " + std::to_string(records.size()) + " pictures into " + folder + "\n";
 }
 
 void run(Cli& cli)
 {
   const std::string& result = cli.result.getValue();
-  const std::filesystem::path output = cli.output.getValue();
-  if (output.extension() != ".json") throw cli::UsageError("--output: the name must end in .json");
+  const std::filesystem::path truth = cli.output.getValue();
+  if (truth.extension() != ".json") throw cli::UsageError("--output: the name must end in .json");
   requirePcl("quadmap-annotate");
   if (!std::filesystem::is_directory(result))
     throw std::runtime_error(result + ": is no folder that quadmap-slam wrote");
   const DenseOptions options =
       cli.config.isSet() ? readDenseOptions(cli.config.getValue()) : DenseOptions();
   const auto beside = [&](const char* extension)
-  { return std::filesystem::path(output).replace_extension(extension).string(); };
+  { return std::filesystem::path(truth).replace_extension(extension).string(); };
 
-  const auto proposals = proposalsOf(result, beside(".proposals.ini"), options);
-  if (!cli.noPictures.getValue()) draw(proposals, result, beside(".pictures"), options);
+  Output output;
+  const auto proposals = proposalsOf(result, beside(".proposals.ini"), options, output);
+  if (!cli.noPictures.getValue()) draw(proposals, result, beside(".pictures"), options, output);
   std::vector<ObjectRecord> accepted;
   for (const JudgedProposal& proposal : proposals)
     if (proposal.accept) accepted.push_back(proposal.record);
-  writeObjectsJson(output.string(), accepted);
-  std::cout << "wrote " << output.string() << ": " << accepted.size() << " of " << proposals.size()
-            << " objects\n";
+  writeObjectsJson(output.files.add(truth.string()), accepted);
+  output.files.commit();
+  std::cout << output.text << "wrote " << truth.string() << ": " << accepted.size() << " of "
+            << proposals.size() << " objects\n";
 }
 }  // namespace
 

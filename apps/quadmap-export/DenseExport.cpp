@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <stdexcept>
 
 #include "common/ProgressBar.h"
@@ -11,10 +10,14 @@
 
 namespace quadmap
 {
-void writeDenseClouds(
-    const std::string& result, const std::vector<ObjectRecord>& objects, const DenseExport& wanted)
+std::string writeDenseClouds(
+    const std::string& result,
+    const std::vector<ObjectRecord>& objects,
+    const DenseExport& wanted,
+    OutputGroup& output)
 {
-  if (!wanted.cloud && !wanted.objectClouds) return;
+  std::string text;
+  if (!wanted.cloud && !wanted.objectClouds) return text;
   const std::string option = wanted.cloud ? "--cloud" : "--object-clouds";
   requirePcl(option);
   if (!std::filesystem::is_directory(result))
@@ -26,10 +29,10 @@ void writeDenseClouds(
     const DenseCloud cloud = fuseRoom(result, options, [&](double share) { bar(share); });
     if (cloud.empty())
       throw std::runtime_error(result + ": --cloud found no points in its depth images");
-    writeCloud(cloud, *wanted.cloud);
-    std::cout << "wrote " << *wanted.cloud << ": " << cloud.size() << " points\n";
+    writeCloud(cloud, output.add(*wanted.cloud));
+    text += "wrote " + *wanted.cloud + ": " + std::to_string(cloud.size()) + " points\n";
   }
-  if (!wanted.objectClouds) return;
+  if (!wanted.objectClouds) return text;
   cli::ProgressBar bar;
   const auto found = findObjectPoints(result, objects, options, [&](double share) { bar(share); });
   const auto isEmpty = [](const auto& one) { return one.cloud.empty(); };
@@ -37,9 +40,9 @@ void writeDenseClouds(
     throw std::runtime_error(
         result + ": --object-clouds found no points of any of its " +
         std::to_string(objects.size()) + " objects");
-  const auto names = writeObjectClouds(found, *wanted.objectClouds);
-  std::cout << "wrote the clouds of " << names.size() << " of " << objects.size()
-            << " objects into " << *wanted.objectClouds << "\n";
+  const auto names = writeObjectClouds(found, *wanted.objectClouds, output);
+  return text + "wrote the clouds of " + std::to_string(names.size()) + " of " +
+         std::to_string(objects.size()) + " objects into " + *wanted.objectClouds + "\n";
 }
 
 }  // namespace quadmap

@@ -10,7 +10,7 @@
 #include "common/CommandLine.h"
 #include "common/KeptFiles.h"
 #include "common/ProgressBar.h"
-#include "quadmap/base/OutputFile.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/dense/DenseCloud.h"
 #include "quadmap/review/ContactSheet.h"
 #include "quadmap/review/GlbFile.h"
@@ -182,13 +182,20 @@ void checkUsage(Cli& cli)
       "--frames, --cloud or --object-clouds");
 }
 
-/** Runs a writer if its file was asked for, and prints the name of the file. */
+/** What is written, and what is said of it when it is there. */
+struct Output
+{
+  OutputGroup files;
+  std::string text;
+};
+
+/** Runs a writer if its file was asked for. */
 template <typename Write>
-void writeIfSet(TCLAP::ValueArg<std::string>& argument, Write&& write)
+void writeIfSet(TCLAP::ValueArg<std::string>& argument, Output& output, Write&& write)
 {
   if (!argument.isSet()) return;
-  write(argument.getValue());
-  std::cout << "wrote " << argument.getValue() << "\n";
+  write(output.files.add(argument.getValue()));
+  output.text += "wrote " + argument.getValue() + "\n";
 }
 
 /** The value of an argument, if it was given. */
@@ -222,7 +229,7 @@ void requireImages(Cli& cli, const PageContent& page)
         "--no-cloud");
 }
 
-void writeFrames(Cli& cli, const std::vector<ObjectRecord>& objects)
+void writeFrames(Cli& cli, const std::vector<ObjectRecord>& objects, Output& output)
 {
   if (!cli.frames.isSet()) return;
   if (!std::filesystem::is_directory(cli.input.getValue()))
@@ -231,23 +238,24 @@ void writeFrames(Cli& cli, const std::vector<ObjectRecord>& objects)
   const std::string& folder = cli.frames.getValue();
   cli::ProgressBar bar;
   const auto count = writeKeyframePictures(
-      cli.input.getValue(), objects, folder, [&](double share) { bar(share); });
-  std::cout << "wrote " << count << " pictures into " << folder << "\n";
+      cli.input.getValue(), objects, folder, output.files, [&](double share) { bar(share); });
+  output.text += "wrote " + std::to_string(count) + " pictures into " + folder + "\n";
 }
 
 /** All that shows a scene. */
-void writeScenes(Cli& cli, const SceneContent& content)
+void writeScenes(Cli& cli, const SceneContent& content, Output& output)
 {
   const PictureSize size = pictureSizeFrom(cli.size.getValue());
-  writeFrames(cli, content.objects);
-  writeDenseClouds(
+  writeFrames(cli, content.objects, output);
+  output.text += writeDenseClouds(
       cli.input.getValue(), content.objects,
-      {given(cli.cloud), given(cli.objectClouds), given(cli.config)});
+      {given(cli.cloud), given(cli.objectClouds), given(cli.config)}, output.files);
   const SceneBuilder builder;
-  writeIfSet(cli.json, [&](const auto& path) { writeObjectsJson(path, content.objects); });
-  writeIfSet(cli.ply, [&](const auto& path) { writePly(content, path); });
-  writeIfSet(cli.glb, [&](const auto& path) { writeGlb(content, path); });
-  writeIfSet(cli.scene, [&](const auto& path) { writeScene(*builder.scene(content), path); });
+  writeIfSet(cli.json, output, [&](const auto& path) { writeObjectsJson(path, content.objects); });
+  writeIfSet(cli.ply, output, [&](const auto& path) { writePly(content, path); });
+  writeIfSet(cli.glb, output, [&](const auto& path) { writeGlb(content, path); });
+  writeIfSet(
+      cli.scene, output, [&](const auto& path) { writeScene(*builder.scene(content), path); });
   if (!cli.png.isSet() && !cli.top.isSet()) return;
   SceneRenderer renderer(size);
   const auto picture = [&](const std::string& path, const RenderCamera& camera)
@@ -256,20 +264,32 @@ void writeScenes(Cli& cli, const SceneContent& content)
     annotatePicture(content, camera, drawn);
     writePicture(drawn, path);
   };
-  writeIfSet(cli.png, [&](const auto& p) { picture(p, obliqueCamera(content, size.aspect())); });
-  writeIfSet(cli.top, [&](const auto& p) { picture(p, cameraFromAbove(content, size.aspect())); });
+  writeIfSet(
+      cli.png, output, [&](const auto& p) { picture(p, obliqueCamera(content, size.aspect())); });
+  writeIfSet(
+      cli.top, output, [&](const auto& p) { picture(p, cameraFromAbove(content, size.aspect())); });
+}
+
+void writeAll(Cli& cli, Output& output)
+{
+  const ExportInput input = inputOf(cli);
+  if (!cli.html.isSet() && !cli.sheet.isSet())
+    return writeScenes(cli, readExportInput(input), output);
+  PageContent page = readPageInput(input, given(cli.compare));
+  if (cli.sheet.isSet()) requireImages(cli, page);
+  writeIfSet(
+      cli.html, output, [&](const auto& path) { writePage(page, path, cli.three.getValue()); });
+  writeIfSet(cli.sheet, output, [&](const auto& path) { writeContactSheet(page, path); });
+  writeScenes(cli, page.scene, output);
 }
 
 void run(Cli& cli)
 {
   checkUsage(cli);
-  const ExportInput input = inputOf(cli);
-  if (!cli.html.isSet() && !cli.sheet.isSet()) return writeScenes(cli, readExportInput(input));
-  PageContent page = readPageInput(input, given(cli.compare));
-  if (cli.sheet.isSet()) requireImages(cli, page);
-  writeIfSet(cli.html, [&](const auto& path) { writePage(page, path, cli.three.getValue()); });
-  writeIfSet(cli.sheet, [&](const auto& path) { writeContactSheet(page, path); });
-  writeScenes(cli, page.scene);
+  Output output;
+  writeAll(cli, output);
+  output.files.commit();
+  std::cout << output.text;
 }
 }  // namespace
 

@@ -344,6 +344,26 @@ TEST_F(QuadmapExport, WritesTheSameCloudsWhateverTheThreads)
 }
 #endif
 
+TEST_F(QuadmapExport, WritesAllItsOutputsOrNone)
+{
+  folder_.write("o.json", "old");
+  const std::size_t before = folder_.fileCount();
+  for (const char* wrong : {"DIR/none/s.3Dscene", "/dev/full"})
+  {
+    const auto result =
+        run("DIR --no-cloud --json DIR/o.json --ply DIR/o.ply --glb DIR/o.glb --scene " +
+            std::string(wrong));
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_EQ(result.out, "") << wrong;
+    EXPECT_EQ(readFile(folder_.path("o.json")), "old") << wrong;
+    EXPECT_EQ(folder_.fileCount(), before) << wrong;
+  }
+  const auto result = run("DIR --no-cloud --json DIR/o.json --ply DIR/o.ply");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(folder_.fileCount(), before + 1);
+}
+
 TEST_F(QuadmapExport, NamesTheFileItCannotRead)
 {
   const auto expectError = [&](const std::string& arguments, const std::string& name)
@@ -368,8 +388,8 @@ TEST_F(QuadmapExport, NamesTheFileItCannotRead)
   for (std::size_t i = 0; i < many.size(); ++i) many[i].id = std::to_string(i);
   writeObjectsJson(folder_.path("many.json"), many);
   expectError(
-      "DIR --truth DIR/many.json --in-place", "many.json and " + folder_.folder().string() +
-                                                  ": 1001 true objects, at most 1000 can be ");
+      "DIR --truth DIR/many.json --in-place",
+      "many.json and " + folder_.folder().string() + ": 1001 true objects, at most 1000 can be ");
   const auto cutInHalf = [&](const std::string& name)
   {
     const std::string whole = readFile(folder_.path(name));

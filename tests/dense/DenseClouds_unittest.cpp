@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "ResultFolder.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/dense/ObjectPoints.h"
 #include "quadmap/dense/RoomCloud.h"
 
@@ -206,7 +207,9 @@ TEST(ObjectPoints, GoToFilesNamedByIdAndLabel)
   table.record.label = "dining table/../x";
   table.cloud = {samplePoint(1)};
   nothing.record.id = "8";
-  const auto names = writeObjectClouds({table, nothing}, folder.path("new/clouds"));
+  OutputGroup group;
+  const auto names = writeObjectClouds({table, nothing}, folder.path("new/clouds"), group);
+  group.commit();
   EXPECT_EQ(names, std::vector<std::string>{"7_dining_table____x.pcd"});
   EXPECT_TRUE(std::filesystem::exists(folder.path("new/clouds/7_dining_table____x.pcd")));
 }
@@ -228,11 +231,17 @@ TEST(ObjectPoints, ReplaceTheFilesOfAnEarlierCallOnly)
   table.record.id = "7";
   table.record.label = "table";
   cup.cloud = table.cloud = {samplePoint(1)};
-  writeObjectClouds({cup, table}, folder.path(""));
+  const auto write = [&](const std::vector<ObjectPoints>& objects)
+  {
+    OutputGroup group;
+    writeObjectClouds(objects, folder.path(""), group);
+    group.commit();
+  };
+  write({cup, table});
   folder.write("3_scan.pcd", "# .PCD v0.7 - Point Cloud Data file format\n");
   folder.write("3_notes.txt", "mine");
   table.record.label = "desk";
-  writeObjectClouds({table}, folder.path(""));
+  write({table});
   std::set<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(folder.folder()))
     names.insert(file.path().filename().string());

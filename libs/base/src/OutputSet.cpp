@@ -106,7 +106,7 @@ void requireNoWayOut(
 }
 
 /** Gives all entries their names. Those that have theirs from an earlier try stay as they are. */
-void exchange(
+void exchangeEntries(
     const fs::path& folder, const fs::path& staging, const std::vector<std::string>& entries)
 {
   for (const auto& entry : entries)
@@ -155,7 +155,7 @@ OutputSet::OutputSet(std::string folder, const std::string& name) :
   {
     const auto left = readList(staging_);  // by a program that was killed while it exchanged
     requireNoWayOut(folder_, staging_, left);
-    exchange(folder_, staging_, left);
+    exchangeEntries(folder_, staging_, left);
     for (const auto& old : fs::directory_iterator(staging_)) fs::remove_all(old.path());
     temporary_.emplace(staging_);
   }
@@ -204,6 +204,12 @@ void OutputSet::addRemoval(const std::string& name) { entries_.push_back("-" + n
 
 void OutputSet::commit()
 {
+  prepare();
+  exchange();
+}
+
+void OutputSet::prepare()
+{
   std::string list;
   for (const auto& entry : entries_)
   {
@@ -217,10 +223,14 @@ void OutputSet::commit()
       copyTo(written(name), to);
   // Writers of ours synchronise each file, but folders have files of other writers.
   if (::syncfs(lock_) != 0) failToWrite(folder_, errno);
-  const auto pause = Temporary::pause();
   writeTextFile(staging_ + "/" + kListName, list);
+}
+
+void OutputSet::exchange()
+{
+  const auto pause = Temporary::pause();
   temporary_->keep();  // whoever comes next completes what fails from here on
-  exchange(folder_, staging_, entries_);
+  exchangeEntries(folder_, staging_, entries_);
   fs::remove_all(staging_);
 }
 

@@ -9,7 +9,7 @@
 #include "Background.h"
 #include "GridCloud.h"
 #include "NearbyPoints.h"
-#include "quadmap/base/OutputSet.h"
+#include "quadmap/base/OutputGroup.h"
 
 namespace quadmap
 {
@@ -276,15 +276,13 @@ std::vector<ObjectPoints> findObjectPoints(
 }
 
 std::vector<std::string> writeObjectClouds(
-    const std::vector<ObjectPoints>& objects, const std::string& folder)
+    const std::vector<ObjectPoints>& objects, const std::string& folder, OutputGroup& group)
 {
-  std::filesystem::create_directories(folder);
-  OutputSet files(folder, "object-clouds");
+  OutputSet& files = group.addFolder(folder, "object-clouds");
   for (const ObjectPoints& object : objects)
     if (!object.cloud.empty())
       writeCloud(object.cloud, files.add(fileNameOf(object.record, ".pcd")));
   removeFormerFiles(files, ".pcd");
-  files.commit();
   return files.names();
 }
 

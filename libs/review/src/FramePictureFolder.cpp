@@ -20,8 +20,8 @@ bool isFramePicture(const std::filesystem::directory_entry& file)
 }
 }  // namespace
 
-FramePictureFolder::FramePictureFolder(const std::string& folder) :
-    directory_(folder), files_(folder, "frames")
+FramePictureFolder::FramePictureFolder(const std::string& folder, OutputGroup* group) :
+    group_(group), files_((group ? *group : own_).addFolder(folder, "frames"))
 {
 }
 
@@ -40,7 +40,7 @@ void FramePictureFolder::commit()
     if (isFramePicture(file) && !std::binary_search(names.begin(), names.end(), name))
       files_.addRemoval(name);
   }
-  files_.commit();
+  if (!group_) own_.commit();
 }
 
 }  // namespace quadmap

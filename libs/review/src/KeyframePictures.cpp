@@ -16,8 +16,9 @@ class KeyframePictures
   KeyframePictures(
       const std::string& result,
       const std::vector<ObjectRecord>& objects,
-      const std::string& folder) :
-      keyframes_(result, ResultKeyframes::Boxes::Read), objects_(objects), pictures_(folder)
+      const std::string& folder,
+      OutputGroup& group) :
+      keyframes_(result, ResultKeyframes::Boxes::Read), objects_(objects), pictures_(folder, &group)
   {
     for (const auto& object : objects) ids_.insert(object.id);
   }
@@ -70,9 +71,10 @@ std::size_t writeKeyframePictures(
     const std::string& result,
     const std::vector<ObjectRecord>& objects,
     const std::string& folder,
+    OutputGroup& group,
     const std::function<void(double)>& progress)
 {
-  return KeyframePictures(result, objects, folder).write(progress);
+  return KeyframePictures(result, objects, folder, group).write(progress);
 }
 
 }  // namespace quadmap

@@ -51,6 +51,10 @@ class OutputSet
    *  links. Call it once. \exception std::runtime_error Names the file that cannot be written. */
   void commit();
 
+  /** The two parts of commit(), for several sets: what may fail, and the exchange of the names. */
+  void prepare();
+  void exchange();
+
  private:
   std::string folder_, staging_;
   std::vector<std::string> entries_;  //!< Names with '+' before them, or '-' when removed

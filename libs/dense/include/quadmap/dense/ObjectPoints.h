@@ -11,6 +11,7 @@
 
 namespace quadmap
 {
+class OutputGroup;
 class OutputSet;
 
 /** The points of one object of a map, as the depth images and the detector's boxes tell them: what
@@ -50,10 +51,11 @@ std::string fileNameOf(const ObjectRecord& record, const std::string& extension)
  * ".png". */
 void removeFormerFiles(OutputSet& files, const std::string& extension);
 
-/** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd, all of them or none; the
- * clouds of an earlier call are removed. The folder is made when missing. \return The names of the
- * files. \exception std::runtime_error If they cannot be written. */
+/** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd; the clouds of an earlier
+ * call are removed. The folder is made when missing. \param group The clouds appear when it is
+ * committed. \return The names of the files. \exception std::runtime_error If they cannot be
+ * written. */
 std::vector<std::string> writeObjectClouds(
-    const std::vector<ObjectPoints>& objects, const std::string& folder);
+    const std::vector<ObjectPoints>& objects, const std::string& folder, OutputGroup& group);
 
 }  // namespace quadmap

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "quadmap/base/RunFolder.h"
+#include "quadmap/base/OutputGroup.h"
 
 namespace quadmap
 {
@@ -16,20 +16,23 @@ class FramePictureFolder
  public:
   /** \param folder It is made when missing, and removed again when no pictures appear.
    *  \exception std::runtime_error If it cannot be made or written, or another program writes
-   *  pictures into it. */
-  explicit FramePictureFolder(const std::string& folder);
+   *  pictures into it.
+   *  \param group What the pictures appear with when it is committed; null: they appear at once. */
+  explicit FramePictureFolder(const std::string& folder, OutputGroup* group = nullptr);
 
   /** \param frame Number of the frame, from 0; each has one picture.
    *  \exception std::runtime_error If the picture cannot be written. */
   void add(std::size_t frame, const mrpt::img::CImage& picture);
 
-  /** Gives all pictures their names, and removes the others of that form. Call it once.
+  /** Gives all pictures their names, unless a group does so, and removes the others of that form.
+   *  Call it once.
    *  \exception std::runtime_error Names the file that cannot be written. */
   void commit();
 
  private:
-  OutputDirectory directory_;
-  OutputSet files_;
+  OutputGroup own_;
+  OutputGroup* group_;
+  OutputSet& files_;
 };
 
 }  // namespace quadmap

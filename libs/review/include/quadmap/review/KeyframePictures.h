@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/obs/ObjectList.h"
 
 namespace quadmap
@@ -14,8 +15,8 @@ namespace quadmap
  * is in memory at a time.
  * \param result Folder of quadmap-slam: map.simplemap, objects.simplemap and report.json are read.
  * \param objects The objects of its map.
- * \param folder Where the pictures go, all of them or none, in the place of earlier ones; made when
- * missing.
+ * \param folder Where the pictures go, in the place of earlier ones; made when missing.
+ * \param group The pictures appear when it is committed.
  * \param progress Called with the share that is done, in [0, 1].
  * \return Number of pictures.
  * \exception std::runtime_error For a file that cannot be read or written; names it. */
@@ -23,6 +24,7 @@ std::size_t writeKeyframePictures(
     const std::string& result,
     const std::vector<ObjectRecord>& objects,
     const std::string& folder,
+    OutputGroup& group,
     const std::function<void(double)>& progress);
 
 }  // namespace quadmap

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "quadmap/base/OutputSet.h"
+#include "quadmap/base/RunFolder.h"
+
+namespace quadmap
+{
+/** What one call of a program writes into any folders: all of it gets its names, or nothing. A
+ * signal comes before the exchange of the names or after it. Only a program that is killed while it
+ * exchanges them leaves a part; each folder by itself is then completed by the next program that
+ * writes there, see OutputSet. */
+class OutputGroup
+{
+ public:
+  OutputGroup() = default;
+  ~OutputGroup();  //!< Removes what was written, unless commit() was called
+  OutputGroup(const OutputGroup&) = delete;
+  OutputGroup& operator=(const OutputGroup&) = delete;
+
+  /** Adds a file. \return Where to write it: a device or a pipe is written at once.
+   *  \exception std::runtime_error As OutputSet does; names the file. */
+  std::string add(const std::string& path);
+
+  /** Adds files of a folder, which is made when missing, and removed again when nothing appears in
+   * it. \param set Name of the set. \return Takes its files; do not commit it.
+   *  \exception std::runtime_error If the folder cannot be made or written. */
+  OutputSet& addFolder(const std::string& path, const std::string& set);
+
+  /** Gives all files their names. Call it once.
+   *  \exception std::runtime_error Names the file that cannot be written. */
+  void commit();
+
+ private:
+  std::list<OutputDirectory> directories_;                   // the last may be in the first
+  std::map<std::string, std::unique_ptr<OutputSet>> files_;  // by the folders of single files
+  std::list<OutputSet> folders_;
+};
+
+}  // namespace quadmap
