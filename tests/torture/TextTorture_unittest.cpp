@@ -87,13 +87,13 @@ TEST(TextTorture, RecordingInTheLayoutOfTum)
     recording.files.write(name, whole);
   }
   std::string boxes;
-  for (int i = 0; i < 100000; ++i) boxes += "56 chair 0.8 10 12 30 40\n";
+  for (int i = 0; i <= 100000; ++i) boxes += "56 chair 0.8 10 12 30 40\n";
   judge(
       recording.files,
       {
           strict, SampleRecording::boxesFile(0), ""
   },
-      {{"100,000 boxes", boxes, true}});
+      {{"100,001 boxes", boxes, true}});
 }
 
 TEST(TextTorture, ImagesInTheLayoutOfTum)
