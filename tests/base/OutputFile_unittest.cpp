@@ -248,6 +248,17 @@ TEST(OutputFile, APipeNeedsAReader)
   ::close(reader);
 }
 
+TEST(OutputFile, WritesToAPipeWithoutAName)
+{
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  writeTextFile("/proc/self/fd/" + std::to_string(ends[1]), "text");  // as /dev/stdout may be
+  char bytes[8];
+  EXPECT_EQ(::read(ends[0], bytes, sizeof bytes), 4);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
 TEST(WriteTextFile, WritesTheBytesGiven)
 {
   const TemporaryFolder folder;

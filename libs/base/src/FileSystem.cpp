@@ -29,7 +29,12 @@ std::vector<fs::path> linkChain(const fs::path& path)
   return chain;
 }
 
-fs::path withoutLink(const fs::path& path) { return linkChain(path).back(); }
+fs::path withoutLink(const fs::path& path)
+{
+  const fs::path end = linkChain(path).back();
+  // What /dev/stdout links to may be a pipe without a name, which only the link opens.
+  return isDevice(path) && !isDevice(end) ? path : end;
+}
 
 bool isDevice(const fs::path& path)
 {
