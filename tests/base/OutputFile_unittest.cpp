@@ -254,7 +254,8 @@ TEST(OutputFile, WritesToAPipeWithoutAName)
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
   writeTextFile("/proc/self/fd/" + std::to_string(ends[1]), "text");  // as /dev/stdout may be
   char bytes[8];
-  EXPECT_EQ(::read(ends[0], bytes, sizeof bytes), 4);
+  ASSERT_EQ(::read(ends[0], bytes, sizeof bytes), 4);
+  EXPECT_EQ(std::string(bytes, 4), "text");
   ::close(ends[0]);
   ::close(ends[1]);
 }

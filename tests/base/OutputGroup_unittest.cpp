@@ -65,4 +65,39 @@ TEST_F(OutputGroups, LeaveNothingWhenOneOfThemFails)
   expectNothingNew();
 }
 
+TEST_F(OutputGroups, AreAsCompleteAsPossibleWhenTheExchangeFails)
+{
+  namespace fs = std::filesystem;
+  fs::create_directories(folder_.path("b.txt/full"));  // by another program meanwhile
+  const std::string error = errorOf([&] { group_->commit(); });
+  EXPECT_EQ(error.find(folder_.path("b.txt")), 0u) << error;
+  group_.reset();
+  EXPECT_EQ(readFile(folder_.path("a.txt")), "a");
+  EXPECT_EQ(readFile(folder_.path("new/pictures/c.txt")), "c");
+  fs::remove_all(folder_.path("b.txt"));
+
+  OutputGroup next;
+  writeTextFile(next.add(folder_.path("a.txt")), "newer");
+  next.commit();
+  EXPECT_EQ(readFile(folder_.path("a.txt")), "newer");
+  EXPECT_FALSE(fs::exists(folder_.path("b.txt")));
+  OutputSet(folder_.folder().string(), "b.txt");  // who writes it next completes it first
+  EXPECT_EQ(readFile(folder_.path("b.txt")), "b");
+  EXPECT_EQ(readFile(folder_.path("a.txt")), "newer");
+}
+
+TEST_F(OutputGroups, WriteWhereALinkLeads)
+{
+  std::filesystem::create_directory(folder_.path("given"));
+  const std::string target = folder_.write("given/target.txt", "old");
+  std::filesystem::create_symlink(target, folder_.path("link.txt"));
+  const std::string written = group_->add(folder_.path("link.txt"));
+  EXPECT_EQ(written.find(folder_.path("given/")), 0u) << written;
+  EXPECT_EQ(group_->add(target), written) << "the same file";
+  writeTextFile(written, "new");
+  group_->commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_.path("link.txt")));
+  EXPECT_EQ(readFile(target), "new");
+}
+
 TEST_F(OutputGroups, WriteDevicesAtOnce) { EXPECT_EQ(group_->add("/dev/null"), "/dev/null"); }

@@ -34,6 +34,10 @@ TEST(LogisticRegression, RefusesWhatDoesNotDetermineTheWeights)
 {
   const Eigen::MatrixXd x = Eigen::MatrixXd::Ones(5, 1);
   EXPECT_THROW(fitLogistic(x, Eigen::VectorXd::Zero(5)), std::runtime_error);
+  EXPECT_THROW(fitLogistic(x, Eigen::VectorXd::Ones(5)), std::runtime_error);
+  Eigen::MatrixXd never = Eigen::MatrixXd::Ones(4, 2);
+  never.col(1).setZero();
+  EXPECT_THROW(fitLogistic(never, Eigen::Vector4d(0, 1, 0, 1)), std::runtime_error);
   Eigen::MatrixXd apart(4, 2);
   apart << 1, -2, 1, -1, 1, 1, 1, 2;
   EXPECT_THROW(fitLogistic(apart, Eigen::Vector4d(0, 0, 1, 1)), std::runtime_error);

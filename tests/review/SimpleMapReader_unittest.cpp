@@ -187,12 +187,20 @@ TEST_F(SimpleMapFile, BoxesThatAreNoneAreReported)
     SimpleMapReader reader(path_);
     return errorOf([&] { reader.next(); });
   };
-  EXPECT_EQ(errorWith({-9, 1, 70, 9}), "");
-  EXPECT_EQ(
-      errorWith({-1e300, 1, 1e300, 9}),
-      path_ +
-          ": keyframe 1 of 1: box 0 (cup) of camera: (x1=-1e+300 y1=1 x2=1e+300 y2=9) reaches far "
-          "outside the 64x48 image");
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (const ImageBox& usual : {
+           ImageBox{-9, 1, 70, 9},
+           { 5, 5,  5, 5},
+           {-9, 1, -2, 9}
+  })
+    EXPECT_EQ(errorWith(usual), "");
+  for (const ImageBox& absurd : {
+           ImageBox{-1e300, 1, 1e300,    9},
+           {     1, 1,     9, kNaN}
+  })
+    EXPECT_EQ(
+        errorWith(absurd),
+        path_ + ": keyframe 1 of 1: box 1 of 1 (cup) of camera lies far outside the image");
 }
 
 TEST_F(SimpleMapFile, OtherFilesAreReported)

@@ -1,5 +1,6 @@
 #include "quadmap/base/OutputGroup.h"
 
+#include <exception>
 #include <filesystem>
 #include <vector>
 
@@ -17,11 +18,11 @@ OutputGroup::~OutputGroup()
 std::string OutputGroup::add(const std::string& path)
 {
   if (isDevice(path)) return path;
-  const std::filesystem::path whole(path);
-  const std::string folder = whole.parent_path().string(), name = whole.filename().string();
-  auto& files = files_[folder];
-  if (!files) files = std::make_unique<OutputSet>(folder, name);
-  return files->add(name);
+  // What a link leads to is written where it is: the folder of the link may be no place to write.
+  const std::filesystem::path whole = withoutLink(path);
+  const std::string name = whole.filename().string();
+  const auto [file, isNew] = files_.try_emplace(whole.string(), whole.parent_path().string(), name);
+  return isNew ? file->second.add(name) : file->second.written(name);
 }
 
 OutputSet& OutputGroup::addFolder(const std::string& path, const std::string& set)
@@ -33,11 +34,21 @@ OutputSet& OutputGroup::addFolder(const std::string& path, const std::string& se
 void OutputGroup::commit()
 {
   std::vector<OutputSet*> sets;
-  for (auto& [folder, files] : files_) sets.push_back(files.get());
+  for (auto& [path, file] : files_) sets.push_back(&file);
   for (OutputSet& files : folders_) sets.push_back(&files);
   for (OutputSet* files : sets) files->prepare();
   const auto pause = Temporary::pause();
-  for (OutputSet* files : sets) files->exchange();
+  for (OutputSet* files : sets) files->promise();
+  std::exception_ptr first;
+  for (OutputSet* files : sets) try
+    {
+      files->exchange();
+    }
+    catch (const std::exception&)
+    {
+      if (!first) first = std::current_exception();
+    }
+  if (first) std::rethrow_exception(first);
 }
 
 }  // namespace quadmap

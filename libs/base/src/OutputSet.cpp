@@ -205,24 +205,27 @@ void OutputSet::addRemoval(const std::string& name) { entries_.push_back("-" + n
 void OutputSet::commit()
 {
   prepare();
+  const auto pause = Temporary::pause();
+  promise();
   exchange();
 }
 
 void OutputSet::prepare()
 {
-  std::string list;
-  for (const auto& entry : entries_)
-  {
-    const auto staged = fs::path(staging_) / entry.substr(1);
-    if (entry[0] == '+' && !fs::exists(staged)) failToWrite(staged.string(), ENOENT);
-    list += entry + '\0';
-  }
+  for (const auto& name : names())
+    if (!fs::exists(written(name))) failToWrite(written(name), ENOENT);
   // What a device has got cannot be taken back, and it may refuse: the other files come after it.
   for (const auto& name : names())
     if (const fs::path to = withoutLink(fs::path(folder_) / name); isDevice(to))
       copyTo(written(name), to);
   // Writers of ours synchronise each file, but folders have files of other writers.
   if (::syncfs(lock_) != 0) failToWrite(folder_, errno);
+}
+
+void OutputSet::promise()
+{
+  std::string list;
+  for (const auto& entry : entries_) list += entry + '\0';
   writeTextFile(staging_ + "/" + kListName, list);
 }
 

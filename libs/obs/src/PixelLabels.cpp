@@ -143,9 +143,10 @@ class LargestObjects
       DetectedObject& object = found_.back().object;
       object.label = name;
       if (isInstance) object.instanceId = hashOf(name);
-      requireModestMasks();
+      requireModestMasks(2 * CObservationObjects::kMostMaskPixels);  // half may be left out
     }
     keepLargest(found_);
+    requireModestMasks(CObservationObjects::kMostMaskPixels);
   }
 
   std::size_t leftOut() const { return leftOut_; }
@@ -197,11 +198,11 @@ class LargestObjects
         items, CObservationObjects::kMostObjects, [](const Item& item) { return item.pixels; });
   }
 
-  void requireModestMasks() const
+  void requireModestMasks(std::uint64_t most) const
   {
     std::uint64_t sum = 0;
     for (const Found& found : found_) sum += found.object.mask->pixels.size();
-    if (sum >= CObservationObjects::kMostMaskPixels)
+    if (sum >= most)
       throw std::runtime_error(
           "its pixel labels have parts that reach around each other too often");
   }

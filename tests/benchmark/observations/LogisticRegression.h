@@ -19,13 +19,15 @@ struct LogisticFit
 inline LogisticFit fitLogistic(const Eigen::MatrixXd& x, const Eigen::VectorXd& y)
 {
   constexpr int kMostSteps = 50;
-  constexpr double kConverged = 1e-8;
+  constexpr double kConverged = 1e-8, kSingular = 1e-12;
   Eigen::VectorXd w = Eigen::VectorXd::Zero(x.cols());
   for (int step = 0; step < kMostSteps; ++step)
   {
     const Eigen::ArrayXd p = 1.0 / (1.0 + (-(x * w).array()).exp());
     const Eigen::MatrixXd information = x.transpose() * (p * (1.0 - p)).matrix().asDiagonal() * x;
     const Eigen::LDLT<Eigen::MatrixXd> solver(information);
+    const Eigen::VectorXd pivots = solver.vectorD();
+    if (!(pivots.minCoeff() > kSingular * pivots.maxCoeff())) break;
     const Eigen::VectorXd change = solver.solve(x.transpose() * (y - p.matrix()));
     w += change;
     if (!w.allFinite()) break;

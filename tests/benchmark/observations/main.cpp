@@ -25,11 +25,9 @@ struct Cli
       "observation_tables",
       "Measures the objects of simulated frames at their true poses and prints a table. residuals: "
       "residuals of the map's factors at the true state, in units of their sigmas; edges: how well "
-      "the usable box edges are told from the others; edge-weights: the weights of what tells "
-      "them, "
-      "fitted anew; ablation: the map's errors with each model and rule; orientation: errors of "
-      "the "
-      "measured headings per class.",
+      "the usable box edges are told from the others; edge-weights: the weights by which they are "
+      "told, fitted anew; ablation: the map's errors with each model and rule; orientation: errors "
+      "of the measured headings per class.",
       "benchmark"};
   std::vector<std::string> tables{"residuals", "edges", "edge-weights", "ablation", "orientation"};
   TCLAP::ValuesConstraint<std::string> tableConstraint{tables};

@@ -256,16 +256,18 @@ TEST(PixelLabelSource, WarnsOfImagesWithTooManyObjects)
   for (int row = 0; row < 48; ++row)  // 16 x 21 squares of two pixels
     for (int column = 0; column < 63; ++column)
       if (row % 3 != 2 && column % 3 != 2) scan->pixelLabels->setLabel(row, column, 3);
-  const auto file = writeObjects(folder.path("x.rawlog"), {scan});
+  auto next = mrpt::obs::CObservation3DRangeScan::Create(*scan);
+  next->timestamp += std::chrono::seconds(1);
+  const auto file = writeObjects(folder.path("x.rawlog"), {scan, next});
   RawlogSource source(file, withPixelLabels());
   std::vector<std::string> warnings;
   source.sendWarningsTo([&](const std::string& text) { warnings.push_back(text); });
-  EXPECT_EQ(readAll(source).at(0).objects->objects.size(), 300u);
-  ASSERT_EQ(warnings.size(), 1u);
+  for (const auto& frame : readAll(source)) EXPECT_EQ(frame.objects->objects.size(), 300u);
+  ASSERT_EQ(warnings.size(), 1u) << "for both images";
   EXPECT_EQ(
       warnings[0], file +
-                       ": record 0 (a): its pixel labels have 336 separate parts, of which the "
-                       "largest 300 are kept (minLabelPixels leaves out small ones)");
+                       " (a): the pixel labels of an image have more than 300 separate parts, of "
+                       "which the largest are kept (minLabelPixels leaves out small ones)");
 }
 
 TEST(RgbdScan, TheMemoryOfItsImagesIsKnown)

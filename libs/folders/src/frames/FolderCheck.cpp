@@ -60,14 +60,17 @@ try
   const std::string file = folder.boxesFile(frame);
   const auto boxes = folder.boxes(frame);
   if (!boxes) return problems["missing file"].push_back(file);
-  if (boxes->objects.size() > CObservationObjects::kMostObjects)
-    problems["box"].push_back(mrpt::format(
-        "%s: has %zu boxes, of which the %u with the highest scores can be used", file.c_str(),
-        boxes->objects.size(), CObservationObjects::kMostObjects));
+  std::size_t usable = 0;
   for (const auto& object : boxes->objects)
     if (const auto why = whyUnusable(
             object.box, object.score, boxes->cameraParams.ncols, boxes->cameraParams.nrows))
       problems["box"].push_back(file + ": " + object.label + " " + *why);
+    else
+      ++usable;
+  if (usable > CObservationObjects::kMostObjects)
+    problems["box"].push_back(mrpt::format(
+        "%s: has %zu boxes, of which the %u with the highest scores can be used", file.c_str(),
+        usable, CObservationObjects::kMostObjects));
 }
 catch (const std::exception& e)
 {

@@ -174,8 +174,14 @@ cv::Mat FrameRectification::depth(const cv::Mat& image) const
 ImageBox FrameRectification::box(const ImageBox& box) const
 {
   constexpr double kAtBorder = 2;  // detectors round [px]
-  if (!box.isValid() || isFarOutside(box, from_.ncols, from_.nrows))
-    return box;  // left to those who say why
+  if (!box.isValid()) return box;  // left to those who say why
+  if (isFarOutside(box, from_.ncols, from_.nrows))
+  {
+    // No lens was measured there. It stays far outside an image of another size, too.
+    const double scale =
+        static_cast<double>(std::max(to_.ncols, to_.nrows)) / std::max(from_.ncols, from_.nrows);
+    return {scale * box.x1, scale * box.y1, scale * box.x2, scale * box.y2};
+  }
   const double right = to_.ncols - 1.0, bottom = to_.nrows - 1.0;
   ImageBox b = boundsOfOutline(box, from_, to_);
   if (box.x1 <= kAtBorder) b.x1 = std::min(b.x1, 0.0);

@@ -216,13 +216,11 @@ void RawlogSource::Impl::addPixelLabels(RgbdFrame& frame)
         *frame.scan, *options.pixelLabelClasses, options.minLabelPixels, unknownPixelLabels_,
         &leftOut);
     if (leftOut > 0)
-      warnOnce(InputProblem{
-          reader.file(), frame.record, frame.scan->sensorLabel,
-          mrpt::format(
-              "its pixel labels have %zu separate parts, of which the largest %u are kept "
-              "(minLabelPixels leaves out small ones)",
-              leftOut + frame.objects->objects.size(), CObservationObjects::kMostObjects)}
-                   .text());
+      warnOnce(mrpt::format(
+          "%s (%s): the pixel labels of an image have more than %u separate parts, of which the "
+          "largest are kept (minLabelPixels leaves out small ones)",
+          reader.file().c_str(), frame.scan->sensorLabel.c_str(),
+          CObservationObjects::kMostObjects));
     frame.objectsFromPixelLabels = frame.objects != nullptr;
     sawPixelLabels = sawPixelLabels || frame.objects;
   }

@@ -6,6 +6,7 @@
 #include <mrpt/poses/registerAllClasses.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -37,15 +38,20 @@ bool readSimpleMapHead(mrpt::serialization::CArchive& archive)
   return name == expected && readScalar<std::uint8_t>(archive) == kVersion;
 }
 
+/** Why a box is absurd. What merely shows nothing, a box without area or beside the image, is in
+ * maps of other programs, and is measured as such. */
 std::optional<std::string> whyNoBoxes(const CObservationObjects& boxes)
 {
   const auto& camera = boxes.cameraParams;
   for (std::size_t i = 0; i < boxes.objects.size(); ++i)
-    if (const auto why =
-            whyUnusable(boxes.objects[i].box, boxes.objects[i].score, camera.ncols, camera.nrows))
+  {
+    const ImageBox& box = boxes.objects[i].box;
+    const bool isFinite = std::isfinite(box.x1 + box.y1 + box.x2 + box.y2);
+    if (!isFinite || (camera.ncols > 0 && isFarOutside(box, camera.ncols, camera.nrows)))
       return mrpt::format(
-          "box %zu (%s) of %s: %s", i, boxes.objects[i].label.c_str(), boxes.sensorLabel.c_str(),
-          why->c_str());
+          "box %zu of %zu (%s) of %s lies far outside the image", i + 1, boxes.objects.size(),
+          boxes.objects[i].label.c_str(), boxes.sensorLabel.c_str());
+  }
   return std::nullopt;
 }
 

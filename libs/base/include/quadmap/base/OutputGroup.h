@@ -2,7 +2,6 @@
 
 #include <list>
 #include <map>
-#include <memory>
 #include <string>
 
 #include "quadmap/base/OutputSet.h"
@@ -10,10 +9,10 @@
 
 namespace quadmap
 {
-/** What one call of a program writes into any folders: all of it gets its names, or nothing. A
- * signal comes before the exchange of the names or after it. Only a program that is killed while it
- * exchanges them leaves a part; each folder by itself is then completed by the next program that
- * writes there, see OutputSet. */
+/** What one call of a program writes into any folders: all of it gets its names, or nothing. What
+ * may fail comes before the first name is exchanged, and a signal before or after all. A program
+ * that is killed while it exchanges them, or a disk that fails then, leaves a part of the files;
+ * the others are given their names when they are written next, see OutputSet. */
 class OutputGroup
 {
  public:
@@ -36,8 +35,8 @@ class OutputGroup
   void commit();
 
  private:
-  std::list<OutputDirectory> directories_;                   // the last may be in the first
-  std::map<std::string, std::unique_ptr<OutputSet>> files_;  // by the folders of single files
+  std::list<OutputDirectory> directories_;  // a later one may lie in an earlier one
+  std::map<std::string, OutputSet> files_;  // single files, by their paths
   std::list<OutputSet> folders_;
 };
 

@@ -51,9 +51,10 @@ class OutputSet
    *  links. Call it once. \exception std::runtime_error Names the file that cannot be written. */
   void commit();
 
-  /** The two parts of commit(), for several sets: what may fail, and the exchange of the names. */
-  void prepare();
-  void exchange();
+  /** The parts of commit(), in their order, for whoever commits several sets (OutputGroup). */
+  void prepare();   //!< What may fail. \exception std::runtime_error Names the file.
+  void promise();   //!< From here on readers refuse the files that are to be replaced.
+  void exchange();  //!< \exception std::runtime_error Names the file; the next writer goes on.
 
  private:
   std::string folder_, staging_;

@@ -52,9 +52,10 @@ std::string fileNameOf(const ObjectRecord& record, const std::string& extension)
 void removeFormerFiles(OutputSet& files, const std::string& extension);
 
 /** Writes the cloud of each object that has points to FOLDER/ID_LABEL.pcd; the clouds of an earlier
- * call are removed. The folder is made when missing. \param group The clouds appear when it is
- * committed. \return The names of the files. \exception std::runtime_error If they cannot be
- * written. */
+ * call are removed. The folder is made when missing.
+ * \param group The clouds appear when it is committed.
+ * \return The names of the files.
+ * \exception std::runtime_error If they cannot be written. */
 std::vector<std::string> writeObjectClouds(
     const std::vector<ObjectPoints>& objects, const std::string& folder, OutputGroup& group);
 

@@ -23,9 +23,10 @@ namespace quadmap
  * \param unknown Receives the names that the table lacks, without their numbers.
  * \param leftOut Receives how many objects were left out, as an observation has at most
  * CObservationObjects::kMostObjects: those of the most pixels, of equal ones the first. May be
- * null. \return Null when the scan has no pixelLabels; boxes without objects when no label is
- * known. \exception std::runtime_error If the labels' image has other proportions than the depth
- * image. */
+ * null.
+ * \return Null when the scan has no pixelLabels; boxes without objects when no label is known.
+ * \exception std::runtime_error If the labels' image has other proportions than the depth image,
+ * or the masks of its objects take too much memory. */
 CObservationObjects::Ptr boxesFromPixelLabels(
     const mrpt::obs::CObservation3DRangeScan& scan,
     const LabelTable& labels,

@@ -41,7 +41,7 @@ enum class ObjectSide
 /** One term of the sum of doc/mathematics.md, (9.2). */
 struct HiddenTerm
 {
-  std::string name;  //!< As in the table after (9.2)
+  std::string name;  //!< A short form of that in the table after (9.2)
   double evidence;   //!< e_j
   double weight;     //!< w_j
 };

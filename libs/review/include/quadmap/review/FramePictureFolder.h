@@ -15,9 +15,9 @@ class FramePictureFolder
 {
  public:
   /** \param folder It is made when missing, and removed again when no pictures appear.
+   *  \param group What the pictures appear with when it is committed; null: they appear at once.
    *  \exception std::runtime_error If it cannot be made or written, or another program writes
-   *  pictures into it.
-   *  \param group What the pictures appear with when it is committed; null: they appear at once. */
+   *  pictures into it. */
   explicit FramePictureFolder(const std::string& folder, OutputGroup* group = nullptr);
 
   /** \param frame Number of the frame, from 0; each has one picture.
