@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "../../surfaces/SyntheticFrame.h"
@@ -73,29 +72,6 @@ TEST(LeaningThings, EndWhereTheirFrontDoes)
 {
   for (const double lean : kLeans_deg)
     EXPECT_NEAR(errorsOf(leaningPanel(lean)).front, 0, 0.007) << lean;
-}
-
-// A shelf of two upright parts, the upper one 5 cm behind the lower one.
-TEST(LeaningThings, AStepIsNoLean)
-{
-  constexpr double kFront = 1.4;  // [m]
-  SyntheticFrame frame(1.35, 0.3);
-  frame.noise = 0.0012;
-  frame.add(kFront + 0.15, 0.1, 0, 0, {0.30, 0.5, 0.30});
-  frame.add(kFront + 0.05 + 0.125, 0.1, 0.30, 0, {0.25, 0.5, 0.15});
-  DetectedObject whole = frame.detect(0, "suitcase");
-  const ImageBox upper = frame.detect(1, "suitcase").box;
-  whole.box = {
-      std::min(whole.box.x1, upper.x1), std::min(whole.box.y1, upper.y1),
-      std::max(whole.box.x2, upper.x2), std::max(whole.box.y2, upper.y2)};
-  CObservationObjects boxes = frame.observation({whole});
-  FramePerception(PerceptionOptions(), LabelTable::installed())
-      .measure(frame.scan(), boxes, frame.up_sensor());
-  const ObjectMeasurement& m = boxes.objects.front().measurement;
-  ASSERT_TRUE(m.complete) << m.reason;
-  const Ellipsoid world = m.complete->object_sensor.transformed(frame.T_world_sensor);
-  const double front = world.center().x() - world.rotation().row(0).cwiseAbs() * world.semiAxes();
-  EXPECT_NEAR(front, kFront, 0.004);
 }
 
 }  // namespace quadmap

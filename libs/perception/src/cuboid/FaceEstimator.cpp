@@ -191,24 +191,17 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   return out;
 }
 
-/** Moves a side that leans to its outermost end. Its points and their normals must both say that it
- * leans: of a step only the points do, of noise only some normals. */
+/** Moves a side that leans to its outermost end. */
 void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
 {
   constexpr double kSigmas = 3.0;
   std::vector<Eigen::Vector2d> own;  // height, and along the outward normal
-  std::vector<double> slopes;        // along the outward normal, per height
   for (std::size_t i = 0; i < size(); ++i)
-    if (cosine(face, i) > kFaceCosine)
-    {
-      own.emplace_back(points_[kTop / 2][i], along(face, i));
-      slopes.push_back(-normals_[kTop / 2][i] / cosine(face, i));
-    }
+    if (cosine(face, i) > kFaceCosine) own.emplace_back(points_[kTop / 2][i], along(face, i));
   const auto line = fitLine(own, shellDepth());
   if (!line || std::abs(line->angle) < std::max(kUpright, kSigmas * std::sqrt(line->variance)))
     return;
   const double slope = std::tan(line->angle);
-  if (std::copysign(1.0, slope) * median(std::move(slopes)) < std::tan(kUpright)) return;
   std::vector<double> atFoot;  // where the side would be at the height 0
   for (const auto& p : own) atFoot.push_back(p.y() - slope * p.x());
   const double foot = median(atFoot);
