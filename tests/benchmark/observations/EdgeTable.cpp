@@ -42,12 +42,6 @@ std::vector<Rule> rules()
   };
 }
 
-/** How much further out than `box` the outline ends at each edge [px]. */
-std::array<double, 4> pixelsBeyond(const ImageBox& box, const ImageBox& outline)
-{
-  return {box.x1 - outline.x1, box.y1 - outline.y1, outline.x2 - box.x2, outline.y2 - box.y2};
-}
-
 class EdgeTable
 {
  public:
@@ -152,6 +146,11 @@ class EdgeTable
 };
 
 }  // namespace
+
+std::array<double, 4> pixelsBeyond(const ImageBox& box, const ImageBox& outline)
+{
+  return {box.x1 - outline.x1, box.y1 - outline.y1, outline.x2 - box.x2, outline.y2 - box.y2};
+}
 
 Rows printEdgeTable(
     const RunOptions& run, const EdgeTruthOptions& truth, bool perLabel, std::ostream& out)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <ostream>
 
 #include "ObservationJson.h"
@@ -15,6 +16,9 @@ struct EdgeTruthOptions
    * px wide]: what a bad detector errs by is less, what something hides is usually more. */
   double beyond = 18;
 };
+
+/** How much further out than a box an outline ends at each edge, in the order of BoxEdge [px]. */
+std::array<double, 4> pixelsBeyond(const ImageBox& box, const ImageBox& outline);
 
 /** Prints how well the usable edges are told from those that the object goes on beyond: for each
  * rule alone and for both, in total and per kind of edge (doc/benchmarks.md, "Box edges").

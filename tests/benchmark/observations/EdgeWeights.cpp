@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,15 +38,6 @@ struct Examples
   }
 };
 
-/** How much further out than what is seen of the object its whole outline ends at each edge [px].
- */
-std::array<double, 4> hiddenPixels(const simulator::VisibleObject& seen)
-{
-  return {
-      seen.box.x1 - seen.outline.x1, seen.box.y1 - seen.outline.y1, seen.outline.x2 - seen.box.x2,
-      seen.outline.y2 - seen.box.y2};
-}
-
 class WeightTable
 {
  public:
@@ -58,7 +50,8 @@ class WeightTable
     for (std::size_t b = 0; b < boxes.size(); ++b)
     {
       if (!boxes[b] || !frame.truth[b]) continue;
-      const auto hidden = hiddenPixels(frame.truth[b]->visible);
+      const auto& seen = frame.truth[b]->visible;
+      const auto hidden = pixelsBeyond(seen.box, seen.outline);
       for (std::size_t e = 0; e < hidden.size(); ++e)
       {
         const EdgeEvidence& edge = (*boxes[b])[e];
@@ -83,7 +76,7 @@ class WeightTable
         const HiddenTerm& term = side.terms.front()[j];
         const auto row = static_cast<Eigen::Index>(j);
         out << mrpt::format(
-            "%-8s %-20s %8.2f %8.2f %8.2f\n", kNames[s], term.name.c_str(), fit.weights[row],
+            "%-8s %-20s %8.2f %8.2f %8.2f\n", kNames[s], term.name, fit.weights[row],
             fit.sigmas[row], term.weight);
         rows.push_back({
             std::string(kNames[s]) + " / " + term.name,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace quadmap
@@ -41,7 +40,7 @@ enum class ObjectSide
 /** One term of the sum of doc/mathematics.md, (9.2). */
 struct HiddenTerm
 {
-  std::string name;  //!< A short form of that in the table after (9.2)
+  const char* name;  //!< A short form of that in the table after (9.2)
   double evidence;   //!< e_j
   double weight;     //!< w_j
 };
