@@ -29,11 +29,11 @@ SyntheticFrame leaningPanel(double lean_deg)
   return frame;
 }
 
-/** How far the middle of the front of its complete measurement is before the nearest corner of the
- * panel, along the true heading [m], and what the heading errs by [rad]. */
+/** How far its complete measurement ends before the nearest corner of the panel and behind the
+ * farthest one, along the true heading [m], and what the heading errs by [rad]. */
 struct Errors
 {
-  double front = 1, heading = 1;
+  double front = 1, back = 1, heading = 1;
 };
 
 Errors errorsOf(const SyntheticFrame& frame)
@@ -48,12 +48,15 @@ Errors errorsOf(const SyntheticFrame& frame)
   const Eigen::Matrix3d R = world.rotation();
   const Eigen::Vector3d toCamera(-std::cos(kTurned), -std::sin(kTurned), 0);
   const Eigen::Index deep = std::abs(R.col(0).dot(toCamera)) > 0.7 ? 0 : 1;
-  const double front = world.center().dot(toCamera) + world.semiAxes()[deep];
+  const double middle = world.center().dot(toCamera), half = world.semiAxes()[deep];
   const Ellipsoid& panel = frame.boxes[1].cuboid;
   const Eigen::Vector3d outwards = panel.rotation().transpose() * toCamera;
-  const double truth = panel.center().dot(toCamera) + outwards.cwiseAbs().dot(panel.semiAxes());
+  const double trueMiddle = panel.center().dot(toCamera);
+  const double trueHalf = outwards.cwiseAbs().dot(panel.semiAxes());
   const double yaw = std::atan2(R(1, 0), R(0, 0));
-  return {front - truth, nearestEquivalentYaw(yaw, kTurned) - kTurned};
+  return {
+      middle + half - trueMiddle - trueHalf, trueMiddle - trueHalf - middle + half,
+      nearestEquivalentYaw(yaw, kTurned) - kTurned};
 }
 
 }  // namespace
@@ -66,6 +69,14 @@ TEST(LeaningThings, HaveTheHeadingOfTheirFaceWhenABoardHidesACorner)
     frame.boxes.push_back({Ellipsoid({1.1, 0.36, 0.95, 0, 0, 0.5}, {0.01, 0.08, 0.4}), true});
     EXPECT_NEAR(errorsOf(frame).heading, 0, M_PI / 180) << lean;
   }
+}
+
+// Nobody sees the back: it is as far behind the front as screens usually are deep, where they lean.
+TEST(LeaningThings, AreAsThickAsTheirLabelSays)
+{
+  constexpr double kTypical = 0.06, kTrue = 0.03;  // [m]
+  for (const double lean : {10, 19})
+    EXPECT_NEAR(errorsOf(leaningPanel(lean)).back, kTypical - kTrue, 0.012) << lean;
 }
 
 TEST(LeaningThings, EndWhereTheirFrontDoes)

@@ -141,14 +141,33 @@ void addHeadingSigma(Faces& faces, const HeadingEstimate& yaw)
   }
 }
 
-/** The back of a front that nobody saw from behind: what few points lie there tell nothing. */
-void openUnseenBacks(const FaceEstimator& estimator, Faces& faces)
+/** How thick a panel usually is, as a screen or a door [m]. Nothing for what is no panel. */
+std::optional<double> thicknessOfPanel(const LabelProperties& label)
 {
+  constexpr double kThin = 0.25;  // of the shorter side of its front
+  const Eigen::Vector3d& size = label.typicalSize;
+  const auto [thickness, width] = std::minmax({size.x(), size.y()});
+  if (thickness > kThin * std::min(width, size.z())) return {};
+  return thickness;
+}
+
+/** The back of a front that nobody saw from behind: what few points lie there tell nothing. A panel
+ * that leans reaches farther back than its front by its thickness. The label's sizes, those of an
+ * upright one, do not tell. */
+void openUnseenBacks(const FaceEstimator& estimator, const LabelProperties& label, Faces& faces)
+{
+  const auto thickness = thicknessOfPanel(label);
   for (std::size_t side = 0; side < kSides; ++side)
   {
     FaceEstimate& face = faces[side];
-    if (face.worth.kind == FaceKind::AtLeast && face.source == FaceSource::FarEdge && !face.isCut)
-      face.position = estimator.reachOfFront(side).value_or(face.position);
+    if (face.worth.kind != FaceKind::AtLeast || face.source != FaceSource::FarEdge || face.isCut)
+      continue;
+    const auto reach = estimator.reachOfFront(side);
+    if (!reach) continue;
+    face.position = reach->position;
+    if (reach->lean == 0 || !thickness) continue;
+    face.position += *thickness * std::cos(reach->lean);
+    face.worth.sigma = std::hypot(face.worth.sigma, label.sizeSpread * *thickness);
   }
 }
 
@@ -240,7 +259,7 @@ class CuboidFitter
     if (stands || isFootOutOfSight(object, label_, spreadsTooLow(faces, estimator, label_)))
       placeHiddenPart(faces, estimator, label_);
     if (stands) openThinSides(clearOfSupport(estimator.range(), label_, options_), faces);
-    openUnseenBacks(estimator, faces);
+    openUnseenBacks(estimator, label_, faces);
     if (rim) endAtRim(*rim, yaw.yaw, estimator, options_, faces);
     if (object.onWall) endAtWall(*object.onWall, estimator, options_, faces);
     if (label_.dominantDirection)

@@ -191,8 +191,7 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
   return out;
 }
 
-/** Moves a side that leans to its outermost end. */
-void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
+std::optional<FaceEstimator::LeaningSide> FaceEstimator::leaningSide(std::size_t face) const
 {
   constexpr double kSigmas = 3.0;
   std::vector<Eigen::Vector2d> own;  // height, and along the outward normal
@@ -200,27 +199,39 @@ void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
     if (cosine(face, i) > kFaceCosine) own.emplace_back(points_[kTop / 2][i], along(face, i));
   const auto line = fitLine(own, shellDepth());
   if (!line || std::abs(line->angle) < std::max(kUpright, kSigmas * std::sqrt(line->variance)))
-    return;
+    return {};
   const double slope = std::tan(line->angle);
-  std::vector<double> atFoot;  // where the side would be at the height 0
+  std::vector<double> atFoot;
   for (const auto& p : own) atFoot.push_back(p.y() - slope * p.x());
-  const double foot = median(atFoot);
-  std::vector<double> ends;
+  LeaningSide out{line->angle, median(atFoot), {}};
   for (std::size_t i = 0; i < own.size(); ++i)
-    if (std::abs(atFoot[i] - foot) < 0.5 * shellDepth()) ends.push_back(foot + slope * own[i].x());
-  if (!ends.empty()) side.position = std::max(side.position, quantile(std::move(ends), kMost));
+    if (std::abs(atFoot[i] - out.foot) < 0.5 * shellDepth())
+      out.positions.push_back(out.at(own[i].x()));
+  return out;
 }
 
-std::optional<double> FaceEstimator::reachOfFront(std::size_t back) const
+/** Moves a side that leans to its outermost end. */
+void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
 {
-  const auto front = surface(back ^ 1U);
-  if (!front) return {};
-  std::vector<double> reach;
-  reach.reserve(size());
-  for (std::size_t i = 0; i < size(); ++i) reach.push_back(along(back, i));
-  const double most = quantile(std::move(reach), kOfFront);
-  if (most > shellDepth() - front->position) return {};
-  return most;
+  const auto leaning = leaningSide(face);
+  if (leaning && !leaning->positions.empty())
+    side.position = std::max(side.position, quantile(leaning->positions, kMost));
+}
+
+std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
+{
+  const std::size_t front = back ^ 1U;
+  const auto side = surface(front);
+  if (!side) return {};
+  const auto leaning = leaningSide(front);
+  std::vector<double> reach, behind;  // along the back's normal, the latter from the front on [m]
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    reach.push_back(along(back, i));
+    behind.push_back(reach.back() + (leaning ? leaning->at(points_[kTop / 2][i]) : side->position));
+  }
+  if (quantile(std::move(behind), kOfFront) > shellDepth()) return {};
+  return FrontReach{quantile(std::move(reach), kOfFront), leaning ? leaning->angle : 0};
 }
 
 /** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims and handles,

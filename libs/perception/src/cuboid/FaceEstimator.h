@@ -29,6 +29,13 @@ struct FaceEstimate
   double shift = 0;    //!< Of the points used from the camera, along the face (horizontally) [m]
 };
 
+/** How far the points of a front reach towards its back. */
+struct FrontReach
+{
+  double position = 0;  //!< Along the back's outward normal, from the camera [m]
+  double lean = 0;      //!< Of the front from the vertical; 0 for an upright one [rad]
+};
+
 /** Faces in the order +x, -x, +y, -y, +z, -z. */
 using Faces = std::array<FaceEstimate, kFaces>;
 constexpr std::size_t kTop = 4, kBottom = 5;
@@ -75,10 +82,10 @@ class FaceEstimator
   /** Share of the lines down through the object that go on beyond a position along -z [m]. */
   double shareOfLinesBelow(double position) const;
 
-  /** How far most of the points reach when they are the front's alone, as of a screen [m]. The
-   * others are the rim's way to what is behind, and tell nothing of a back that nobody saw. Nothing
-   * when something of the object lies behind the front. */
-  std::optional<double> reachOfFront(std::size_t back) const;
+  /** How far most of the points reach when they are the front's alone, as of a screen. The others
+   * are the rim's way to what is behind, and tell nothing of a back that nobody saw. Nothing when
+   * something of the object lies behind the front. */
+  std::optional<FrontReach> reachOfFront(std::size_t back) const;
 
   const ImageBox& box() const { return object_.box; }  //!< Of the detector [px]
 
@@ -122,6 +129,16 @@ class FaceEstimator
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
   double shellDepth() const;
+  /** The plane of a side that leans, and the points on it. */
+  struct LeaningSide
+  {
+    double angle = 0;               //!< From the vertical, positive where its top leans out [rad]
+    double foot = 0;                //!< Along the outward normal, at the height of the camera [m]
+    std::vector<double> positions;  //!< Of its points on the plane, along the outward normal [m]
+
+    double at(double height) const { return foot + std::tan(angle) * height; }
+  };
+  std::optional<LeaningSide> leaningSide(std::size_t face) const;  //!< Nothing when it is upright
   void reachOfLeaning(std::size_t face, FaceEstimate& side) const;
   void raiseTop(std::vector<double> shell, FaceEstimate& top) const;
   FaceEstimate outline(std::size_t face, const Outline& lines) const;
