@@ -41,8 +41,8 @@ std::size_t edgesOf(const DetectedObject& d, const mrpt::poses::CPose3D& T_map_s
   return view ? view->edges.size() : 0;
 }
 
-constexpr std::size_t kLeft = 0, kBottom = 3;
-constexpr std::size_t kLeftFace = 2;  // +y
+constexpr std::size_t kLeft = 0, kTopEdge = 1, kBottom = 3;
+constexpr std::size_t kLeftFace = 2, kTopFace = 4;  // +y, +z
 }  // namespace
 
 TEST(BoundingEdges, BesideAHiddenLowerEndTheyBoundOnlyWhatIsSeen)
@@ -105,6 +105,31 @@ TEST(BoundingEdges, AFaceAtTheImagesBorderIsCut)
             EXPECT_FALSE(view->isCutByImage[f]);
           }
       }
+}
+
+// A chair whose lower part a table hides is too low for its kind: its upper edge is then said to be
+// hidden as well, though depth shows what is behind it.
+TEST(BoundingEdges, ATopThatDepthShowsStaysMeasuredUnderAHiddenUpperEdge)
+{
+  for (const auto state : {EdgeState::Usable, EdgeState::NearImageBorder, EdgeState::Occluded})
+    for (const double pitchDown : {0.0, 0.5})
+    {
+      DetectedObject d = partial();
+      d.measurement.kind = MeasurementKind::Complete;
+      CompleteMeasurement cuboid;
+      cuboid.object_sensor =
+          Ellipsoid(mrpt::poses::CPose3D(2, 0, 0, 0, -pitchDown, 0), {0.2, 0.2, 0.3});
+      cuboid.faces.fill({FaceKind::Measured, 0.01});
+      cuboid.yawDefined = true;
+      d.measurement.complete = cuboid;
+      (*d.measurement.edges)[kTopEdge].state = state;
+      const mrpt::poses::CPose3D T_map_sensor(0, 0, 1.5, 0, pitchDown, 0);
+      const auto view = viewOf(d, T_map_sensor, chair(), PoseNoise());
+      ASSERT_TRUE(view && view->complete);
+      EXPECT_EQ(
+          view->faces[kTopFace].kind,
+          state == EdgeState::NearImageBorder ? FaceKind::AtLeast : FaceKind::Measured);
+    }
 }
 
 TEST(BoundingEdges, WithAHiddenLowerEndTheMiddleMayBeMuchLowerThanWhatIsSeen)
