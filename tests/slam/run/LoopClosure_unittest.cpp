@@ -9,13 +9,19 @@ using namespace quadmap;
 
 // A long way there and back, with odometry that drifts ten times as much as it claims. The things
 // on the way back do not overlap those on the way there, and are other ones until all are compared.
+// Whether a run meets its own things as new ones hangs on single views: in one of the two it does.
 TEST(LoopClosure, MakesDoublesOne)
 {
-  const auto [result, report] = driftingCorridor(320, 240, 10, 9);
-  EXPECT_GE(result.loops.closed, 1);
-  EXPECT_FALSE(result.loops.open);
-  EXPECT_GE(report.objects->f1().value_or(0), 0.9) << "0.40 with the doubles";
-  EXPECT_LT(report.trajectory->ateRmse, 0.15) << "[m]; 0.45 with the doubles";
+  int closed = 0;
+  for (const unsigned width : {320, 160})
+  {
+    const auto [result, report] = driftingCorridor(width, 3 * width / 4, 10, 9);
+    closed += static_cast<int>(result.loops.closed);
+    EXPECT_FALSE(result.loops.open) << width;
+    EXPECT_GE(report.objects->f1().value_or(0), 0.9) << width << "; 0.40 with the doubles";
+    EXPECT_LT(report.trajectory->ateRmse, 0.15) << width << " [m]; 0.45 with the doubles";
+  }
+  EXPECT_GE(closed, 1);
 }
 
 // The odometry drifts as far as from one room to the other, so that in some of the runs it alone

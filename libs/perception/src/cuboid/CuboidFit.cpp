@@ -234,7 +234,7 @@ class CuboidFitter
       faces[kBottom].worth.kind = FaceKind::AtLeast;
     if (object.top)
     {
-      faces[kTop].position = -object.top->d;
+      faces[kTop].position = estimator.heightOf(*object.top);
       faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options_)};
     }
     if (object.support)

@@ -81,6 +81,12 @@ double FaceEstimator::behind(std::size_t face, const Plane& plane) const
   return normalOf(face).dot(centroid_) - ahead / n.dot(normalOf(face));
 }
 
+double FaceEstimator::heightOf(const Plane& level) const
+{
+  const Eigen::Vector3d n = R_obj_optical_ * level.n;
+  return centroid_.z() - (n.dot(centroid_) + level.d) / n.z();
+}
+
 double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
 bool FaceEstimator::isFootInSight() const

@@ -64,6 +64,9 @@ class FaceEstimator
   /** Where a plane is behind the middle of what is seen, along a face's outward normal [m]. */
   double behind(std::size_t face, const Plane& plane) const;
 
+  /** Of a nearly level plane, over the middle of what was seen, from the camera [m]. */
+  double heightOf(const Plane& level) const;
+
   double lowestSeen() const;  //!< Along the object's z, from the camera [m]
 
   /** Does little of what the box shows below the visible part stand in front of the object? Then

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace quadmap
 {
@@ -109,13 +110,15 @@ std::optional<HorizontalFit> fitMainHeight(
     const Eigen::Vector3d& up,
     const SurfaceOptions& options)
 {
-  constexpr int kRefinements = 2;
+  constexpr int kRefinements = 4;
+  if (points.empty()) return {};
   const Heights heights = heightsAlong(points, up, options);
   Plane best;
-  std::vector<std::size_t> onBest;
+  std::vector<std::size_t> onBest, all(points.size());
+  std::iota(all.begin(), all.end(), 0);
   const Plane tilted{normal, -mode(heightsAlong(points, normal, options))};
   const Plane horizontal{up, -mode(heights)};
-  for (Plane plane : {tilted, horizontal})
+  for (Plane plane : {tilted, horizontal, fit(points, all, heights, up)})
   {
     auto on = pointsOn(plane, points, heights);
     for (int i = 0; i < kRefinements && on.size() >= kMinPoints; ++i)

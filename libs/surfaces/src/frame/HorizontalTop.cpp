@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/HorizontalFit.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
@@ -138,21 +139,28 @@ std::optional<Plane> horizontalTop(
   addAreas(cloud, points, heights, step, cameraHeight, areas);
   const auto top = largestHeight(areas);
   if (!top) return {};
-  std::vector<double> near, depths;
+  std::vector<Eigen::Vector3d> near;
+  std::vector<double> depths;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::abs(heights[i] - areas.height(*top)) < (kHalfWindow + 0.5) * kBin)
     {
-      near.push_back(heights[i]);
+      near.push_back(points[i]);
       depths.push_back(points[i].z());
     }
   const double depth = median(std::move(depths));
   const double slope = (cameraHeight - areas.height(*top)) / depth;  // (7.2)
   if (slope < kMinSlope) return {};
+  // The poses, and with them the up that heights are measured along, are wrong by an angle that
+  // tilts a broad surface by more than its noise.
+  const auto fitted = fitMainHeight(near, from.n, from.n, options);
+  const Eigen::Vector3d n = fitted ? fitted->plane.n : from.n;
   constexpr double kUneven = 0.002;  // [m]
   const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
+  std::vector<double> along;
+  for (const auto& p : near) along.push_back(n.dot(p));
   // The rim of a table is near its top, and would move the median of all heights.
-  std::sort(near.begin(), near.end());
-  return Plane{from.n, from.d - near[densestWindow(near, width).middle()]};
+  std::sort(along.begin(), along.end());
+  return Plane{n, -along[densestWindow(along, width).middle()]};
 }
 
 std::optional<PlaneExtent> topExtent(

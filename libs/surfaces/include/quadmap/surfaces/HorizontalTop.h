@@ -18,8 +18,9 @@ namespace quadmap
  * above the top stands on it. \param points Of every step-th cell of every step-th row in its box,
  * optical frame [m]. \param support What it stands on, normal up; null when that is not known: the
  * top may then have any height below the camera at which most points are not above it. \param up
- * Unit, optical frame. \return Parallel to the support, or horizontal without one. Nothing when no
- * height stands out, or, with a support, none is as high above it as such things are. */
+ * Unit, optical frame, good to a degree. \return Level, as far as the points do not tell a slope
+ * against the support or up. Nothing when no height stands out, or, with a support, none is as high
+ * above it as such things are. */
 std::optional<Plane> horizontalTop(
     const DepthCloud& cloud,
     const std::vector<Eigen::Vector3d>& points,
