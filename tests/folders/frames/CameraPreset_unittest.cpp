@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "../../base/OptionGroupLaws.h"
+#include "../SampleRecording.h"
 #include "quadmap/base/ShareFiles.h"
+#include "quadmap/folders/FolderKinds.h"
 
 using namespace quadmap;
 
@@ -65,6 +67,31 @@ TEST(CameraPreset, RefusesWrongFilesByName)
       "must be the first three rows of a rigid transformation");
   expect("fx = 500\nfy = 500\n[other]\na = 1\n", "other");
   EXPECT_NE(errorOf([&] { cameraPreset(files.path("no.ini")); }).find("no.ini"), std::string::npos);
+}
+
+TEST(CameraPreset, OfAUserIsNamedByItsPath)
+{
+  const SampleRecording recording;
+  const TemporaryFolder other;
+  std::string calibration = SampleRecording::kCalibration;
+  calibration.replace(calibration.find("width: 64"), 9, "width: 80");
+  const std::string yaml = other.write("my.yaml", "%YAML:1.0\n---\n" + calibration);
+  const std::string ini =
+      other.write("my.ini", "[camera]\nwidth = 80\nheight = 48\nfx = 50\nfy = -50\nk1 = 0.1\n");
+  const auto opened = [&](const std::string& camera)
+  {
+    FrameFolderOptions options;
+    options.camera = camera;
+    return openFrameFolder("tum", recording.folder(), options);
+  };
+  for (const std::string& file : {yaml, ini})
+    EXPECT_EQ(
+        errorOf([&] { opened(file).scan(0); }),
+        recording.files.path("rgb/f0.png") + ": is 64x48, " + file + " is for 80x48");
+  const auto notes = opened(ini).notes();
+  ASSERT_GE(notes.size(), 2u);
+  EXPECT_EQ(notes[0].find(recording.folder() + ": fy of " + ini + " is negative"), 0u) << notes[0];
+  EXPECT_NE(notes[1].find("as the lens of " + ini + " distorts"), std::string::npos) << notes[1];
 }
 
 TEST(CameraPreset, HasTheCentreOfTheImageWhenTheFileHasNone)

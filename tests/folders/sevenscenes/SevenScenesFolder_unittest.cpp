@@ -164,7 +164,7 @@ TEST_F(SevenScenes, RefusesCamerasOfWhichOneIsLeftHanded)
   for (const char* signs : {"fy = 525\ndepthFy = -580\n", "fy = -525\ndepthFy = 580\n"})
     EXPECT_EQ(
         errorWith(signs).find(
-            folder() + ": my.ini: fy of colour and of depth must have the same sign"),
+            files_.path("my.ini") + ": fy of colour and of depth must have the same sign"),
         0u)
         << errorWith(signs);
   EXPECT_EQ(errorWith("fy = -525\ndepthFy = -580\n"), "");

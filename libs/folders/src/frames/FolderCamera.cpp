@@ -50,7 +50,11 @@ std::vector<std::string> cameraPresetNames()
 FolderCamera cameraPreset(const std::string& what)
 {
   if (fs::path(what).extension() == kExtension)
-    return CameraPreset::fromFile(what).camera(fs::path(what).filename().string());
+  {
+    FolderCamera camera = CameraPreset::fromFile(what).camera(what);
+    camera.file = what;
+    return camera;
+  }
   std::string known;
   for (const auto& name : cameraPresetNames())
   {

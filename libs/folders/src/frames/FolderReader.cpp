@@ -23,7 +23,10 @@ namespace fs = std::filesystem;
 
 FolderCamera givenCamera(const std::string& what)
 {
-  return fs::path(what).extension() == ".yaml" ? readTumCalibration(what) : cameraPreset(what);
+  if (fs::path(what).extension() != ".yaml") return cameraPreset(what);
+  FolderCamera camera = readTumCalibration(what);
+  camera.origin = what;  // it need not be in the folder that messages are about
+  return camera;
 }
 
 FolderCamera findCamera(

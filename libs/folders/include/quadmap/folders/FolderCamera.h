@@ -21,7 +21,8 @@ struct DepthCamera
 /** The camera of a recording in a folder. */
 struct FolderCamera
 {
-  /** Where this is from, for messages: "calibration.yaml", "camera fr1". */
+  /** Where this is from, for messages: "calibration.yaml", "camera fr1". A file that the user names
+   * has its path here, too. */
   std::string origin;
   std::string file;           //!< The path of that, if it is a file of the recording or of the user
   mrpt::img::TCamera color;   //!< Calibration of the images as they are in the files
