@@ -157,8 +157,7 @@ void write(const TwoMaps& maps, const MapMerge& merge, const fs::path& output)
     const std::string file = mapFileOf(name);
     return MergeInput{file, sha256OfFile(file), static_cast<bool>(framesOf(name))};
   };
-  const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
-  OutputSet files(folder.string(), output.filename().string());
+  OutputSet files(output.parent_path().string(), output.filename().string());
   maps.map.saveToFile(files.add(output.filename().string()));
   writeTextFile(
       files.add(reportNameOf(output)),

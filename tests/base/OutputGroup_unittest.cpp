@@ -12,6 +12,22 @@ using namespace quadmap;
 
 namespace
 {
+/** The folder that paths without one are in, as long as this object lives. */
+class WorkingFolder
+{
+ public:
+  explicit WorkingFolder(const std::filesystem::path& folder)
+  {
+    std::filesystem::current_path(folder);
+  }
+  ~WorkingFolder() { std::filesystem::current_path(before_); }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+};
+
 /** A group of files of two folders, one of which is to be made. */
 class OutputGroups : public ::testing::Test
 {
@@ -98,6 +114,42 @@ TEST_F(OutputGroups, WriteWhereALinkLeads)
   group_->commit();
   EXPECT_TRUE(std::filesystem::is_symlink(folder_.path("link.txt")));
   EXPECT_EQ(readFile(target), "new");
+}
+
+TEST_F(OutputGroups, NameFilesAsTheUserDid)
+{
+  namespace fs = std::filesystem;
+  const WorkingFolder here(folder_.folder());
+  fs::create_directory("full");
+  for (const std::string name : {"full", "./full", "new/../full"})
+    EXPECT_EQ(
+        errorOf([&] { OutputGroup().add(name); }), name + ": cannot be written: Is a directory");
+  const OutputSet other("", "mine.txt");
+  EXPECT_EQ(
+      errorOf([&] { group_->add("mine.txt"); }).find("mine.txt: another program is writing it"),
+      0u);
+  EXPECT_EQ(
+      errorOf([&] { OutputSet("", "set").addFolder("full"); }).find("full: exists already"), 0u);
+  OutputGroup next;
+  next.add("missing.txt");
+  EXPECT_EQ(
+      errorOf([&] { next.commit(); }), "missing.txt: cannot be written: No such file or directory");
+}
+
+TEST_F(OutputGroups, AreCompletedWhereTheProgramWasStarted)
+{
+  namespace fs = std::filesystem;
+  const WorkingFolder here(folder_.folder());
+  group_.emplace();
+  writeTextFile(group_->add("mine.txt"), "mine");
+  fs::create_directories("mine.txt/full");  // by another program meanwhile
+  EXPECT_EQ(errorOf([&] { group_->commit(); }), "mine.txt: cannot be written: Is a directory");
+  group_.reset();
+  fs::remove_all("mine.txt");
+  const std::string mixed = errorOf([&] { requireOneRun("mine.txt"); });
+  EXPECT_NE(mixed.find("(.mine.txt.partial has the rest)"), std::string::npos) << mixed;
+  OutputSet("", "mine.txt");
+  EXPECT_EQ(readFile("mine.txt"), "mine");
 }
 
 TEST_F(OutputGroups, WriteDevicesAtOnce) { EXPECT_EQ(group_->add("/dev/null"), "/dev/null"); }

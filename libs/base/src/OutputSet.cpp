@@ -100,7 +100,7 @@ void requireNoWayOut(
     {
       const fs::path path = place / entry.substr(1);
       if (entry[0] == '-') continue;  // removes the link itself
-      if (const auto why = whyNotInside(path, place))
+      if (const auto why = whyNotInside(path, place.empty() ? "." : place))
         throw std::runtime_error(*why + ", and a killed program left it to be written: remove it");
     }
 }
@@ -147,10 +147,10 @@ int lockedFolder(const std::string& staging, const std::string& shown)
 }  // namespace
 
 OutputSet::OutputSet(std::string folder, const std::string& name) :
-    folder_(folder.empty() ? "." : std::move(folder)), staging_(folder_ + "/." + name + kStagingEnd)
+    folder_(std::move(folder)), staging_(named("." + name + kStagingEnd))
 {
   const auto pause = Temporary::pause();
-  lock_ = lockedFolder(staging_, folder_ + "/" + name);
+  lock_ = lockedFolder(staging_, named(name));
   try
   {
     const auto left = readList(staging_);  // by a program that was killed while it exchanged
@@ -175,21 +175,25 @@ OutputSet::~OutputSet()
 std::string OutputSet::add(const std::string& name)
 {
   std::error_code ignored;
-  if (fs::is_directory(fs::path(folder_) / name, ignored))
-    failToWrite(folder_ + "/" + name, EISDIR);
+  if (fs::is_directory(named(name), ignored)) failToWrite(named(name), EISDIR);
   entries_.push_back("+" + name);
   return written(name);
 }
 
 std::string OutputSet::addFolder(const std::string& name)
 {
-  const std::string shown = folder_ + "/" + name;
   std::error_code error;
-  if (fs::exists(shown, error))
-    throw std::runtime_error(shown + ": exists already; remove it or choose another output name");
-  if (!fs::create_directory(written(name), error)) failToWrite(shown, error.value());
+  if (fs::exists(named(name), error))
+    throw std::runtime_error(
+        named(name) + ": exists already; remove it or choose another output name");
+  if (!fs::create_directory(written(name), error)) failToWrite(named(name), error.value());
   entries_.push_back("+" + name);
   return written(name);
+}
+
+std::string OutputSet::named(const std::string& name) const
+{
+  return (fs::path(folder_) / name).string();  // without a folder it is the name alone
 }
 
 std::vector<std::string> OutputSet::names() const
@@ -216,10 +220,9 @@ void OutputSet::prepare()
     if (!fs::exists(written(name))) failToWrite(written(name), ENOENT);
   // What a device has got cannot be taken back, and it may refuse: the other files come after it.
   for (const auto& name : names())
-    if (const fs::path to = withoutLink(fs::path(folder_) / name); isDevice(to))
-      copyTo(written(name), to);
+    if (const fs::path to = withoutLink(named(name)); isDevice(to)) copyTo(written(name), to);
   // Writers of ours synchronise each file, but folders have files of other writers.
-  if (::syncfs(lock_) != 0) failToWrite(folder_, errno);
+  if (::syncfs(lock_) != 0) failToWrite(folder_.empty() ? "." : folder_, errno);
 }
 
 void OutputSet::promise()
@@ -253,7 +256,7 @@ void requireOneRun(const std::string& file)
         throw std::runtime_error(
             file +
             ": belongs to two runs: one was killed while it replaced the files of another (" +
-            it->path().string() + " has the rest); run it again");
+            (folder / it->path().filename()).string() + " has the rest); run it again");
     }
   }
 }

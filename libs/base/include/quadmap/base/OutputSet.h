@@ -20,7 +20,8 @@ namespace quadmap
 class OutputSet
 {
  public:
-  /** Locks the set. \param folder It exists. \param name Name of the set, unique in the folder.
+  /** Locks the set. \param folder It exists; empty: where the program was started, and messages
+   *  then have the names alone. \param name Name of the set, unique in the folder.
    *  \exception std::runtime_error If another program writes the set, or for a folder that is
    *  missing or not writable. */
   OutputSet(std::string folder, const std::string& name);
@@ -57,6 +58,8 @@ class OutputSet
   void exchange();  //!< \exception std::runtime_error Names the file; the next writer goes on.
 
  private:
+  std::string named(const std::string& name) const;  //!< The path that a file will have
+
   std::string folder_, staging_;
   std::vector<std::string> entries_;  //!< Names with '+' before them, or '-' when removed
   int lock_ = -1;                     //!< Descriptor of the locked folder
