@@ -8,6 +8,7 @@
 #include "common/CommandLine.h"
 #include "common/KeptFiles.h"
 #include "common/ProgressBar.h"
+#include "common/SeveralOutputs.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/dense/DenseCloud.h"
 #include "quadmap/dense/DepthCheck.h"
@@ -122,14 +123,15 @@ SelfCheck selfCheck(const std::string& result, const std::optional<std::string>&
       [&](double share) { bar(share); });
 }
 
-/** \exception UsageError For an output that would replace what is read, or would be taken for it.
- */
+/** \exception UsageError For an output that would replace what is read, would be taken for it, or
+ * is another output, too. */
 void checkOutputs(Cli& cli)
 {
   cli::KeptFiles kept;
   kept.add(cli.estimate.getValue(), "report.html");  // to be written anew with the figures
   for (Cli::Text* input : {&cli.objects, &cli.trajectory, &cli.config})
     if (input->isSet()) kept.add(input->getValue(), "report.html");
+  cli::NamedOutputs outputs;
   for (const auto& [output, ending] : {
            std::pair(&cli.json, ".json"), {&cli.html, ".html"}
   })
@@ -137,7 +139,9 @@ void checkOutputs(Cli& cli)
     if (!output->isSet()) continue;
     cli::requireNoOtherEnding(output->getName(), output->getValue(), ending);
     kept.requireNone(output->getName(), output->getValue());
+    outputs.emplace_back("--" + output->getName(), output->getValue());
   }
+  cli::requireDifferentFiles(outputs);
 }
 
 /** \exception UsageError For arguments that do not go together. */

@@ -10,6 +10,7 @@
 #include "common/CommandLine.h"
 #include "common/KeptFiles.h"
 #include "common/ProgressBar.h"
+#include "common/SeveralOutputs.h"
 #include "quadmap/base/OutputGroup.h"
 #include "quadmap/dense/DenseCloud.h"
 #include "quadmap/review/ContactSheet.h"
@@ -131,8 +132,8 @@ void requirePngName(TCLAP::ValueArg<std::string>& argument)
     throw cli::UsageError("--" + argument.getName() + ": the name must end in .png");
 }
 
-/** \exception UsageError For an output that would replace what is read, or would be taken for it.
- */
+/** \exception UsageError For an output that would replace what is read, would be taken for it, or
+ * is another output, too. */
 void checkOutputs(Cli& cli)
 {
   const std::pair<Cli::Text*, const char*> endings[] = {
@@ -148,10 +149,16 @@ void checkOutputs(Cli& cli)
   kept.add(cli.input.getValue());
   for (Cli::Text* input : {&cli.truth, &cli.trajectory, &cli.compare, &cli.config})
     if (input->isSet()) kept.add(input->getValue());
+  cli::NamedOutputs outputs;
   for (Cli::Text* output :
        {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
         &cli.cloud})
-    if (output->isSet()) kept.requireNone(output->getName(), output->getValue());
+  {
+    if (!output->isSet()) continue;
+    kept.requireNone(output->getName(), output->getValue());
+    outputs.emplace_back("--" + output->getName(), output->getValue());
+  }
+  cli::requireDifferentFiles(outputs);
 }
 
 void checkUsage(Cli& cli)

@@ -5,6 +5,7 @@
 
 #include "../common/CommandLine.h"
 #include "../common/ProgressBar.h"
+#include "../common/SeveralOutputs.h"
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/rooms/RandomRoom.h"
@@ -227,6 +228,11 @@ catch (const std::runtime_error& e)
 
 void run(Cli& cli)
 {
+  if (cli.sceneFile.isSet())
+    cli::requireDifferentFiles({
+        {           "-o",    cli.output.getValue()},
+        {"--write-scene", cli.sceneFile.getValue()}
+    });
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
   const simulator::NoiseFactors noise = noiseFactors(cli);
   simulator::Scene scene = sceneOf(cli, seed);

@@ -36,6 +36,14 @@ fs::path withoutLink(const fs::path& path)
   return isDevice(path) && !isDevice(end) ? path : end;
 }
 
+fs::path placeOf(const fs::path& path, std::error_code& error)
+{
+  const fs::path absolute = fs::absolute(path, error);
+  if (error) return path;
+  // weakly_canonical() alone does not follow a link to what does not exist yet.
+  return fs::weakly_canonical(withoutLink(absolute), error);
+}
+
 bool isDevice(const fs::path& path)
 {
   std::error_code ignored;

@@ -20,6 +20,9 @@ std::vector<std::filesystem::path> linkChain(const std::filesystem::path& path);
 /** What a path stands for: the target of a link. */
 std::filesystem::path withoutLink(const std::filesystem::path& path);
 
+/** Where a path leads when all links are followed, also to what does not exist yet. */
+std::filesystem::path placeOf(const std::filesystem::path& path, std::error_code& error);
+
 /** A device or pipe: it cannot be replaced, only be written to. */
 bool isDevice(const std::filesystem::path& path);
 

@@ -21,8 +21,7 @@ void require(const fs::path& path, const std::error_code& error)
 bool isInside(const fs::path& path, const fs::path& folder)
 {
   std::error_code error;
-  // weakly_canonical() alone does not follow a link to what does not exist yet.
-  const fs::path place = fs::weakly_canonical(withoutLink(fs::absolute(path)), error);
+  const fs::path place = placeOf(path, error);
   require(path, error);
   const fs::path inFolder = place.lexically_relative(fs::canonical(folder, error));
   require(folder, error);
