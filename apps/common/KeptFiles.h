@@ -30,7 +30,8 @@ class KeptFiles
       if (name != but) files_.push_back(folder / name);
   }
 
-  /** \exception UsageError If the output is one of them. */
+  /** \param option That names the output, as it is typed.
+   *  \exception UsageError If the output is one of them. */
   void requireNone(const std::string& option, const std::string& output) const
   {
     const auto isOutput = [&](const std::filesystem::path& file)
@@ -41,8 +42,7 @@ class KeptFiles
     const auto kept = std::find_if(files_.begin(), files_.end(), isOutput);
     if (kept != files_.end())
       throw UsageError(
-          "--" + option + ": " + output + " is " + kept->string() +
-          ", which is read and stays as it is");
+          option + ": " + output + " is " + kept->string() + ", which is read and stays as it is");
   }
 
  private:

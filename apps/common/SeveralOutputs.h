@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,20 @@ inline void requireDifferentFiles(const NamedOutputs& outputs)
         throw UsageError(
             second->first + ": " + second->second + " is the file of " + first->first +
             " as well; give each its own");
+}
+
+/** Where a program tells what it did: where it prints, unless its output goes there, which the text
+ * would spoil. Ask before the output is written. */
+inline std::ostream& messagesBeside(const std::string& output)
+{
+  return isStandardOutput(output) ? std::cerr : std::cout;
+}
+
+/** The same for several outputs. */
+inline std::ostream& messagesBeside(const NamedOutputs& outputs)
+{
+  const auto isTaken = [](const auto& output) { return isStandardOutput(output.second); };
+  return std::any_of(outputs.begin(), outputs.end(), isTaken) ? std::cerr : std::cout;
 }
 
 }  // namespace quadmap::cli

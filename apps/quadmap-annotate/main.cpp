@@ -5,6 +5,7 @@
 #include "ProposalPictures.h"
 #include "common/CommandLine.h"
 #include "common/ProgressBar.h"
+#include "common/SeveralOutputs.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputGroup.h"
 #include "quadmap/dense/ProposalFile.h"
@@ -110,6 +111,7 @@ void run(Cli& cli)
   const auto beside = [&](const char* extension)
   { return std::filesystem::path(truth).replace_extension(extension).string(); };
 
+  std::ostream& messages = cli::messagesBeside(truth.string());
   Output output;
   const auto proposals = proposalsOf(result, beside(".proposals.ini"), options, output);
   if (!cli.noPictures.getValue()) draw(proposals, result, beside(".pictures"), options, output);
@@ -118,8 +120,8 @@ void run(Cli& cli)
     if (proposal.accept) accepted.push_back(proposal.record);
   writeObjectsJson(output.files.add(truth.string()), accepted);
   output.files.commit();
-  std::cout << output.text << "wrote " << truth.string() << ": " << accepted.size() << " of "
-            << proposals.size() << " objects\n";
+  messages << output.text << "wrote " << truth.string() << ": " << accepted.size() << " of "
+           << proposals.size() << " objects\n";
 }
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "../common/CommandLine.h"
 #include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
+#include "../common/SeveralOutputs.h"
 #include "DetectRun.h"
 #include "quadmap/detection/KnownDetectors.h"
 #include "quadmap/sensors/RawlogNames.h"
@@ -101,9 +102,10 @@ void run(Cli& cli)
   request.onProgress = [&bar](double share, double framesPerSecond)
   { bar(share, mrpt::format(" %.1f frames/s", framesPerSecond)); };
 
+  std::ostream& messages = cli::messagesBeside(request.output);
   const auto detector = loadDetector(cli.model.getValue());
   if (cli.line.verbosity() <= mrpt::system::LVL_INFO)
-    std::cout << detector->description() << std::endl;
+    messages << detector->description() << std::endl;
   const DetectSummary summary = detectInRawlog(request, *detector);
   for (const auto& what : summary.dropped)
     std::cerr << "quadmap-detect: left out: " << what << "\n";
@@ -111,7 +113,7 @@ void run(Cli& cli)
     std::cerr << mrpt::format(
         "quadmap-detect: warning: %zu of %zu images have no colour: they have no boxes\n",
         summary.framesWithoutColour, summary.frames);
-  std::cout << mrpt::format(
+  messages << mrpt::format(
       "%s: %zu frames, %zu boxes, %.1f frames/s\n", request.output.c_str(), summary.frames,
       summary.boxes, summary.framesPerSecond);
 }

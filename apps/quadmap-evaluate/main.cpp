@@ -123,6 +123,15 @@ SelfCheck selfCheck(const std::string& result, const std::optional<std::string>&
       [&](double share) { bar(share); });
 }
 
+/** The files that were asked for. */
+cli::NamedOutputs outputsOf(Cli& cli)
+{
+  cli::NamedOutputs outputs;
+  for (Cli::Text* output : {&cli.json, &cli.html})
+    if (output->isSet()) outputs.emplace_back("--" + output->getName(), output->getValue());
+  return outputs;
+}
+
 /** \exception UsageError For an output that would replace what is read, would be taken for it, or
  * is another output, too. */
 void checkOutputs(Cli& cli)
@@ -131,16 +140,12 @@ void checkOutputs(Cli& cli)
   kept.add(cli.estimate.getValue(), "report.html");  // to be written anew with the figures
   for (Cli::Text* input : {&cli.objects, &cli.trajectory, &cli.config})
     if (input->isSet()) kept.add(input->getValue(), "report.html");
-  cli::NamedOutputs outputs;
   for (const auto& [output, ending] : {
            std::pair(&cli.json, ".json"), {&cli.html, ".html"}
   })
-  {
-    if (!output->isSet()) continue;
-    cli::requireNoOtherEnding(output->getName(), output->getValue(), ending);
-    kept.requireNone(output->getName(), output->getValue());
-    outputs.emplace_back("--" + output->getName(), output->getValue());
-  }
+    if (output->isSet()) cli::requireNoOtherEnding(output->getName(), output->getValue(), ending);
+  const cli::NamedOutputs outputs = outputsOf(cli);
+  for (const auto& [option, output] : outputs) kept.requireNone(option, output);
   cli::requireDifferentFiles(outputs);
 }
 
@@ -180,7 +185,7 @@ void run(Cli& cli)
   if (cli.line.verbosity() == mrpt::system::LVL_DEBUG)
     std::cerr << "quadmap-evaluate: pose of the map in the true world (x y z yaw pitch roll): "
               << report.T_truth_estimated << "\n";
-  std::cout << toTable(report);
+  cli::messagesBeside(outputsOf(cli)) << toTable(report);
   if (cli.json.isSet()) writeTextFile(cli.json.getValue(), toJson(report));
   if (cli.html.isSet()) writeReport(cli, report);
 }

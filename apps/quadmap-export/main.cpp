@@ -132,6 +132,17 @@ void requirePngName(TCLAP::ValueArg<std::string>& argument)
     throw cli::UsageError("--" + argument.getName() + ": the name must end in .png");
 }
 
+/** The files that were asked for. */
+cli::NamedOutputs outputsOf(Cli& cli)
+{
+  cli::NamedOutputs outputs;
+  for (Cli::Text* output :
+       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
+        &cli.cloud})
+    if (output->isSet()) outputs.emplace_back("--" + output->getName(), output->getValue());
+  return outputs;
+}
+
 /** \exception UsageError For an output that would replace what is read, would be taken for it, or
  * is another output, too. */
 void checkOutputs(Cli& cli)
@@ -149,15 +160,8 @@ void checkOutputs(Cli& cli)
   kept.add(cli.input.getValue());
   for (Cli::Text* input : {&cli.truth, &cli.trajectory, &cli.compare, &cli.config})
     if (input->isSet()) kept.add(input->getValue());
-  cli::NamedOutputs outputs;
-  for (Cli::Text* output :
-       {&cli.html, &cli.scene, &cli.png, &cli.top, &cli.ply, &cli.glb, &cli.sheet, &cli.json,
-        &cli.cloud})
-  {
-    if (!output->isSet()) continue;
-    kept.requireNone(output->getName(), output->getValue());
-    outputs.emplace_back("--" + output->getName(), output->getValue());
-  }
+  const cli::NamedOutputs outputs = outputsOf(cli);
+  for (const auto& [option, output] : outputs) kept.requireNone(option, output);
   cli::requireDifferentFiles(outputs);
 }
 
@@ -293,10 +297,11 @@ void writeAll(Cli& cli, Output& output)
 void run(Cli& cli)
 {
   checkUsage(cli);
+  std::ostream& messages = cli::messagesBeside(outputsOf(cli));
   Output output;
   writeAll(cli, output);
   output.files.commit();
-  std::cout << output.text;
+  messages << output.text;
 }
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "../common/ProgressBar.h"
+#include "../common/SeveralOutputs.h"
 #include "../common/StatusLine.h"
 #include "../common/StopSignals.h"
 #include "quadmap/base/ErrorText.h"
@@ -66,14 +67,14 @@ int importCamera(const CameraImportRequest& request)
   for (const auto& note : camera->notes())
     std::cerr << "quadmap-import: note: " << oneLine(request.source + ": " + note) << "\n";
 
+  std::ostream& messages = cli::messagesBeside(request.output);
   RawlogWriter writer(request.output, request.writing);
   const std::size_t written = writeFrames(*camera, request, writer);
   const auto failure = camera->failure();
   if (written == 0) throw std::runtime_error(failure.value_or(request.source + ": no frame came"));
   if (isLive) cli::onStop = cli::OnStop::Defer;  // closing the file is short
   writer.finish();
-  std::cout << request.output << ": " << written << " frames written (" << stateOf(*camera)
-            << ")\n";
+  messages << request.output << ": " << written << " frames written (" << stateOf(*camera) << ")\n";
   if (!failure) return 0;
   std::cerr << "quadmap-import: " << *failure << "; " << request.output << " has the " << written
             << " frames before\n";

@@ -63,12 +63,15 @@ void tellNotes(const std::vector<std::string>& notes)
 }
 
 void tellWritten(
-    const FolderImportReport& report, const std::string& rawlog, const std::string& posesAs)
+    const FolderImportReport& report,
+    const std::string& rawlog,
+    const std::string& posesAs,
+    std::ostream& out)
 {
-  std::cout << rawlog << ": " << report.frames << " frames, " << report.poses << " poses as "
-            << posesAs << ", " << report.boxes << " boxes";
-  if (!report.dropped.empty()) std::cout << " (" << report.dropped.size() << " things dropped)";
-  std::cout << "\n";
+  out << rawlog << ": " << report.frames << " frames, " << report.poses << " poses as " << posesAs
+      << ", " << report.boxes << " boxes";
+  if (!report.dropped.empty()) out << " (" << report.dropped.size() << " things dropped)";
+  out << "\n";
 }
 
 }  // namespace quadmap

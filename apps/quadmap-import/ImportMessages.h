@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,12 @@ void tellDropped(const FolderImportReport& report);
 void tellNotes(const std::vector<std::string>& notes);
 
 /** \param rawlog Its path.
- *  \param posesAs What its poses are, as the command line says it. */
+ *  \param posesAs What its poses are, as the command line says it.
+ *  \param out Where to write it. */
 void tellWritten(
-    const FolderImportReport& report, const std::string& rawlog, const std::string& posesAs);
+    const FolderImportReport& report,
+    const std::string& rawlog,
+    const std::string& posesAs,
+    std::ostream& out);
 
 }  // namespace quadmap

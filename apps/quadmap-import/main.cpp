@@ -4,6 +4,7 @@
 #include "../common/CommandLine.h"
 #include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
+#include "../common/SeveralOutputs.h"
 #include "CameraImport.h"
 #include "FolderSummary.h"
 #include "ImportCli.h"
@@ -24,12 +25,16 @@ RawlogWriter writerOf(ImportCli& cli)
   return RawlogWriter(cli.output.getValue(), writing);
 }
 
+/** Where to tell what was written. */
+std::ostream& messagesOf(ImportCli& cli) { return cli::messagesBeside(cli.output.getValue()); }
+
 void import(const FrameFolder& folder, ImportCli& cli)
 {
   FolderImportOptions options;
   options.posesAs = posesAs(cli.posesAs.getValue());
   options.every = static_cast<std::size_t>(cli.every.getValue());
   options.keepGoing = cli.keepGoing.getValue();
+  std::ostream& messages = messagesOf(cli);
   RawlogWriter writer = writerOf(cli);
   reportBoxesOfOtherImages(folder, options.keepGoing);
   const auto report = importFolder(folder, options, writer, cli::ProgressBar());
@@ -42,7 +47,7 @@ void import(const FrameFolder& folder, ImportCli& cli)
   if (options.posesAs != PosesAs::None && !folder.poses().empty())
     reportMissingPoses(folder.poses(), report);
   writer.finish();
-  tellWritten(report, cli.output.getValue(), cli.posesAs.getValue());
+  tellWritten(report, cli.output.getValue(), cli.posesAs.getValue(), messages);
 }
 
 /** The kind rawlog. */
@@ -64,6 +69,7 @@ int importFromRawlog(ImportCli& cli)
   options.every = static_cast<std::size_t>(cli.every.getValue());
   options.keepGoing = cli.keepGoing.getValue();
   options.imagesAnywhere = cli.imagesAnywhere.getValue();
+  std::ostream& messages = messagesOf(cli);
   RawlogWriter writer = writerOf(cli);
   const auto report = importRawlog(rawlog, options, writer, cli::ProgressBar());
   tellDropped(report);
@@ -73,7 +79,7 @@ int importFromRawlog(ImportCli& cli)
   if (options.posesAs != PosesAs::None && hasPoses)
     reportMissingPoses(cli.trajectory.isSet() ? options.trajectory : rawlog, report);
   writer.finish();
-  tellWritten(report, cli.output.getValue(), cli.posesAs.getValue());
+  tellWritten(report, cli.output.getValue(), cli.posesAs.getValue(), messages);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include "Commands.h"
 #include "common/CommandLine.h"
+#include "common/SeveralOutputs.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 
 namespace quadmap
@@ -47,17 +48,21 @@ struct EditCli
     return true;
   }
 
+  /** Where to tell what was done. Call it before the map is written. */
+  std::ostream& messages() { return cli::messagesBeside(output.getValue()); }
+
   /** Writes the changed map and says so. */
   void write(const CQuadricObjectMap& map)
   {
+    std::ostream& out = messages();
     map.saveToFile(output.getValue());
-    tellWritten(map);
+    tellWritten(map, out);
   }
 
-  void tellWritten(const CQuadricObjectMap& map)
+  void tellWritten(const CQuadricObjectMap& map, std::ostream& out)
   {
-    std::cout << "wrote " << output.getValue() << " with " << map.confirmedObjects().size()
-              << " objects\n";
+    out << "wrote " << output.getValue() << " with " << map.confirmedObjects().size()
+        << " objects\n";
   }
 
   cli::CommandLine line;

@@ -181,9 +181,10 @@ void mergeMaps(MergeCli& cli)
         maps.otherName + ": it cannot be told where this is in " + maps.ownName + ": its " +
         quantity(maps.other.confirmedObjects().size(), "object") + " were compared with " +
         std::to_string(own));
+  std::ostream& out = cli.messages();
   write(maps, *merge, output);
-  std::cout << summaryOf(*merge, maps);
-  cli.tellWritten(maps.map);
+  out << summaryOf(*merge, maps);
+  cli.tellWritten(maps.map, out);
 }
 
 }  // namespace

@@ -187,13 +187,23 @@ void setResolution(const std::string& text, simulator::SimulatorOptions& options
   options.resize(static_cast<int>(width), static_cast<int>(height));
 }
 
-void report(const std::string& file, const simulator::SimulationSummary& summary)
+void report(const std::string& file, const simulator::SimulationSummary& summary, std::ostream& out)
 {
-  std::cout << file << ": " << summary.frames << " frames, " << summary.boxes << " boxes of "
-            << summary.truth.size() << " objects\n";
+  out << file << ": " << summary.frames << " frames, " << summary.boxes << " boxes of "
+      << summary.truth.size() << " objects\n";
   for (const auto& object : summary.truth)
     if (object.framesVisible.value_or(0) == 0)
-      std::cout << "note: object " << object.id << " (" << object.label << ") is never seen\n";
+      out << "note: object " << object.id << " (" << object.label << ") is never seen\n";
+}
+
+/** The files that are named on the command line. */
+cli::NamedOutputs outputsOf(Cli& cli)
+{
+  cli::NamedOutputs outputs{
+      {"-o", cli.output.getValue()}
+  };
+  if (cli.sceneFile.isSet()) outputs.emplace_back("--write-scene", cli.sceneFile.getValue());
+  return outputs;
 }
 
 /** The scene that the user asks for. A random room is another one for each seed. */
@@ -228,11 +238,8 @@ catch (const std::runtime_error& e)
 
 void run(Cli& cli)
 {
-  if (cli.sceneFile.isSet())
-    cli::requireDifferentFiles({
-        {           "-o",    cli.output.getValue()},
-        {"--write-scene", cli.sceneFile.getValue()}
-    });
+  cli::requireDifferentFiles(outputsOf(cli));
+  std::ostream& messages = cli::messagesBeside(outputsOf(cli));
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
   const simulator::NoiseFactors noise = noiseFactors(cli);
   simulator::Scene scene = sceneOf(cli, seed);
@@ -245,7 +252,7 @@ void run(Cli& cli)
 
   const auto simulator = simulatorOf(std::move(scene), cli.scene.getValue(), seed);
   const std::string& output = cli.output.getValue();
-  report(output, simulator::simulateToFiles(simulator, output, cli::ProgressBar()));
+  report(output, simulator::simulateToFiles(simulator, output, cli::ProgressBar()), messages);
 }
 }  // namespace
 

@@ -65,6 +65,37 @@ TEST(StandardOutput, ThatIsClosedGoesIntoNoFile)
   EXPECT_EQ(readFile(scene), expected);
 }
 
+TEST(StandardOutput, ThatIsAnOutputHasNothingElse)
+{
+  const TemporaryFolder folder;
+  const CQuadricObjectMap map = sampleMap();
+  map.saveToFile(folder.path("objects.quadmap"));
+  writeObjectsJson(folder.path("gt.json"), map.toRecords());
+  std::filesystem::create_symlink("/dev/stdout", folder.path("printed"));
+  for (const std::string command :
+       {"export DIR/objects.quadmap --json OUT", "export DIR/objects.quadmap --ply OUT",
+        "evaluate DIR/objects.quadmap --objects DIR/gt.json --in-place --json OUT",
+        "simulate random -o DIR/x.rawlog --frames 2 --resolution 64x64 --write-scene OUT",
+        "import rawlog DIR/x.rawlog -o OUT", "map remove DIR/objects.quadmap --id 1 -o OUT"})
+  {
+    const auto writing = [&](const std::string& output, const std::string& to)
+    {
+      const std::string program = "quadmap-" + replaced(command, "DIR", folder.folder().string());
+      return printing(to, replaced(program, "OUT", folder.path(output)));
+    };
+    const auto apart = writing("file", "");
+    ASSERT_EQ(apart.status, 0) << apart.err;
+    EXPECT_NE(apart.out, "") << command;
+    const auto together = writing("printed", "| cat");
+    const std::string expected = readFile(folder.path("file"));
+    EXPECT_TRUE(together.out == expected)
+        << command << ": " << together.out.size() << " bytes in place of " << expected.size();
+    EXPECT_NE(together.err, "") << command;
+  }
+  const std::string write = "quadmap-export " + folder.path("objects.quadmap") + " --json ";
+  EXPECT_EQ(printing(">/dev/null", write + "/dev/null").err, "");
+}
+
 TEST(StandardOutput, ThatNobodyReadsAnyMoreLeavesTheFilesAsTheyShouldBe)
 {
   const SampleRecording recording;

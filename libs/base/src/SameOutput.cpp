@@ -1,6 +1,7 @@
 #include "quadmap/base/SameOutput.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -10,11 +11,17 @@ namespace quadmap
 {
 namespace
 {
+/** Whether the second one is there and is the first one. */
+bool isSame(const struct stat& one, const std::string& other)
+{
+  struct stat s;
+  return ::stat(other.c_str(), &s) == 0 && s.st_dev == one.st_dev && s.st_ino == one.st_ino;
+}
+
 bool isSamePipe(const std::string& one, const std::string& other)
 {
-  struct stat a, b;
-  return ::stat(one.c_str(), &a) == 0 && ::stat(other.c_str(), &b) == 0 && S_ISFIFO(a.st_mode) &&
-         a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+  struct stat s;
+  return ::stat(one.c_str(), &s) == 0 && S_ISFIFO(s.st_mode) && isSame(s, other);
 }
 }  // namespace
 
@@ -25,6 +32,13 @@ bool isSameOutput(const std::string& one, const std::string& other)
   const auto place = placeOf(one, error), otherPlace = placeOf(other, otherError);
   if (error || otherError) return one == other;  // links in a circle, which cannot be written
   return place == otherPlace;
+}
+
+bool isStandardOutput(const std::string& path)
+{
+  struct stat printed;
+  return ::fstat(STDOUT_FILENO, &printed) == 0 && isSame(printed, path) &&
+         !isSame(printed, "/dev/null");
 }
 
 }  // namespace quadmap

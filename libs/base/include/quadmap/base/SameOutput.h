@@ -9,4 +9,9 @@ namespace quadmap
  * is not the same output as any other. */
 bool isSameOutput(const std::string& one, const std::string& other);
 
+/** Whether an output is where this program prints: /dev/stdout, or another name of that. It is
+ * false for /dev/null, which takes both. Ask before the output is written: a file is replaced by
+ * that. */
+bool isStandardOutput(const std::string& path);
+
 }  // namespace quadmap
