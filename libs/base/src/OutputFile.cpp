@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "FileSystem.h"
 #include "quadmap/base/OutputSet.h"
@@ -182,6 +183,26 @@ void OutputFile::commit()
   temporary_->keep();
   temporary_.reset();
   syncFolder(fs::path(target_).parent_path());
+}
+
+void OutputFile::fail() const
+{
+  const int error = temporary_ ? errorOfWritingTo(temporaryPath_) : 0;  // no more into a device
+  failToWrite(finalPath_, error != 0 ? error : EIO);
+}
+
+int errorOfWritingTo(const std::string& path)
+{
+  const std::vector<char> more(std::size_t{1} << 20);  // a disk that is nearly full takes less
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return errno;
+  ssize_t written = 1;
+  for (std::size_t done = 0; written > 0 && done < more.size();
+       done += static_cast<std::size_t>(written))
+    written = ::write(file, more.data() + done, more.size() - done);
+  const int error = written < 0 ? errno : 0;
+  ::close(file);
+  return error;
 }
 
 void writeTextFile(const std::string& path, const std::string& text)

@@ -203,13 +203,33 @@ TEST(RawlogWriter, KeepsTheOldFileWhenTheDiskIsFull)
     RawlogWriterOptions options;
     options.external = external;
     const std::string error = errorOnFullDisk(file, options);
-    EXPECT_NE(
-        error.find(external ? "x_Images/camera_" : "x.rawlog: cannot be written"),
-        std::string::npos)
-        << error;
+    EXPECT_NE(error.find(external ? "x_Images/camera_" : "x.rawlog: "), std::string::npos) << error;
+    EXPECT_NE(error.find(": cannot be written: File too large"), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     EXPECT_EQ(readFile(file), "old");
     EXPECT_EQ(folder.fileCount(), 1u) << "no temporary file stays";
+  }
+}
+
+TEST(RawlogWriter, TellsWhyAnImageCannotBeWritten)
+{
+  const TemporaryFolder folder;
+  RawlogWriterOptions options;
+  options.external = true;
+  const std::vector<std::uint8_t> jpeg(5000);
+  for (const bool isEncoded : {false, true})
+  {
+    RawlogWriter writer(folder.path("x.rawlog"), options);
+    const auto scan = sampleScan(kStart);
+    scan->hasRangeImage = false;
+    const auto write = [&] { isEncoded ? writer.write(*scan, jpeg) : writer.write(*scan); };
+    std::string error;
+    {
+      const FileSizeLimit full(500);
+      error = errorOf(write);
+    }
+    EXPECT_EQ(
+        error, folder.path("x_Images/camera_000000.jpg") + ": cannot be written: File too large");
   }
 }
 

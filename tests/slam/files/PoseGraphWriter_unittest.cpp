@@ -212,6 +212,6 @@ TEST_F(PoseGraphWriter, FullDiskIsAnErrorAndLeavesNothing)
   const FileSizeLimit limit(100);
   const auto path = folder_.path("y.graph");
   const std::string error = errorOf([&] { write(path); });
-  EXPECT_EQ(error.find(path + ": cannot be written"), 0u) << error;
+  EXPECT_EQ(error, path + ": cannot be written: File too large");
   EXPECT_EQ(folder_.fileCount(), before);
 }

@@ -3,12 +3,14 @@
 #include <mrpt/core/format.h>
 #include <mrpt/system/filesystem.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipInput.h"
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputSet.h"
 #include "rawlog/RecordReader.h"
 
@@ -80,7 +82,10 @@ void ExternalImages::moveOut(
   }
   catch (const std::exception& e)
   {
-    throw std::runtime_error(pathAfterCommit(folder_) + "/" + now + ": " + rootMessage(e));
+    const int error = errorOfWritingTo(folder_ + "/" + now);
+    throw std::runtime_error(
+        pathAfterCommit(folder_) + "/" + now + ": " +
+        (error != 0 ? std::string("cannot be written: ") + std::strerror(error) : rootMessage(e)));
   }
 }
 

@@ -239,7 +239,7 @@ void writePoseGraph(
   std::ofstream out(file.temporaryPath());
   GraphText(out, nodes, result, spool, uncertainty).write();
   out.close();
-  if (!out) throw std::runtime_error(file.finalPath() + ": cannot be written");
+  if (!out) file.fail();
   file.commit();
 }
 

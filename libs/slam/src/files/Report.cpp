@@ -2,7 +2,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "files/EstimationJson.h"
 #include "files/ResultWriter.h"
@@ -254,7 +253,7 @@ void writeReport(const std::string& path, const std::vector<PoseNode>& nodes, co
   AssociationLines(out, nodes, run).write();
   out << "\n  ]\n}\n";
   out.close();
-  if (!out) throw std::runtime_error(file.finalPath() + ": cannot be written");
+  if (!out) file.fail();
   file.commit();
 }
 

@@ -37,12 +37,20 @@ class OutputFile
    *  \exception std::runtime_error For a full disk or a failed rename; names the file. */
   void commit();
 
+  /** For a writer that failed and does not tell why, as streams do not.
+   *  \exception std::runtime_error Always: the file, and the error of the system. */
+  [[noreturn]] void fail() const;
+
  private:
   std::string finalPath_, target_, temporaryPath_;
   std::optional<mode_t> permissions_;  //!< Of the file that is replaced, if there is one
   int descriptor_ = -1;  //!< Descriptor of the locked temporary file, or of a pipe, if there is one
   std::optional<Temporary> temporary_;  //!< Empty for a device, and after commit()
 };
+
+/** Why a file could not be written by code that does not tell it: the error that the system gives
+ * to whoever writes more to it, which is done here, as an errno; 0 when there is none. */
+int errorOfWritingTo(const std::string& path);
 
 /** Writes a whole text that way. \exception std::runtime_error Names the file. */
 void writeTextFile(const std::string& path, const std::string& text);
