@@ -16,6 +16,7 @@
 #include "quadmap/base/InputFile.h"
 #include "quadmap/base/Json.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/benchmark/BenchmarkPlots.h"
 #include "quadmap/benchmark/BenchmarkTables.h"
 #include "quadmap/benchmark/GeneratedSections.h"
@@ -199,6 +200,13 @@ std::string pictureSection(
   return text;
 }
 
+void writePictures(
+    const std::map<std::string, Picture>& plots, const std::string& folder, OutputGroup& files)
+{
+  OutputSet& set = files.addFolder(folder, "plots");
+  for (const auto& [name, picture] : plots) writeTextFile(set.add(name), picture.svg);
+}
+
 /** Command `merge`: makes tables and plots from the results. */
 void mergeCommand(int argc, char** argv)
 {
@@ -227,17 +235,14 @@ void mergeCommand(int argc, char** argv)
 
   const BenchmarkResults found = readBenchmarkResults(results.getValue());
   auto sections = benchmarkTables(found);
+  OutputGroup files;
   std::map<std::string, Picture> pictures;
   if (plots.isSet())
   {
     pictures = benchmarkPlots(found);
-    fs::create_directories(plots.getValue());
-    for (const auto& [name, picture] : pictures)
-      writeTextFile((fs::path(plots.getValue()) / name).string(), picture.svg);
+    writePictures(pictures, plots.getValue(), files);
   }
-  if (!page.isSet())
-    for (const auto& [name, text] : sections) std::cout << "## " << name << "\n\n" << text << "\n";
-  else
+  if (page.isSet())
   {
     const auto in = openModestText(page.getValue());
     std::ostringstream text;
@@ -247,8 +252,11 @@ void mergeCommand(int argc, char** argv)
       sections["pictures"] = pictureSection(pictures, plots.getValue(), page.getValue());
     else
       kept.insert("pictures");
-    writeTextFile(page.getValue(), withGeneratedSections(text.str(), sections, kept));
+    writeTextFile(files.add(page.getValue()), withGeneratedSections(text.str(), sections, kept));
   }
+  files.commit();
+  if (!page.isSet())
+    for (const auto& [name, text] : sections) std::cout << "## " << name << "\n\n" << text << "\n";
   for (const auto& job : found.missing)
     std::cerr << "quadmap-benchmark: no result of: " << job << "\n";
 }

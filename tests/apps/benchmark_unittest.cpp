@@ -253,6 +253,17 @@ TEST_F(BenchmarkScripts, MergeKeepsThePicturesOfThePageUnlessItMakesNew)
       runProgram("quadmap-benchmark", merge + " --plots '" + folder_.path("plots") + "'").status,
       0);
   EXPECT_EQ(readFile(folder_.path("page.md")).find("![a]"), kNotFound);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("plots/classes-trans.svg")));
+}
+
+TEST_F(BenchmarkScripts, MergeWritesPageAndPlotsOrNothing)
+{
+  ASSERT_EQ(run("--scenes home --observed '' --seeds 1 --methods rgbd").status, 0);
+  folder_.write("page.md", "<!-- generated: pictures -->\n");
+  const std::string merge =
+      "merge '" + folder_.path("results") + "' --plots '" + folder_.path("plots") + "' --page '";
+  EXPECT_EQ(runProgram("quadmap-benchmark", merge + folder_.path("page.md") + "'").status, 1);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("plots")));
 }
 
 TEST_F(BenchmarkScripts, MapRecordingsWithWhatTruthThereIs)
