@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "TemporaryFolder.h"
 #include "TestData.h"
+#include "quadmap/base/Json.h"
 
 using namespace quadmap;
 
@@ -283,4 +286,20 @@ TEST(ObjectsJson, ReadsTheGroundTruthOfARealRecording)
   EXPECT_EQ(objects[0].id, "cabinet");
   EXPECT_EQ(objects[0].label, "suitcase");
   EXPECT_NEAR(objects[0].object.semiAxes().x(), 0.78043 / 2, 1e-12);
+}
+
+TEST(ObjectsJson, OfTheLargestMapAreRead)
+{
+  constexpr std::size_t kMostObjects = 100'000;  // in an archive
+  ObjectRecord record = sampleRecord();
+  record.object = Ellipsoid(mrpt::poses::CPose3D(), Eigen::Vector3d::Ones());  // a short text
+  record.covariance->setOnes();
+  for (int i = 0; i < 6; ++i) record.labelCounts["label " + std::to_string(i)] = 1;
+  const std::string one = objectsToJson({record});
+  const auto begin = one.find("{\"id\""), end = one.rfind(']');
+  std::string all = one.substr(0, end);
+  for (std::size_t i = 1; i < kMostObjects; ++i) all += "," + one.substr(begin, end - begin);
+  const TemporaryFolder folder;
+  const Json file = readJson(folder.write("objects.json", all + "]}"));
+  EXPECT_EQ(file.at("objects").size(), kMostObjects);
 }

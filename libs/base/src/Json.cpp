@@ -17,19 +17,33 @@ namespace quadmap
 {
 namespace
 {
-/** Counts what a file holds, before a tree is made of it. Each value takes more memory than its
+/** What the parts of a tree take in memory [bytes]. A value stands in a list, and in another one
+ * when the tree is removed; lists double their room when it is full. A key counts twice, as readers
+ * keep what has a name. */
+constexpr std::size_t kBytesOfValue = 40, kBytesOfKey = 100, kBytesOfList = 48, kBytesOfText = 48;
+
+/** What the letters of a text take beside it [bytes]. A few have their place in it. */
+std::size_t bytesOfLetters(const std::string& text)
+{
+  return text.size() < 16 ? 0 : text.size() + 32;
+}
+
+/** Adds up what a file holds, before a tree is made of it. Each value takes more memory than its
  * text: 100 MB of brackets would take 10 GB. Each key of an object is compared with all before it,
  * as these keep their order: 200,000 keys would take minutes. */
 class TreeLimit : public nlohmann::json_sax<Json>
 {
  public:
-  bool null() override { return countValue(); }
-  bool boolean(bool) override { return countValue(); }
-  bool number_integer(number_integer_t) override { return countValue(); }
-  bool number_unsigned(number_unsigned_t) override { return countValue(); }
-  bool number_float(number_float_t, const string_t&) override { return countValue(); }
-  bool string(string_t&) override { return countValue(); }
-  bool binary(binary_t&) override { return countValue(); }
+  bool null() override { return add(kBytesOfValue); }
+  bool boolean(bool) override { return add(kBytesOfValue); }
+  bool number_integer(number_integer_t) override { return add(kBytesOfValue); }
+  bool number_unsigned(number_unsigned_t) override { return add(kBytesOfValue); }
+  bool number_float(number_float_t, const string_t&) override { return add(kBytesOfValue); }
+  bool string(string_t& text) override
+  {
+    return add(kBytesOfValue + kBytesOfText + bytesOfLetters(text));
+  }
+  bool binary(binary_t&) override { return add(kBytesOfValue); }
 
   bool start_object(std::size_t) override { return begin(); }
   bool start_array(std::size_t) override { return begin(); }
@@ -48,7 +62,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
     if (!keys.insert(text).second)
       throw std::runtime_error(
           "the key '" + text.substr(0, kShownText) + "' stands twice in an object");
-    return true;
+    return add(kBytesOfKey + bytesOfLetters(text));
   }
 
   /** Ends the counting. The parser finds the same error, and says where it is. */
@@ -58,10 +72,12 @@ class TreeLimit : public nlohmann::json_sax<Json>
   }
 
  private:
-  bool countValue()
+  bool add(std::size_t bytes)
   {
-    constexpr std::size_t kMostValues = 5'000'000;  // 20,000 keyframes with 25 boxes each
-    if (++values_ > kMostValues) throw std::runtime_error("holds too many values");
+    // 20,000 keyframes with 25 boxes each, or 100,000 objects of a map with 8 labels each.
+    constexpr std::size_t kMostBytes = 700'000'000;
+    bytes_ += bytes;
+    if (bytes_ > kMostBytes) throw std::runtime_error("holds too many values");
     return true;
   }
 
@@ -70,7 +86,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
     constexpr std::size_t kDeepest = 64;
     if (keys_.size() >= kDeepest) throw std::runtime_error("is nested too deeply");
     keys_.emplace_back();
-    return countValue();
+    return add(kBytesOfValue + kBytesOfList);
   }
 
   bool end()
@@ -79,7 +95,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
     return true;
   }
 
-  std::size_t values_ = 0, comparisons_ = 0;
+  std::size_t bytes_ = 0, comparisons_ = 0;
   std::vector<std::unordered_set<std::string>> keys_;  // of each open object or array, so far
 };
 
