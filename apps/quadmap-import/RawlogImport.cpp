@@ -9,6 +9,7 @@
 
 #include "FolderSummary.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/odometry/OdometrySurvey.h"
 #include "quadmap/sensors/RawlogSource.h"
@@ -181,7 +182,11 @@ FolderImportReport importRawlog(
   FolderImportReport report;
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty())
+  {
     trajectory = readPoses(options.trajectory, options.keepGoing, report.dropped);
+    if (const auto warning = warningOfCut(options.trajectory); !warning.empty())
+      report.notes.push_back(options.trajectory + ": " + warning);
+  }
   source.sendWarningsTo([&](const std::string& text) { report.notes.push_back(text); });
   std::map<std::string, std::size_t> seen;  // frames of each sensor
   bool trajectoryFits = false;

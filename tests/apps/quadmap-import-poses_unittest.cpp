@@ -36,6 +36,26 @@ TEST_F(QuadmapImport, TellsOfPosesThatCannotBeReadAndOfTheRest)
   EXPECT_EQ(run("tum IN -o OUT/y.rawlog --poses-as none").status, 0);
 }
 
+TEST_F(QuadmapImport, TellsOfListsThatMayBeCut)
+{
+  const auto expectNote = [&](const std::string& command, const std::string& file)
+  {
+    EXPECT_EQ(run(command).err, "") << file << " is whole";
+    const std::string path = recording_.files.path(file), whole = readFile(path);
+    recording_.files.write(file, whole.substr(0, whole.size() - 1));
+    const auto result = run(command);
+    recording_.files.write(file, whole);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.err.find("note: " + path + ": ends without a line break: "), kNotFound)
+        << result.err;
+  };
+  for (const char* list : {"associations.txt", "groundtruth.txt"})
+    for (const char* command : {"tum IN -o OUT/x.rawlog", "tum IN --check"})
+      expectNote(command, list);
+  expectNote(
+      "rawlog OUT/x.rawlog -o OUT/y.rawlog --trajectory IN/groundtruth.txt", "groundtruth.txt");
+}
+
 TEST_F(QuadmapImport, TakesPosesAsAsked)
 {
   ASSERT_EQ(run("tum IN -o OUT/x.rawlog --poses-as ground-truth").status, 0);

@@ -32,6 +32,18 @@ TEST(OpenModestText, NamesFileAndSize)
       folder.path("") + ": is a directory, not a file");
 }
 
+TEST(WarningOfCut, IsForTextsThatEndWithinALine)
+{
+  const TemporaryFolder folder;
+  const auto warningFor = [&](const std::string& text)
+  { return warningOfCut(folder.write("x.tum", text)); };
+  for (const char* whole : {"", "\n", "1 2\n", "1 2\r\n"})
+    EXPECT_EQ(warningFor(whole), "") << whole;
+  for (const char* cut : {"1", "1 2\n3"})
+    EXPECT_EQ(warningFor(cut), "ends without a line break: its last line may be cut off") << cut;
+  EXPECT_EQ(warningOfCut(folder.path("missing.tum")), "");
+}
+
 TEST(InputFile, NoReaderWaitsAtAPipeOrReadsADevice)
 {
   const std::vector<std::function<void(const std::string&)>> readers = {

@@ -166,6 +166,19 @@ TEST_F(EvaluatedRun, ComparesInPlaceWhenAsked)
   EXPECT_NE(report.notes[0].find("in place"), std::string::npos);
 }
 
+TEST_F(EvaluatedRun, TellsOfTrajectoriesThatMayBeCut)
+{
+  for (const char* name : {"trajectory.tum", "gt.tum"})
+  {
+    const std::string whole = readFile(folder_.path(name));
+    folder_.write(name, whole.substr(0, whole.size() - 2));
+    const auto notes = evaluateRun(input_).notes;
+    folder_.write(name, whole);
+    ASSERT_EQ(notes.size(), 1u) << name;
+    EXPECT_EQ(notes[0].find(folder_.path(name) + " ends without a line break: "), 0u) << notes[0];
+  }
+}
+
 TEST_F(EvaluatedRun, SaysWhenOrientationsWereNeeded)
 {
   Trajectory line;

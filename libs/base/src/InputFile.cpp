@@ -34,4 +34,13 @@ std::ifstream openModestText(const std::string& path, std::uintmax_t mostBytes)
   return file;
 }
 
+std::string warningOfCut(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-1, std::ios::end);
+  const int last = file.get();
+  if (last == std::ifstream::traits_type::eof() || last == '\n') return {};
+  return "ends without a line break: its last line may be cut off";
+}
+
 }  // namespace quadmap

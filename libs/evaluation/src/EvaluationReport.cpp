@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "quadmap/base/InputFile.h"
+
 namespace quadmap
 {
 namespace
@@ -68,6 +70,9 @@ TrajectoryEvaluation evaluateTrajectory(const EvaluationInput& input, Evaluation
       isTrajectoryAlone(input) ? input.estimate : inFolder(input, "trajectory.tum");
   const Trajectory estimated = readTumTrajectory(path);
   auto pairs = pairsWithTruth(path, estimated, input, std::nullopt);
+  for (const std::string& file : {path, *input.trueTrajectoryPath})
+    if (const auto warning = warningOfCut(file); !warning.empty())
+      report.notes.push_back(file + " " + warning + ".");
   report.reflection = findReflection(pairs, input, report);
   if (report.reflection) pairs = pairsWithTruth(path, estimated, input, report.reflection);
   if (!input.inPlace && pairs.size() == 1)

@@ -49,9 +49,7 @@ class GraphFile
     const auto file = openModestText(path, kMostBytes);
     std::stringstream text;
     text << file.rdbuf();
-    const std::string whole = text.str();
-    times = checkGraphText(whole, path);
-    mayBeCut = !whole.empty() && whole.back() != '\n';
+    times = checkGraphText(text.str(), path);
     read(text);
     if (graph.nodes.empty())
       throw std::runtime_error(path + ": no pose graph, it has no VERTEX3 line");
@@ -63,7 +61,6 @@ class GraphFile
 
   Graph graph;
   std::vector<NodeTime> times;
-  bool mayBeCut = false;  // within a number, which is then read as a shorter one
 
   /** Covariance of the step from a node to another one, when an edge joins them. It is zero for the
    * coordinates of which a planar edge says nothing. */
@@ -124,7 +121,7 @@ std::vector<TNodeID> chainOf(const Graph& graph)
 GraphOdometry::GraphOdometry(const std::string& path) : path_(path)
 {
   const GraphFile file(path);
-  mayBeCut_ = file.mayBeCut;
+  warningOfCut_ = warningOfCut(path);
   std::vector<TNodeID> nodes;
   std::map<double, TNodeID> nodeAt;
   for (const auto& t : file.times) nodeAt.emplace(t.time, t.node);
@@ -206,7 +203,7 @@ bool GraphOdometry::isFarOutside(double time) const
 
 std::string GraphOdometry::warning() const
 {
-  std::string text = mayBeCut_ ? "ends without a line break: its last line may be cut off" : "";
+  std::string text = warningOfCut_;
   if (const auto misfit = warningOfMisfit(); !misfit.empty())
     text += (text.empty() ? "" : "; ") + misfit;
   return text.empty() ? text : path_ + ": " + text;

@@ -10,6 +10,7 @@
 
 #include "frames/ResizedCamera.h"
 #include "frames/RigidMatrix.h"
+#include "quadmap/base/InputFile.h"
 #include "quadmap/obs/Plausible.h"
 #include "quadmap/obs/Trajectory.h"
 #include "text/TextLines.h"
@@ -107,6 +108,7 @@ void takePoses(FolderContent& content, const std::string& file, double maxGap)
   try
   {
     const Trajectory trajectory = readTrajectoryInOrder(file, content.posesProblems);
+    noteIfCut(content, file);
     content.posesAreRefused = trajectory.empty() && !content.posesProblems.empty();
     for (auto& frame : content.frames)
       frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
@@ -116,6 +118,12 @@ void takePoses(FolderContent& content, const std::string& file, double maxGap)
     content.posesProblems = {e.what()};
     content.posesAreRefused = true;
   }
+}
+
+void noteIfCut(FolderContent& content, const std::string& file)
+{
+  if (const auto warning = warningOfCut(file); !warning.empty())
+    content.notes.push_back(file + ": " + warning);
 }
 
 void requireFrames(const FolderContent& content, const std::string& without)

@@ -65,7 +65,7 @@ class GraphOdometry
   std::string warningOfMisfit() const;
 
   std::string path_;
-  bool mayBeCut_ = false;                //!< The text ends without a line break
+  std::string warningOfCut_;             //!< See warningOfCut()
   std::vector<Pose> poses_;              //!< In the order of time
   std::vector<bool> wasUsed_;            //!< For each pose, whether an image has its time
   std::map<double, std::size_t> times_;  //!< From time [s] to index of the pose
