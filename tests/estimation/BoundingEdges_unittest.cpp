@@ -42,7 +42,7 @@ std::size_t edgesOf(const DetectedObject& d, const mrpt::poses::CPose3D& T_map_s
 }
 
 constexpr std::size_t kLeft = 0, kTopEdge = 1, kBottom = 3;
-constexpr std::size_t kLeftFace = 2, kTopFace = 4;  // +y, +z
+constexpr std::size_t kBackFace = 0, kLeftFace = 2, kTopFace = 4;  // +x, +y, +z
 }  // namespace
 
 TEST(BoundingEdges, BesideAHiddenLowerEndTheyBoundOnlyWhatIsSeen)
@@ -108,8 +108,8 @@ TEST(BoundingEdges, AFaceAtTheImagesBorderIsCut)
 }
 
 // A chair whose lower part a table hides is too low for its kind: its upper edge is then said to be
-// hidden as well, though depth shows what is behind it.
-TEST(BoundingEdges, ATopThatDepthShowsStaysMeasuredUnderAHiddenUpperEdge)
+// hidden as well, though depth shows where its top and, from above, its back end.
+TEST(BoundingEdges, EndsThatDepthShowsStayMeasuredUnderAHiddenUpperEdge)
 {
   for (const auto state : {EdgeState::Usable, EdgeState::NearImageBorder, EdgeState::Occluded})
     for (const double pitchDown : {0.0, 0.5})
@@ -126,9 +126,11 @@ TEST(BoundingEdges, ATopThatDepthShowsStaysMeasuredUnderAHiddenUpperEdge)
       const mrpt::poses::CPose3D T_map_sensor(0, 0, 1.5, 0, pitchDown, 0);
       const auto view = viewOf(d, T_map_sensor, chair(), PoseNoise());
       ASSERT_TRUE(view && view->complete);
+      const bool isCut = state == EdgeState::NearImageBorder;
+      EXPECT_EQ(view->faces[kTopFace].kind, isCut ? FaceKind::AtLeast : FaceKind::Measured);
+      const bool looksOver = pitchDown > 0;
       EXPECT_EQ(
-          view->faces[kTopFace].kind,
-          state == EdgeState::NearImageBorder ? FaceKind::AtLeast : FaceKind::Measured);
+          view->faces[kBackFace].kind, isCut && looksOver ? FaceKind::AtLeast : FaceKind::Measured);
     }
 }
 

@@ -69,17 +69,10 @@ bool setCuboid(
   return true;
 }
 
-/** Does the depth tell better than this edge where the object ends? An upper edge is taken to be
- * hidden by what its kind usually measures, not by anything nearer that was seen before it, and
- * perception opens a top that goes on itself. */
-bool isOverruledByDepth(EdgeState state, const Plane& plane)
-{
-  constexpr double kLooksUp = 0.7;  // cosine between up and the direction out of the box
-  return state == EdgeState::Occluded && -plane.n.z() > kLooksUp;
-}
-
 /** Weakens each face that looks out over a box edge at the image border or behind an occluder, and
- * reaches it. Such a face ends where the view ends, and the object is at least that large. */
+ * reaches it. Such a face ends where the view ends, and the object is at least that large. But that
+ * an upper edge is hidden is told by how low the box is for its kind and by what touches it
+ * anywhere, not by what was seen at this edge: there the ends that depth shows count. */
 void weakenCutFaces(
     const std::array<EdgeMeasurement, 4>& edges,
     const mrpt::poses::CPose3D& T_map_sensor,
@@ -96,7 +89,7 @@ void weakenCutFaces(
   {
     if (edge.state == EdgeState::Usable) continue;
     const Plane plane = edge.plane_sensor.transformed(T_map_sensor);
-    if (isOverruledByDepth(edge.state, plane)) continue;
+    if (edge.state == EdgeState::Occluded && isUpperEdge(plane, Eigen::Vector3d::UnitZ())) continue;
     for (std::size_t f = 0; f < kFaces; ++f)
     {
       const FaceKind kind = measured[f].kind;

@@ -9,6 +9,7 @@
 #include "cuboid/HeldUp.h"
 #include "cuboid/OnWall.h"
 #include "cuboid/TopRim.h"
+#include "cuboid/UnseenBack.h"
 #include "quadmap/surfaces/SurfaceTolerance.h"
 #include "support/UnseenFoot.h"
 
@@ -141,34 +142,13 @@ void addHeadingSigma(Faces& faces, const HeadingEstimate& yaw)
   }
 }
 
-/** How thick a panel usually is, as a screen or a door [m]. Nothing for what is no panel. */
-std::optional<double> thicknessOfPanel(const LabelProperties& label)
+/** A top that slopes, as one does whose up is wrong by the pose's error, counts in its middle. */
+void setTopInTheMiddle(const Eigen::Matrix3d& R_obj_optical, const Plane& top, Faces& faces)
 {
-  constexpr double kThin = 0.25;  // of the shorter side of its front
-  const Eigen::Vector3d& size = label.typicalSize;
-  const auto [thickness, width] = std::minmax({size.x(), size.y()});
-  if (thickness > kThin * std::min(width, size.z())) return {};
-  return thickness;
-}
-
-/** The back of a front that nobody saw from behind: what few points lie there tell nothing. A panel
- * that leans reaches farther back than its front by its thickness. The label's sizes, those of an
- * upright one, do not tell. */
-void openUnseenBacks(const FaceEstimator& estimator, const LabelProperties& label, Faces& faces)
-{
-  const auto thickness = thicknessOfPanel(label);
-  for (std::size_t side = 0; side < kSides; ++side)
-  {
-    FaceEstimate& face = faces[side];
-    if (face.worth.kind != FaceKind::AtLeast || face.source != FaceSource::FarEdge || face.isCut)
-      continue;
-    const auto reach = estimator.reachOfFront(side);
-    if (!reach) continue;
-    face.position = reach->position;
-    if (reach->lean == 0 || !thickness) continue;
-    face.position += *thickness * std::cos(reach->lean);
-    face.worth.sigma = std::hypot(face.worth.sigma, label.sizeSpread * *thickness);
-  }
+  const Eigen::Vector3d n = R_obj_optical * top.n;
+  const double x = 0.5 * (faces[0].position - faces[1].position);
+  const double y = 0.5 * (faces[2].position - faces[3].position);
+  faces[kTop].position = -(n.x() * x + n.y() * y + top.d) / n.z();
 }
 
 /** Fits cuboids to clouds of one frame. */
@@ -234,7 +214,7 @@ class CuboidFitter
       faces[kBottom].worth.kind = FaceKind::AtLeast;
     if (object.top)
     {
-      faces[kTop].position = estimator.heightOf(*object.top);
+      faces[kTop].position = estimator.behind(kTop, *object.top);
       faces[kTop].worth = {FaceKind::Measured, horizontalTopSigma(estimator.range(), options_)};
     }
     if (object.support)
@@ -266,6 +246,7 @@ class CuboidFitter
       addHeadingSigma(faces, yaw);
     else
       completeRound(faces, estimator);
+    if (object.top) setTopInTheMiddle(estimator.R_obj_optical(), *object.top, faces);
   }
 
   const DepthCloud& cloud_;

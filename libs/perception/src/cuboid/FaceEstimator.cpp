@@ -81,12 +81,6 @@ double FaceEstimator::behind(std::size_t face, const Plane& plane) const
   return normalOf(face).dot(centroid_) - ahead / n.dot(normalOf(face));
 }
 
-double FaceEstimator::heightOf(const Plane& level) const
-{
-  const Eigen::Vector3d n = R_obj_optical_ * level.n;
-  return centroid_.z() - (n.dot(centroid_) + level.d) / n.z();
-}
-
 double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
 bool FaceEstimator::isFootInSight() const
@@ -207,21 +201,24 @@ std::optional<FaceEstimator::LeaningSide> FaceEstimator::leaningSide(std::size_t
   if (!line || std::abs(line->angle) < std::max(kUpright, kSigmas * std::sqrt(line->variance)))
     return {};
   const double slope = std::tan(line->angle);
-  std::vector<double> atFoot;
-  for (const auto& p : own) atFoot.push_back(p.y() - slope * p.x());
-  LeaningSide out{line->angle, median(atFoot), {}};
-  for (std::size_t i = 0; i < own.size(); ++i)
-    if (std::abs(atFoot[i] - out.foot) < 0.5 * shellDepth())
-      out.positions.push_back(out.at(own[i].x()));
-  return out;
+  std::vector<double> offsets;
+  for (const auto& p : own) offsets.push_back(p.y() - slope * p.x());
+  return LeaningSide{line->angle, slope, median(std::move(offsets))};
 }
 
 /** Moves a side that leans to its outermost end. */
 void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
 {
   const auto leaning = leaningSide(face);
-  if (leaning && !leaning->positions.empty())
-    side.position = std::max(side.position, quantile(leaning->positions, kMost));
+  if (!leaning) return;
+  std::vector<double> ends;  // where the plane is at the height of each of its points
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const double end = leaning->at(points_[kTop / 2][i]);
+    if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - end) < 0.5 * shellDepth())
+      ends.push_back(end);
+  }
+  if (!ends.empty()) side.position = std::max(side.position, quantile(std::move(ends), kMost));
 }
 
 std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
@@ -237,7 +234,9 @@ std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
     behind.push_back(reach.back() + (leaning ? leaning->at(points_[kTop / 2][i]) : side->position));
   }
   if (quantile(std::move(behind), kOfFront) > shellDepth()) return {};
-  return FrontReach{quantile(std::move(reach), kOfFront), leaning ? leaning->angle : 0};
+  FrontReach out{quantile(std::move(reach), kOfFront), {}};
+  if (leaning) out.lean = leaning->angle;
+  return out;
 }
 
 /** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims and handles,

@@ -32,8 +32,8 @@ struct FaceEstimate
 /** How far the points of a front reach towards its back. */
 struct FrontReach
 {
-  double position = 0;  //!< Along the back's outward normal, from the camera [m]
-  double lean = 0;      //!< Of the front from the vertical; 0 for an upright one [rad]
+  double position = 0;         //!< Along the back's outward normal, from the camera [m]
+  std::optional<double> lean;  //!< Of the front from the vertical; nothing for an upright one [rad]
 };
 
 /** Faces in the order +x, -x, +y, -y, +z, -z. */
@@ -61,11 +61,9 @@ class FaceEstimator
 
   Eigen::Vector3d normalOf(std::size_t face) const;  //!< Outward, in the object's frame
 
-  /** Where a plane is behind the middle of what is seen, along a face's outward normal [m]. */
+  /** Where the line through the middle of what is seen, along a face's outward normal, meets a
+   * plane, as a coordinate along this normal [m]. */
   double behind(std::size_t face, const Plane& plane) const;
-
-  /** Of a nearly level plane, over the middle of what was seen, from the camera [m]. */
-  double heightOf(const Plane& level) const;
 
   double lowestSeen() const;  //!< Along the object's z, from the camera [m]
 
@@ -132,14 +130,14 @@ class FaceEstimator
   double cutShare(const Outline& outline, std::size_t face, double from) const;
   std::optional<FaceEstimate> surface(std::size_t face) const;
   double shellDepth() const;
-  /** The plane of a side that leans, and the points on it. */
+  /** The plane of a side that leans. */
   struct LeaningSide
   {
-    double angle = 0;               //!< From the vertical, positive where its top leans out [rad]
-    double foot = 0;                //!< Along the outward normal, at the height of the camera [m]
-    std::vector<double> positions;  //!< Of its points on the plane, along the outward normal [m]
+    double angle = 0;   //!< From the vertical, positive where its top leans out [rad]
+    double slope = 0;   //!< Tangent of the angle
+    double offset = 0;  //!< Along the outward normal, at the height of the camera [m]
 
-    double at(double height) const { return foot + std::tan(angle) * height; }
+    double at(double height) const { return offset + slope * height; }
   };
   std::optional<LeaningSide> leaningSide(std::size_t face) const;  //!< Nothing when it is upright
   void reachOfLeaning(std::size_t face, FaceEstimate& side) const;

@@ -94,11 +94,10 @@ class EdgeJudge
 
   ObjectSide sideOf(BoxEdge edge) const
   {
-    constexpr double kMinCosine = 0.7;
-    const double cosine = upwards(edge);
-    return cosine > kMinCosine    ? ObjectSide::Top
-           : cosine < -kMinCosine ? ObjectSide::Bottom
-                                  : ObjectSide::Lateral;
+    const Plane plane = boxEdgePlane(cloud_.camera(), box_, edge);
+    return isUpperEdge(plane, context_.up)    ? ObjectSide::Top
+           : isUpperEdge(plane, -context_.up) ? ObjectSide::Bottom
+                                              : ObjectSide::Lateral;
   }
 
   /** Depth of the object near one of its edges [m]; of the whole object where too little of it is

@@ -116,15 +116,21 @@ std::optional<HorizontalFit> fitMainHeight(
   Plane best;
   std::vector<std::size_t> onBest, all(points.size());
   std::iota(all.begin(), all.end(), 0);
-  const Plane tilted{normal, -mode(heightsAlong(points, normal, options))};
-  const Plane horizontal{up, -mode(heights)};
-  for (Plane plane : {tilted, horizontal, fit(points, all, heights, up)})
+  std::vector<Plane> starts = {
+      {up, -mode(heights)},
+      fit(points, all, heights, up)
+  };
+  if (normal != up)
+    starts.insert(starts.begin(), {normal, -mode(heightsAlong(points, normal, options))});
+  for (Plane plane : starts)
   {
     auto on = pointsOn(plane, points, heights);
     for (int i = 0; i < kRefinements && on.size() >= kMinPoints; ++i)
     {
       plane = fit(points, on, heights, up);
-      on = pointsOn(plane, points, heights);
+      auto refined = pointsOn(plane, points, heights);
+      if (refined == on) break;
+      on = std::move(refined);
     }
     if (on.size() <= onBest.size()) continue;
     best = plane;

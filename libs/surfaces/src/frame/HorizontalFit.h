@@ -20,7 +20,7 @@ struct HorizontalFit
 /** \param points On a plane that faces about up, optical frame [m].
  *  \param normal Of the plane they were segmented as. The search starts with it, with `up` and with
  *  the plane through all points.
- *  \param up Unit vector, good to a degree: small or far patches do not know better.
+ *  \param up Unit vector, good to two degrees: small or far patches do not know better.
  *  \return Nothing when there are too few points. */
 std::optional<HorizontalFit> fitMainHeight(
     const std::vector<Eigen::Vector3d>& points,

@@ -116,6 +116,33 @@ std::optional<int> largestHeight(const AreaOfHeight& areas)
   return best;
 }
 
+/** The level plane that most of the points lie on, with the slope that they tell: what heights are
+ * measured along, up or the normal of a support, errs by an angle that tilts a broad surface by
+ * more than its noise. \param below The points, below the camera [m]. \param up What heights are
+ * measured along. \return Nothing when the camera sees it at too flat an angle. */
+std::optional<Plane> planeAmong(
+    const std::vector<Eigen::Vector3d>& points,
+    double below,
+    const Eigen::Vector3d& up,
+    const SurfaceOptions& options)
+{
+  constexpr double kUneven = 0.002;      // [m]
+  constexpr double kSteepestTop = 0.05;  // no level top slopes more, and no pose errs more [rad]
+  std::vector<double> depths, along;
+  for (const auto& p : points) depths.push_back(p.z());
+  const double depth = median(std::move(depths));
+  const double slope = below / depth;  // (7.2)
+  if (slope < kMinSlope) return {};
+  const auto fitted = fitMainHeight(points, up, up, options);
+  const bool isLevel = fitted && fitted->plane.n.dot(up) > std::cos(kSteepestTop);
+  const Eigen::Vector3d n = isLevel ? fitted->plane.n : up;
+  for (const auto& p : points) along.push_back(n.dot(p));
+  // The rim of a table is near its top, and would move the median of all heights.
+  std::sort(along.begin(), along.end());
+  const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
+  return Plane{n, -along[densestWindow(along, width).middle()]};
+}
+
 }  // namespace
 
 std::optional<Plane> horizontalTop(
@@ -140,27 +167,10 @@ std::optional<Plane> horizontalTop(
   const auto top = largestHeight(areas);
   if (!top) return {};
   std::vector<Eigen::Vector3d> near;
-  std::vector<double> depths;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::abs(heights[i] - areas.height(*top)) < (kHalfWindow + 0.5) * kBin)
-    {
       near.push_back(points[i]);
-      depths.push_back(points[i].z());
-    }
-  const double depth = median(std::move(depths));
-  const double slope = (cameraHeight - areas.height(*top)) / depth;  // (7.2)
-  if (slope < kMinSlope) return {};
-  // The poses, and with them the up that heights are measured along, are wrong by an angle that
-  // tilts a broad surface by more than its noise.
-  const auto fitted = fitMainHeight(near, from.n, from.n, options);
-  const Eigen::Vector3d n = fitted ? fitted->plane.n : from.n;
-  constexpr double kUneven = 0.002;  // [m]
-  const double width = 2 * kUneven + 4 * slope * options.depthSigma(depth);
-  std::vector<double> along;
-  for (const auto& p : near) along.push_back(n.dot(p));
-  // The rim of a table is near its top, and would move the median of all heights.
-  std::sort(along.begin(), along.end());
-  return Plane{n, -along[densestWindow(along, width).middle()]};
+  return planeAmong(near, cameraHeight - areas.height(*top), from.n, options);
 }
 
 std::optional<PlaneExtent> topExtent(

@@ -51,4 +51,13 @@ inline bool looksOver(const Plane& edge, const Eigen::Vector3d& normal)
   return -edge.n.dot(normal) > kMinCosine;
 }
 
+/** Whether a box edge is an upper one: the direction out of the box over it is within 45 degrees of
+ * up. \param edge Its plane, normal towards the object. \param up Unit, in the frame of the plane.
+ */
+inline bool isUpperEdge(const Plane& edge, const Eigen::Vector3d& up)
+{
+  constexpr double kMinCosine = 0.7;
+  return -edge.n.dot(up) > kMinCosine;
+}
+
 }  // namespace quadmap

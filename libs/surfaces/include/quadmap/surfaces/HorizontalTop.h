@@ -18,7 +18,7 @@ namespace quadmap
  * above the top stands on it. \param points Of every step-th cell of every step-th row in its box,
  * optical frame [m]. \param support What it stands on, normal up; null when that is not known: the
  * top may then have any height below the camera at which most points are not above it. \param up
- * Unit, optical frame, good to a degree. \return Level, as far as the points do not tell a slope
+ * Unit, optical frame, good to two degrees. \return Level, as far as the points do not tell a slope
  * against the support or up. Nothing when no height stands out, or, with a support, none is as high
  * above it as such things are. */
 std::optional<Plane> horizontalTop(
