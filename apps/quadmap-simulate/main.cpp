@@ -2,12 +2,13 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "../common/CommandLine.h"
+#include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "../common/SeveralOutputs.h"
 #include "quadmap/base/ConfigCheck.h"
-#include "quadmap/base/OutputFile.h"
 #include "quadmap/rooms/RandomRoom.h"
 #include "quadmap/simulator/Simulator.h"
 
@@ -210,16 +211,26 @@ cli::NamedOutputs outputsOf(Cli& cli)
 simulator::Scene sceneOf(Cli& cli, std::uint64_t seed)
 {
   const std::string& name = cli.scene.getValue();
-  if (name != simulator::kRandomRoom)
-  {
-    if (cli.sceneFile.isSet())
+  if (name == simulator::kRandomRoom) return simulator::randomRoom(seed);
+  if (cli.sceneFile.isSet())
+    throw cli::UsageError(
+        "--write-scene: only for the scene " + std::string(simulator::kRandomRoom));
+  return simulator::readScene(simulator::findScene(name));
+}
+
+/** The scene file that is written beside the recording, if one is asked for.
+ * \exception cli::UsageError If it is one of the recording's own files. */
+std::optional<simulator::TextBeside> sceneFileOf(Cli& cli, const simulator::Scene& scene)
+{
+  if (!cli.sceneFile.isSet()) return std::nullopt;
+  const std::string& file = cli.sceneFile.getValue();
+  const simulator::SimulationFiles files(cli.output.getValue());
+  for (const auto* other : {&files.rawlog, &files.boxes, &files.truth, &files.trajectory})
+    if (cli::isOneFile(file, *other))
       throw cli::UsageError(
-          "--write-scene: only for the scene " + std::string(simulator::kRandomRoom));
-    return simulator::readScene(simulator::findScene(name));
-  }
-  simulator::Scene room = simulator::randomRoom(seed);
-  if (cli.sceneFile.isSet()) writeTextFile(cli.sceneFile.getValue(), simulator::sceneText(room));
-  return room;
+          "--write-scene: " + file + " is a file of -o " + files.rawlog +
+          " as well; give it another name");
+  return simulator::TextBeside{file, simulator::sceneText(scene)};
 }
 
 /** \exception std::runtime_error If no camera can go the scene's way; names its file. */
@@ -243,6 +254,7 @@ void run(Cli& cli)
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
   const simulator::NoiseFactors noise = noiseFactors(cli);
   simulator::Scene scene = sceneOf(cli, seed);
+  const auto sceneFile = sceneFileOf(cli, scene);  // of the room, whatever images are taken in it
   setFrames(cli, scene.options.trajectory);
   if (cli.resolution.isSet()) setResolution(cli.resolution.getValue(), scene.options);
   if (cli.detections.isSet())
@@ -252,7 +264,9 @@ void run(Cli& cli)
 
   const auto simulator = simulatorOf(std::move(scene), cli.scene.getValue(), seed);
   const std::string& output = cli.output.getValue();
-  report(output, simulator::simulateToFiles(simulator, output, cli::ProgressBar()), messages);
+  report(
+      output, simulator::simulateToFiles(simulator, output, cli::ProgressBar(), sceneFile),
+      messages);
 }
 }  // namespace
 

@@ -142,6 +142,39 @@ TEST(SimulateProgram, RejectsWrongCallsWithStatusTwo)
   EXPECT_EQ(2U, folder.fileCount()) << "only what the shell wrote";
 }
 
+TEST(SimulateProgram, WritesTheRandomRoomWithTheRecordingOrNotAtAll)
+{
+  const TemporaryFolder folder;
+  const std::string room = "random --frames 2 --resolution 64x64 --write-scene room.ini -o ";
+  EXPECT_EQ(1, runProgram(folder, room + "missing/a.rawlog").status);
+  EXPECT_EQ(2, runProgram(folder, room + "a.rawlog --resolution 1x1").status);
+  EXPECT_EQ(1, runProgram(folder, room + "room.ini/a.rawlog").status);
+  EXPECT_EQ(2U, folder.fileCount()) << "only what the shell wrote";
+  const auto result = runProgram(folder, room + "a.rawlog");
+  EXPECT_EQ(0, result.status) << result.error;
+  EXPECT_EQ(0, runProgram(folder, "room.ini --frames 2 --resolution 64x64 -o b.rawlog").status);
+  EXPECT_EQ(readFile(folder.path("a.objects.gt.json")), readFile(folder.path("b.objects.gt.json")));
+}
+
+TEST(SimulateProgram, RefusesASceneFileThatIsOneOfTheRecording)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("sub"));
+  for (const auto* name :
+       {"a.rawlog", "a.objects.rawlog", "./a.objects.gt.json", "sub/../a.groundtruth.tum"})
+  {
+    const auto result =
+        runProgram(folder, std::string("random --frames 2 -o a.rawlog --write-scene ") + name);
+    EXPECT_EQ(2, result.status) << name;
+    EXPECT_EQ(
+        "quadmap-simulate: --write-scene: " + std::string(name) +
+            " is a file of -o a.rawlog as well; give it another name "
+            "(see quadmap-simulate --help)\n",
+        result.error);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("a.rawlog")));
+}
+
 TEST(SimulateProgram, NamesTheBadFileWithStatusOne)
 {
   const TemporaryFolder folder;

@@ -28,6 +28,11 @@ std::string OutputGroup::add(const std::string& path)
 OutputSet& OutputGroup::addFolder(const std::string& path, const std::string& set)
 {
   directories_.emplace_back(path);
+  return addToFolder(path, set);
+}
+
+OutputSet& OutputGroup::addToFolder(const std::string& path, const std::string& set)
+{
   return folders_.emplace_back(path, set);
 }
 

@@ -4,6 +4,7 @@
 #include <future>
 #include <thread>
 
+#include "quadmap/base/OutputFile.h"
 #include "quadmap/obs/Trajectory.h"
 #include "quadmap/sensors/RawlogWriter.h"
 #include "quadmap/simulator/Simulator.h"
@@ -12,10 +13,10 @@ namespace quadmap::simulator
 {
 namespace
 {
-/** NAME of NAME.rawlog or NAME.rawlog.gz, without the folder. */
+/** NAME of NAME.rawlog or NAME.rawlog.gz, with the folder. */
 std::string stemOf(const std::string& rawlog)
 {
-  std::filesystem::path path = std::filesystem::path(rawlog).filename();
+  std::filesystem::path path = rawlog;
   if (path.extension() == ".gz") path.replace_extension();
   if (path.extension() == ".rawlog") path.replace_extension();
   return path.string();
@@ -77,16 +78,32 @@ void write(
   if (!labelsPixels(simulator.scene().options.detector.output)) writer.write(*frame.objects);
 }
 
+std::string nameOf(const std::string& path)
+{
+  return std::filesystem::path(path).filename().string();
+}
 }  // namespace
 
+SimulationFiles::SimulationFiles(const std::string& file) :
+    rawlog(file),
+    boxes(objectsFileOf(file)),
+    truth(stemOf(file) + ".objects.gt.json"),
+    trajectory(stemOf(file) + ".groundtruth.tum")
+{
+}
+
 SimulationSummary simulateToFiles(
-    const Simulator& simulator, const std::string& rawlog, const Progress& progress)
+    const Simulator& simulator,
+    const std::string& rawlog,
+    const Progress& progress,
+    const std::optional<TextBeside>& beside)
 {
   RawlogWriterOptions writerOptions;
   // Level 1 packs noise badly, and the file is written only once.
   writerOptions.compressionLevel = 6;
   writerOptions.jpegQuality = simulator.scene().options.camera.jpegQuality;
   RawlogWriter writer(rawlog, writerOptions);
+  if (beside) writeTextFile(writer.addElsewhere(beside->path), beside->text);
 
   SimulationSummary summary;
   Trajectory trajectory;
@@ -110,8 +127,9 @@ SimulationSummary simulateToFiles(
   summary.frames = simulator.frameCount();
   summary.truth = truthOf(simulator.scene(), framesVisible);
 
-  writeObjectsJson(writer.add(stemOf(rawlog) + ".objects.gt.json"), summary.truth, "world");
-  writeTumTrajectory(writer.add(stemOf(rawlog) + ".groundtruth.tum"), trajectory);
+  const SimulationFiles files(rawlog);
+  writeObjectsJson(writer.add(nameOf(files.truth)), summary.truth, "world");
+  writeTumTrajectory(writer.add(nameOf(files.trajectory)), trajectory);
   writer.finish();
   return summary;
 }

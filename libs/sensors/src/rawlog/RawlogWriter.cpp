@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/GzipStream.h"
-#include "quadmap/base/OutputSet.h"
+#include "quadmap/base/OutputGroup.h"
 #include "rawlog/ExternalImages.h"
 #include "rawlog/ScanWithJpeg.h"
 
@@ -66,7 +66,7 @@ struct RawlogWriter::Impl
   Impl(const std::string& f, RawlogWriterOptions o) :
       file(f),
       options(checked(o)),
-      files(fs::path(f).parent_path().string(), nameOf(f)),
+      files(outputs.addToFolder(fs::path(f).parent_path().string(), nameOf(f))),
       rawlog(files.add(nameOf(f)), options.compressionLevel)
   {
     if (options.external)
@@ -78,7 +78,8 @@ struct RawlogWriter::Impl
 
   std::string file;
   RawlogWriterOptions options;
-  OutputSet files;
+  OutputGroup outputs;
+  OutputSet& files;  // those beside the rawlog, which are one of the outputs
   GzipFileWriter rawlog;
   std::unique_ptr<GzipFileWriter> sidecar;  // created with the first boxes
   std::unique_ptr<ExternalImages> images;   // null when images are in the rawlog
@@ -132,6 +133,8 @@ void RawlogWriter::writePose(
 
 std::string RawlogWriter::add(const std::string& name) { return impl_->files.add(name); }
 
+std::string RawlogWriter::addElsewhere(const std::string& path) { return impl_->outputs.add(path); }
+
 void RawlogWriter::finish()
 {
   impl_->rawlog.commit();
@@ -139,7 +142,7 @@ void RawlogWriter::finish()
     impl_->sidecar->commit();
   else
     impl_->files.addRemoval(Impl::nameOf(objectsFileOf(impl_->file)));
-  impl_->files.commit();
+  impl_->outputs.commit();
 }
 
 }  // namespace quadmap

@@ -30,6 +30,9 @@ class OutputGroup
    *  \exception std::runtime_error If the folder cannot be made or written. */
   OutputSet& addFolder(const std::string& path, const std::string& set);
 
+  /** The same for a folder that exists: a missing one is not made, but an error. */
+  OutputSet& addToFolder(const std::string& path, const std::string& set);
+
   /** Gives all files their names. Call it once.
    *  \exception std::runtime_error Names the file that cannot be written. */
   void commit();

@@ -55,6 +55,11 @@ class RawlogWriter
    *  \return Where to write it before finish(). */
   std::string add(const std::string& name);
 
+  /** Adds a file of any folder that appears together with the rawlog.
+   *  \return Where to write it before finish(); a device or a pipe is written at once.
+   *  \exception std::runtime_error If it cannot be written; names the file. */
+  std::string addElsewhere(const std::string& path);
+
   /** Completes all files and gives them their names. When there were no boxes, an older sidecar of
    *  the same name is removed. \exception std::runtime_error For a full disk and the like. */
   void finish();

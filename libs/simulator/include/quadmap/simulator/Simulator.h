@@ -89,11 +89,29 @@ struct SimulationSummary
 /** Called after each frame with the share that is done, in [0, 1]. */
 using Progress = std::function<void(double)>;
 
-/** Makes all frames and writes NAME.rawlog, NAME.objects.rawlog, NAME.objects.gt.json and
- * NAME.groundtruth.tum. The four files appear when the last frame is done, each complete or not at
- * all. \param rawlog Path of NAME.rawlog (or NAME.rawlog.gz).
+/** The files of a simulation: NAME.rawlog, NAME.objects.rawlog, NAME.objects.gt.json and
+ * NAME.groundtruth.tum. \param rawlog Path of NAME.rawlog (or NAME.rawlog.gz). */
+struct SimulationFiles
+{
+  explicit SimulationFiles(const std::string& rawlog);
+
+  std::string rawlog, boxes, truth, trajectory;  //!< Their paths
+};
+
+/** A text that appears together with the files of a simulation. */
+struct TextBeside
+{
+  std::string path, text;
+};
+
+/** Makes all frames and writes the SimulationFiles. All files appear when the last frame is done,
+ * or none. \param rawlog Path of NAME.rawlog (or NAME.rawlog.gz).
+ * \param beside Another file that appears with them; its path is none of theirs.
  * \exception std::runtime_error If a file cannot be written. */
 SimulationSummary simulateToFiles(
-    const Simulator& simulator, const std::string& rawlog, const Progress& progress = {});
+    const Simulator& simulator,
+    const std::string& rawlog,
+    const Progress& progress = {},
+    const std::optional<TextBeside>& beside = {});
 
 }  // namespace quadmap::simulator
