@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "../common/KeptFiles.h"
 #include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "../common/SeveralOutputs.h"
@@ -92,6 +93,9 @@ void run(Cli& cli)
   request.rawlog = cli.rawlog.getValue();
   request.output = cli.output.isSet() ? cli.output.getValue() : objectsFileOf(request.rawlog);
   cli::requireOtherFile(request.output, request.rawlog);
+  cli::KeptFiles kept;
+  kept.add(cli.model.getValue());
+  kept.requireNone("output", request.output);
   request.pictures = cli.draw.getValue();
   request.sensorLabel = cli.sensor.getValue();
   request.keepGoing = cli.keepGoing.getValue();

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "../common/CommandLine.h"
+#include "../common/KeptFiles.h"
 #include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "../common/SeveralOutputs.h"
@@ -122,6 +123,18 @@ bool isRawlog(const std::string& source)
   return name.extension() == ".rawlog";
 }
 
+/** \exception UsageError For an output that would replace what is read. */
+void checkOutput(ImportCli& cli)
+{
+  const std::string& output = cli.output.getValue();
+  if (output.empty()) return;  // nothing is written
+  cli::requireOtherRecording(output, cli.source.getValue());
+  cli::KeptFiles kept;
+  for (auto* input : {&cli.trajectory, &cli.labels, &cli.cameraName})
+    if (input->isSet()) kept.add(input->getValue());
+  for (const std::string& file : {output, objectsFileOf(output)}) kept.requireNone("output", file);
+}
+
 int run(ImportCli& cli)
 {
   const bool checking = cli.check.getValue();
@@ -130,7 +143,7 @@ int run(ImportCli& cli)
   if (!(cli.maxSpeed.getValue() > 0)) throw cli::UsageError("--max-speed: must be > 0 m/s");
   if (!checking && cli.output.getValue().empty())
     throw cli::UsageError("missing argument: -o OUT.rawlog");
-  cli::requireOtherFile(cli.output.getValue(), cli.source.getValue());
+  checkOutput(cli);
   std::string kind = cli.kind.getValue();
   if (kind == kAuto && isRawlog(cli.source.getValue())) kind = kRawlog;
   if (kind != kRawlog && cli.trajectory.isSet())

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../common/CommandLine.h"
+#include "../common/KeptFiles.h"
 #include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "../common/SeveralOutputs.h"
@@ -218,6 +219,18 @@ simulator::Scene sceneOf(Cli& cli, std::uint64_t seed)
   return simulator::readScene(simulator::findScene(name));
 }
 
+/** \exception cli::UsageError If a file of the recording would replace the scene that is read. */
+void checkOutput(Cli& cli)
+{
+  const std::string& name = cli.scene.getValue();
+  if (name == simulator::kRandomRoom) return;
+  cli::KeptFiles kept;
+  kept.add(simulator::findScene(name));
+  const simulator::SimulationFiles files(cli.output.getValue());
+  for (const auto* file : {&files.rawlog, &files.boxes, &files.truth, &files.trajectory})
+    kept.requireNone("output", *file);
+}
+
 /** The scene file that is written beside the recording, if one is asked for.
  * \exception cli::UsageError If it is one of the recording's own files. */
 std::optional<simulator::TextBeside> sceneFileOf(Cli& cli, const simulator::Scene& scene)
@@ -253,6 +266,7 @@ void run(Cli& cli)
   std::ostream& messages = cli::messagesBeside(outputsOf(cli));
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
   const simulator::NoiseFactors noise = noiseFactors(cli);
+  checkOutput(cli);
   simulator::Scene scene = sceneOf(cli, seed);
   const auto sceneFile = sceneFileOf(cli, scene);  // of the room, whatever images are taken in it
   setFrames(cli, scene.options.trajectory);

@@ -160,6 +160,9 @@ TEST_F(QuadmapDetect, NeverReplacesTheRecordingByItsBoxes)
     EXPECT_NE(result.err.find("is the recording itself"), kNotFound) << result.err;
     EXPECT_TRUE(readFile(rawlog) == before) << output;
   }
+  const auto model = run(rawlog + " -o '" + tiny_.model() + "'");
+  EXPECT_EQ(model.status, 2);
+  EXPECT_NE(model.err.find("which is read and stays as it is"), kNotFound) << model.err;
 }
 
 TEST_F(QuadmapDetect, TellsOfImagesWithoutColour)

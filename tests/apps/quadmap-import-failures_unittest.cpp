@@ -4,6 +4,7 @@
 
 #include "../obs/FileSizeLimit.h"
 #include "../sensors/SampleRawlog.h"
+#include "FolderContents.h"
 #include "ImportFixture.h"
 
 using namespace quadmap;
@@ -29,6 +30,27 @@ TEST_F(QuadmapImport, NeverReplacesTheRecordingThatItReads)
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("is the recording itself"), kNotFound) << result.err;
   EXPECT_TRUE(readFile(out_.path("x.rawlog")) == before);
+}
+
+TEST_F(QuadmapImport, NeverReplacesTheBoxesOfTheRecordingThatItReads)
+{
+  ASSERT_EQ(run("tum IN -o OUT/x.rawlog").status, 0);
+  std::filesystem::copy_file(out_.path("x.rawlog"), out_.path("x"));
+  std::filesystem::copy_file(recording_.files.path("groundtruth.txt"), out_.path("gt.tum"));
+  const auto before = contentsOf(out_.folder());
+  for (const auto& [call, part] :
+       {std::pair("OUT/x.rawlog -o OUT/x.objects.rawlog", "has the boxes of the recording"),
+        std::pair("OUT/x.rawlog -o OUT/./x.objects.rawlog", "has the boxes of the recording"),
+        std::pair("OUT/x.objects.rawlog -o OUT/x.rawlog", "would replace the recording itself"),
+        std::pair("OUT/x -o OUT/x.rawlog", "would replace those of the recording"),
+        std::pair("OUT/x.rawlog --trajectory OUT/gt.tum -o OUT/gt.tum", "which is read and stays")})
+  {
+    const auto result = run("rawlog " + std::string(call));
+    EXPECT_EQ(result.status, 2) << call;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(part), kNotFound) << result.err;
+  }
+  EXPECT_TRUE(contentsOf(out_.folder()) == before);
 }
 
 TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)

@@ -156,6 +156,22 @@ TEST(SimulateProgram, WritesTheRandomRoomWithTheRecordingOrNotAtAll)
   EXPECT_EQ(readFile(folder.path("a.objects.gt.json")), readFile(folder.path("b.objects.gt.json")));
 }
 
+TEST(SimulateProgram, KeepsTheSceneThatItReads)
+{
+  const TemporaryFolder folder;
+  for (const auto& [scene, output] :
+       {std::pair("./mine.ini", "mine.ini"), std::pair("./a.objects.gt.json", "a.rawlog")})
+  {
+    folder.write(scene, kRoomText);
+    const auto result = runProgram(
+        folder, std::string(scene) + " -o " + std::string(output) + " --resolution 64x64");
+    EXPECT_EQ(2, result.status) << scene;
+    EXPECT_NE(std::string::npos, result.error.find("which is read and stays")) << result.error;
+    EXPECT_EQ(kRoomText, readFile(folder.path(scene)));
+    std::filesystem::remove(folder.path(scene));
+  }
+}
+
 TEST(SimulateProgram, RefusesASceneFileThatIsOneOfTheRecording)
 {
   const TemporaryFolder folder;
