@@ -4,6 +4,7 @@
 
 #include "ProposalPictures.h"
 #include "common/CommandLine.h"
+#include "common/KeptFiles.h"
 #include "common/ProgressBar.h"
 #include "common/SeveralOutputs.h"
 #include "quadmap/base/OutputFile.h"
@@ -98,11 +99,21 @@ void draw(
   output.text += "wrote " + std::to_string(records.size()) + " pictures into " + folder + "\n";
 }
 
+/** \exception UsageError For an output that would replace what is read. */
+void checkOutput(Cli& cli)
+{
+  cli::KeptFiles kept;
+  kept.add(cli.result.getValue());
+  if (cli.config.isSet()) kept.add(cli.config.getValue());
+  kept.requireNone("output", cli.output.getValue());
+}
+
 void run(Cli& cli)
 {
   const std::string& result = cli.result.getValue();
   const std::filesystem::path truth = cli.output.getValue();
   if (truth.extension() != ".json") throw cli::UsageError("--output: the name must end in .json");
+  checkOutput(cli);
   requirePcl("quadmap-annotate");
   if (!std::filesystem::is_directory(result))
     throw std::runtime_error(result + ": is no folder that quadmap-slam wrote");

@@ -77,6 +77,23 @@ TEST_F(QuadmapAnnotate, AnswersWrongUsageAndInputWithOneLine)
 #endif
 }
 
+TEST_F(QuadmapAnnotate, ReplacesNoFileOfTheRunThatItReads)
+{
+  std::filesystem::create_symlink("objects.json", folder_.path("link.json"));
+  for (const char* name : {"objects.json", "report.json", "link.json"})
+  {
+    const std::string file = folder_.path(name);
+    for (const char* kept : {"objects.json", "report.json"}) folder_.write(kept, kept);
+    const auto result =
+        runProgram("quadmap-annotate", folder_.folder().string() + " -o '" + file + "'");
+    EXPECT_EQ(result.status, 2) << name;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("which is read and stays as it is"), kNotFound) << result.err;
+    for (const char* kept : {"objects.json", "report.json"})
+      EXPECT_EQ(readFile(folder_.path(kept)), kept);
+  }
+}
+
 #ifdef QUADMAP_WITH_PCL
 TEST_F(QuadmapAnnotate, ProposesThingsOnADeskAsTheyAreAndTakesCorrections)
 {
