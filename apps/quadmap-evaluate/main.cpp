@@ -10,6 +10,7 @@
 #include "common/ProgressBar.h"
 #include "common/SeveralOutputs.h"
 #include "quadmap/base/OutputFile.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/dense/DenseCloud.h"
 #include "quadmap/dense/DepthCheck.h"
 #include "quadmap/evaluation/EvaluationReport.h"
@@ -99,7 +100,8 @@ std::optional<std::vector<ObjectRecord>> mapObjectsOf(const std::string& estimat
   return std::nullopt;
 }
 
-void writeReport(Cli& cli, const EvaluationReport& figures)
+/** Writes the page to a file that gets its name later. */
+void writeReport(Cli& cli, const EvaluationReport& figures, const std::string& file)
 {
   ReportTruth truth;
   truth.figures = figures;
@@ -109,7 +111,7 @@ void writeReport(Cli& cli, const EvaluationReport& figures)
   if (figures.reflection && truth.trajectory)
     for (StampedPose& stamped : *truth.trajectory)
       stamped.pose = (*figures.reflection)(stamped.pose);
-  writeTextFile(cli.html.getValue(), reportPage(cli.estimate.getValue(), truth));
+  writeTextFile(file, reportPage(cli.estimate.getValue(), truth));
 }
 
 SelfCheck selfCheck(const std::string& result, const std::optional<std::string>& config)
@@ -186,8 +188,10 @@ void run(Cli& cli)
     std::cerr << "quadmap-evaluate: pose of the map in the true world (x y z yaw pitch roll): "
               << report.T_truth_estimated << "\n";
   cli::messagesBeside(outputsOf(cli)) << toTable(report);
-  if (cli.json.isSet()) writeTextFile(cli.json.getValue(), toJson(report));
-  if (cli.html.isSet()) writeReport(cli, report);
+  OutputGroup files;
+  if (cli.json.isSet()) writeTextFile(files.add(cli.json.getValue()), toJson(report));
+  if (cli.html.isSet()) writeReport(cli, report, files.add(cli.html.getValue()));
+  files.commit();
 }
 }  // namespace
 

@@ -226,6 +226,19 @@ TEST_F(QuadmapEvaluate, LeavesNoJsonWhenItFails)
   EXPECT_EQ(folder_.fileCount(), before);
 }
 
+TEST_F(QuadmapEvaluate, WritesBothFilesOrNone)
+{
+  folder_.write("report.json", R"({"input": {"file": "room.rawlog"}})");
+  std::filesystem::copy(folder_.path("trajectory.tum"), folder_.path("trajectory_odometry.tum"));
+  folder_.write("figures.json", "of an earlier call");
+  const auto before = contentsOf(folder_.folder());
+  const auto result = run(
+      "DIR --objects DIR/gt.json --in-place --json DIR/figures.json --html DIR/none/page.html");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("none/page.html"), kNotFound) << result.err;
+  EXPECT_EQ(contentsOf(folder_.folder()), before);
+}
+
 TEST_F(QuadmapEvaluate, ComparesWithTheDepthImagesWhereTheyAre)
 {
   const auto expectError = [&](const std::string& arguments, int status, const std::string& text)
