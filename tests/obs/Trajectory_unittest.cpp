@@ -25,12 +25,12 @@ double distance(const CPose3D& a, const CPose3D& b)
 TEST(ReadTumTrajectory, ReadsPosesBetweenCommentsAndBlankLines)
 {
   const TemporaryFolder folder;
-  // A quarter turn about z is the quaternion (0, 0, sin 45, cos 45), here not normalised.
+  // A quarter turn about z is the quaternion (0, 0, sin 45, cos 45), here with two decimals.
   const auto trajectory = readTumTrajectory(folder.write(
       "t.tum",
       "# time tx ty tz qx qy qz qw\n\n"
       "1305031102.175304 1 2 3 0 0 0 1\n"
-      "1305031102.211214\t-1.5 2e-1 3 0 0 2 2  # remark\r\n"));
+      "1305031102.211214\t-1.5 2e-1 3 0 0 0.71 0.71  # remark\r\n"));
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_DOUBLE_EQ(trajectory[0].time, 1305031102.175304);
   EXPECT_LT(distance(trajectory[0].pose, CPose3D(1, 2, 3, 0, 0, 0)), 1e-12);
@@ -41,15 +41,18 @@ TEST(ReadTumTrajectory, NamesFileAndLineOfWhatIsWrong)
 {
   const TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases{
-      {      "1 2 3 4 0 0 1",     "expected 8 columns, got 7"},
-      {  "1 2 3 4 0 0 0 1 9",     "expected 8 columns, got 9"},
-      {    "1,2,3,4,0,0,0,1",     "expected 8 columns, got 1"},
-      {   "1 2 3 4x 0 0 0 1",   "'4x' is not a finite number"},
-      {  "1 nan 3 4 0 0 0 1",  "'nan' is not a finite number"},
-      {  "1 2 3 4 0 0 inf 1",  "'inf' is not a finite number"},
-      {  "one 2 3 4 0 0 0 1",  "'one' is not a finite number"},
-      {"1e300 2 3 4 0 0 0 1", "'1e300' is no time in seconds"},
-      {    "1 2 3 4 0 0 0 0",            "quaternion is zero"}
+      {      "1 2 3 4 0 0 1",                     "expected 8 columns, got 7"},
+      {  "1 2 3 4 0 0 0 1 9",                     "expected 8 columns, got 9"},
+      {    "1,2,3,4,0,0,0,1",                     "expected 8 columns, got 1"},
+      {   "1 2 3 4x 0 0 0 1",                   "'4x' is not a finite number"},
+      {  "1 nan 3 4 0 0 0 1",                  "'nan' is not a finite number"},
+      {  "1 2 3 4 0 0 inf 1",                  "'inf' is not a finite number"},
+      {  "one 2 3 4 0 0 0 1",                  "'one' is not a finite number"},
+      {"1e300 2 3 4 0 0 0 1",                 "'1e300' is no time in seconds"},
+      {    "1 2 3 4 0 0 0 0",                            "quaternion is zero"},
+      {"1 2 3 4 1e300 0 0 0", "quaternion has the length 1e+300 instead of 1"},
+      {   "1 2 3 4 0 0 0 .7",    "quaternion has the length 0.7 instead of 1"},
+      {    "1 2 3 4 0 0 1 1",   "quaternion has the length 1.41 instead of 1"}
   };
   for (const auto& [line, message] : cases)
   {

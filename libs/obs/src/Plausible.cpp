@@ -36,6 +36,16 @@ std::optional<std::string> whyNoPose(const mrpt::poses::CPose3D& pose, double fa
   return std::nullopt;
 }
 
+std::optional<std::string> whyNoUnitQuaternion(const Eigen::Quaterniond& q)
+{
+  constexpr double kRounding = 0.05;              // of two decimals it is 0.01 at most
+  const double length = q.coeffs().stableNorm();  // the square of 1e300 would be infinite
+  if (length == 0) return "is zero";
+  if (!(std::abs(length - 1) <= kRounding))
+    return mrpt::format("has the length %.3g instead of 1", length);
+  return std::nullopt;
+}
+
 std::optional<std::string> whyNoSize(const Eigen::Vector3d& size)
 {
   for (const double side : {size.x(), size.y(), size.z()})

@@ -65,7 +65,8 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
     throw std::runtime_error(place + ": '" + words[0] + "' is no time in seconds");
   if (!(Eigen::Vector3d(v[1], v[2], v[3]).norm() <= kFarthestPosition))
     throw std::runtime_error(place + ": the position is absurdly far away");
-  if (!(q.norm() > 1e-6)) throw std::runtime_error(place + ": quaternion is zero");
+  if (const auto why = whyNoUnitQuaternion(q))
+    throw std::runtime_error(place + ": quaternion " + *why);
   return {v[0], poseFrom(q.normalized(), {v[1], v[2], v[3]})};
 }
 

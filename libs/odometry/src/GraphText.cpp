@@ -10,6 +10,7 @@
 
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/obs/Plausible.h"
 
 namespace quadmap
 {
@@ -63,6 +64,7 @@ class GraphLines
       fail(line_, "'" + oneLine(entry) + "' is no entry of a pose graph");
     std::vector<std::string> numbers;
     for (std::string word; text >> word; numbers.push_back(word)) requireNumber(word);
+    requireQuaternion(entry, numbers);
     if (startsWith(entry, "VERTEX") && !numbers.empty()) addNode(nodeFrom(numbers[0]));
     for (std::size_t i = 0; startsWith(entry, "EDGE") && i < 2 && i < numbers.size(); ++i)
       ends_.emplace_back(line_, nodeFrom(numbers[i]));
@@ -74,6 +76,18 @@ class GraphLines
     const auto number = parseNumber(word);
     if (!number || !(std::abs(*number) <= kLargest))
       fail(line_, "'" + oneLine(word) + "' is not a number of a pose graph");
+  }
+
+  /** \param numbers Those of an entry. Of too few MRPT's reader tells. */
+  void requireQuaternion(const std::string& entry, const std::vector<std::string>& numbers) const
+  {
+    if (entry != "VERTEX_SE3:QUAT" && entry != "EDGE_SE3:QUAT") return;
+    const std::size_t first = entry == "EDGE_SE3:QUAT" ? 5 : 4;  // behind nodes and a position
+    Eigen::Vector4d q;                                           // x, y, z, w
+    if (numbers.size() < first + 4) return;
+    for (std::size_t i = 0; i < 4; ++i) q[static_cast<int>(i)] = *parseNumber(numbers[first + i]);
+    if (const auto why = whyNoUnitQuaternion(Eigen::Quaterniond(q)))
+      fail(line_, "the quaternion " + *why);
   }
 
   /** \param word A number, see requireNumber(). */

@@ -179,17 +179,20 @@ TEST_F(GraphOdometryFile, WhatIsNoGraphIsAnErrorOnOneLine)
   std::string many;
   for (int i = 0; i <= 400'000; ++i) many += "EDGE3\n";
   const std::pair<std::string, std::string> cases[] = {
-      {                              many,"400000 lines"                                          },
-      {                                "",             "no pose graph, it has no VERTEX3 line"},
-      {                 "VERTEX3 0 1 2\n",                                           "VERTEX3"},
-      {kNodes + "VERTEX3 0 0 0 0 0 0 0\n",           "x.graph:10: node 0 is in line 2 already"},
-      {kNodes + "EDGE3 2 9 1 0 0 0 0 0\n", "x.graph:10: an edge of node 9, which is not there"},
-      {kNodes + "EDGE3 0 1.5 1 0 0 0 0\n",     "x.graph:10: '1.5' is not the number of a node"},
-      {      kNodes + "# TIME 7 100.52\n",         "x.graph:10: node 7 has the time of node 1"},
-      {         kNodes + "# TIME 3 102\n",              "a TIME of node 3, which is not there"},
-      {       kNodes + "# TIME two 102\n",          "x.graph:10: expected # TIME node seconds"},
-      {    std::string("# TIME 0 1\0 2\n",                                                 14),"x.graph:1: has a zero byte"},
-      {            kNodes + noInformation,
+      {                                              many,"400000 lines"                                                          },
+      {                                                "",             "no pose graph, it has no VERTEX3 line"},
+      {                                 "VERTEX3 0 1 2\n",                                           "VERTEX3"},
+      {                kNodes + "VERTEX3 0 0 0 0 0 0 0\n",           "x.graph:10: node 0 is in line 2 already"},
+      {                kNodes + "EDGE3 2 9 1 0 0 0 0 0\n", "x.graph:10: an edge of node 9, which is not there"},
+      {                kNodes + "EDGE3 0 1.5 1 0 0 0 0\n",     "x.graph:10: '1.5' is not the number of a node"},
+      {      kNodes + "VERTEX_SE3:QUAT 9 1 2 3 0 0 0 2\n",
+       "x.graph:10: the quaternion has the length 2 instead of 1"                                             },
+      {kNodes + "EDGE_SE3:QUAT 0 1 1 2 3 0 0 0 0 1 0 0\n",                "x.graph:10: the quaternion is zero"},
+      {                      kNodes + "# TIME 7 100.52\n",         "x.graph:10: node 7 has the time of node 1"},
+      {                         kNodes + "# TIME 3 102\n",              "a TIME of node 3, which is not there"},
+      {                       kNodes + "# TIME two 102\n",          "x.graph:10: expected # TIME node seconds"},
+      {                    std::string("# TIME 0 1\0 2\n",                                                 14),"x.graph:1: has a zero byte"},
+      {                            kNodes + noInformation,
        "the information of the edge between 0 and 1 is not positive definite"                                                   },
   };
   for (const auto& [text, expected] : cases)

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "pcd/Lzf.h"
+#include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/CheckedReader.h"
 #include "quadmap/sensors/EncodedImage.h"
 
@@ -157,7 +158,7 @@ class PcdReader
     Eigen::Vector3d t;
     Eigen::Quaterniond q;
     words >> t.x() >> t.y() >> t.z() >> q.w() >> q.x() >> q.y() >> q.z();
-    if (!words || !t.allFinite() || !(q.norm() > 1e-6)) reject("VIEWPOINT is no pose");
+    if (!words || !t.allFinite() || whyNoUnitQuaternion(q)) reject("VIEWPOINT is no pose");
     cloud_.viewpoint = mrpt::poses::CPose3D::FromRotationAndTranslation(
         Eigen::Matrix3d(q.normalized().toRotationMatrix()), t);
   }

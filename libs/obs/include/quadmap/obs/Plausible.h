@@ -40,6 +40,10 @@ bool isRotation(const Eigen::Matrix3d& R);
 std::optional<std::string> whyNoPose(
     const mrpt::poses::CPose3D& pose, double farthest = kFarthestPosition);
 
+/** The quaternion of a rotation, whose length is 1 but for the digits that a file has. Another
+ * length is that of a number that was cut, or of columns in another order. */
+std::optional<std::string> whyNoUnitQuaternion(const Eigen::Quaterniond& q);
+
 /** \param size Full sizes of an object [m]. */
 std::optional<std::string> whyNoSize(const Eigen::Vector3d& size);
 
