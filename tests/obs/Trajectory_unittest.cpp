@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <ctime>
+#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -71,6 +73,27 @@ TEST(ReadTumTrajectory, ReadsFourHundredThousandPosesAndNoMore)
   const auto path = folder.write("many.tum", lines + "1 0 0 0 0 0 0 1\n");
   const auto error = errorOf([&] { readTumTrajectory(path); });
   EXPECT_NE(error.find(path + ": has more than the 400000 poses"), std::string::npos) << error;
+}
+
+TEST(ReadTumTrajectory, PassesOverBlankLinesAsFastAsTheyAreRead)
+{
+  const TemporaryFolder folder;
+  const auto path = folder.write("t.tum", std::string(8'000'000, '\n') + "1 0 0 0 0 0 0 1\n");
+  const auto secondsOf = [](const auto& work)
+  {
+    const std::clock_t start = std::clock();
+    work();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  std::size_t lines = 0;
+  const double plain = secondsOf(
+      [&]
+      {
+        std::ifstream file(path);
+        for (std::string line; std::getline(file, line);) ++lines;
+      });
+  EXPECT_EQ(lines, 8'000'001u);
+  EXPECT_LT(secondsOf([&] { EXPECT_EQ(readTumTrajectory(path).size(), 1u); }), 4 * plain + 0.2);
 }
 
 TEST(ReadTumTrajectory, NamesAFileThatCannotBeRead)

@@ -7,13 +7,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/InputFile.h"
 #include "quadmap/base/OutputFile.h"
 #include "quadmap/base/OutputSet.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/geometry/PosePosition.h"
 #include "quadmap/obs/Plausible.h"
 #include "quadmap/obs/TimeOrder.h"
@@ -81,9 +82,7 @@ void forEachLine(const std::string& path, const F& f)
   std::string line;
   for (int number = 1, poses = 0; std::getline(file, line); ++number)
   {
-    std::istringstream text(line.substr(0, line.find('#')));
-    std::vector<std::string> words;
-    for (std::string word; text >> word;) words.push_back(word);
+    const auto words = wordsOf(std::string_view(line).substr(0, line.find('#')));
     if (words.empty()) continue;
     if (++poses > kMostPoses)
       throw std::runtime_error(mrpt::format(

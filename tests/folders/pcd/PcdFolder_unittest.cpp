@@ -234,6 +234,7 @@ TEST_F(PcdFolder, RefusesWhatItCannotUse)
   for (int i = 0; i < 5000; ++i) names += " n";
   expect("FIELDS x", "FIELDS" + names + " x", "has too many fields");
   expect("VERSION 0.7", "VERSION " + std::string(2'000'000, '7'), "has a line of more than 1 MB");
+  expect("VERSION 0.7", std::string(1000, '\n'), "is no PCD file");
   expect("WIDTH 32", "WIDTH 99999999999", "has too many points");
   expect("nan nan nan 76", "nan nan x 76", "point 0: 'x' is not a number");
   // x forward, y left, z up, as in the frame of a robot.

@@ -83,9 +83,10 @@ class PcdReader
 
   void readHeader()
   {
-    while (data_.empty())
+    constexpr int kMostLines = 1000;  // a file of nothing but line breaks has more
+    for (int lines = 0; data_.empty(); ++lines)
     {
-      const auto line = nextLine();
+      const auto line = lines < kMostLines ? nextLine() : std::nullopt;
       if (!line) reject("is no PCD file, as it has no line DATA");
       std::istringstream words(*line);
       std::string key;

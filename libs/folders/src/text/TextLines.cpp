@@ -3,11 +3,11 @@
 #include <mrpt/core/format.h>
 
 #include <charconv>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "quadmap/base/InputFile.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/obs/UnusableLines.h"
 
 namespace quadmap
@@ -29,17 +29,16 @@ std::vector<TextLine> readTextLines(const std::string& path, std::vector<std::st
   {
     if (++number == 1 && text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
       text.erase(0, kByteOrderMark.size());
-    TextLine line{path + ":" + std::to_string(number), {}};
+    const auto place = [&] { return path + ":" + std::to_string(number); };
     if (text.find('\0') != std::string::npos)
     {
-      const std::string why = line.place + ": is no text (UTF-16?)";
+      const std::string why = place() + ": is no text (UTF-16?)";
       if (!unusable) throw std::runtime_error(why);
       noteUnusable(*unusable, path, why);
       continue;
     }
-    std::istringstream words(text.substr(0, text.find('#')));
-    for (std::string word; words >> word;) line.words.push_back(word);
-    if (!line.words.empty()) lines.push_back(std::move(line));
+    auto words = wordsOf(std::string_view(text).substr(0, text.find('#')));
+    if (!words.empty()) lines.push_back({place(), std::move(words)});
   }
   if (file.bad()) throw std::runtime_error(path + ": read error");
   return lines;
