@@ -60,6 +60,18 @@ TEST(ErrorText, TellsTheCauseWithoutPlacesInTheSource)
           "OpenCV(4.6.0) ./alloc.cpp:73: error: (-4:Insufficient memory) Failed to allocate 9 "
           "bytes in function 'OutOfMemoryError'\n"),
       "Failed to allocate 9 bytes");
+  const std::string outer =
+      "OpenCV(4.6.0) ./onnx_importer.cpp:1021: error: (-2:Unspecified error) in function "
+      "'handleNode'\n> Node [Conv@ai.onnx]:(onnx_node!Conv_6) parse error: ";
+  EXPECT_EQ(
+      messageOf(outer + "no data\n> \n"),
+      "Node [Conv@ai.onnx]:(onnx_node!Conv_6) parse error: no data");
+  EXPECT_EQ(
+      messageOf(
+          outer + "OpenCV(4.6.0) ./convolution_layer.cpp:383: error: (-215:Assertion failed) "
+                  "inputs.size() != 0 in function 'getMemoryShapes'\n> \n"),
+      "inputs.size() != 0")
+      << "the innermost one";
   EXPECT_EQ(
       messageOf("==== MRPT exception ====\n"
                 "Message:  Exception while parsing typed object 'quadmap::X' from a stream\n"

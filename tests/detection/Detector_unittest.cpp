@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "OnnxFile.h"
 #include "TinyDetector.h"
 #include "quadmap/base/Sha256.h"
 
@@ -127,9 +128,26 @@ TEST(Detector, IsRefusedWithTheFileThatIsWrong)
           folder.path("tiny.names") + ")");
   folder.write("tiny.names", "chair\ncup\n");
   folder.write("tiny.cfg", "[net]\nnonsense\n");
-  EXPECT_TRUE(
-      has(loadingError(tiny.model()),
-          weights + ": OpenCV cannot load it with " + folder.path("tiny.cfg") + ": "));
+  EXPECT_TRUE(has(
+      loadingError(tiny.model()), weights +
+                                      ": is damaged, or of a kind that OpenCV cannot load with " +
+                                      folder.path("tiny.cfg") + " ("));
+}
+
+TEST(Detector, IsRefusedInPlainWordsWhenAPartOfItIsMissing)
+{
+  const TemporaryFolder folder;
+  folder.write("m.names", "chair\n");
+  const std::string model = folder.write(
+      "m.ini", "[detector]\nweights = m.onnx\nlabels = m.names\nwidth = 320\nheight = 320\n");
+  folder.write("m.onnx", onnx::file({onnx::node("Conv", {"in"}, "out")}, ""));
+  const std::string message = loadingError(model);
+  EXPECT_EQ(
+      message.find(folder.path("m.onnx") + ": is damaged, or of a kind that OpenCV cannot load ("),
+      0u)
+      << message;
+  for (const char* inner : {"OpenCV(", "handleNode", "Assertion", ".cpp"})
+    EXPECT_FALSE(has(message, inner)) << message;
 }
 
 TEST(Detector, IsRefusedWhenItIsNoNetwork)

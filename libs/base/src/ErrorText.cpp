@@ -70,15 +70,21 @@ std::string innermost(const std::string& text)
   return text;
 }
 
-/** "OpenCV(4.6.0) file:line: error: (code:name) cause in function 'f'" without all but the cause.
- */
+/** The innermost cause of "OpenCV(4.6.0) file:line: error: (code:name) cause in function 'f'". A
+ * cause of several lines, which may quote another error, stands behind the function instead, each
+ * line with "> " before it; the first one tells. */
 std::string withoutPlace(const std::string& text)
 {
   if (text.rfind("OpenCV(", 0) != 0) return text;
-  const auto error = text.find(" error: (");
-  const auto cause = error == std::string::npos ? error : text.find(") ", error);
-  if (cause == std::string::npos) return text;
-  return text.substr(cause + 2, text.rfind(" in function ") - cause - 2);
+  const auto error = text.find(" error: (", text.rfind("OpenCV("));
+  const auto end = error == std::string::npos ? error : text.find(") ", error);
+  if (end == std::string::npos) return text;
+  const std::string cause = text.substr(end + 2);
+  if (cause.rfind("in function ", 0) != 0) return cause.substr(0, cause.find(" in function "));
+  const auto lines = cause.find("\n> ");
+  if (lines == std::string::npos) return text;
+  const auto begin = lines + 3;
+  return cause.substr(begin, cause.find('\n', begin) - begin);
 }
 
 }  // namespace

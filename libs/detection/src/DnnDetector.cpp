@@ -81,7 +81,8 @@ cv::dnn::Net loadNet(const DetectorModel& model, const ModelFiles& files)
   {
     const std::string with = files.network.empty() ? "" : " with " + files.network;
     throw std::runtime_error(
-        files.weights + ": OpenCV cannot load it" + with + ": " + rootMessage(e));
+        files.weights + ": is damaged, or of a kind that OpenCV cannot load" + with + " (" +
+        rootMessage(e) + ")");
   }
   catch (const std::exception& e)
   {
