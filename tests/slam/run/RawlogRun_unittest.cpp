@@ -143,6 +143,25 @@ TEST_F(RawlogRun, MapFilesHoldTheSameObjects)
   }
 }
 
+TEST_F(RawlogRun, NamesUnknownLabelsInOneLine)
+{
+  auto records = recordsOf(SyntheticRoom(), {8});
+  int number = 0;
+  for (auto& record : records)
+    if (auto* boxes = dynamic_cast<CObservationObjects*>(record.get()))
+      for (auto& object : boxes->objects) object.label = "thing " + std::to_string(++number);
+  ASSERT_EQ(number, 8);
+  const auto request = requestFor(writeObjects(folder_.path("x.rawlog"), records));
+  const auto warnings = runOnRawlog(request).result.warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(
+      warnings[0], request.rawlog +
+                       ": labels that are not in the label table: thing 1, thing 2, thing 3, thing "
+                       "4, thing 5 and 3 more; neutral properties are used");
+  for (std::size_t i = 1; i < warnings.size(); ++i)
+    EXPECT_EQ(warnings[i].find("thing"), std::string::npos) << warnings[i];
+}
+
 TEST_F(RawlogRun, ReportSaysWhatHappened)
 {
   SyntheticRoom room;

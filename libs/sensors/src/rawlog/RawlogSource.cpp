@@ -8,6 +8,7 @@
 
 #include "InputError.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/obs/FrameAgreement.h"
 #include "quadmap/obs/PixelLabels.h"
 #include "quadmap/sensors/RawlogNames.h"
@@ -232,11 +233,10 @@ void RawlogSource::Impl::addPixelLabels(RgbdFrame& frame)
 
 void RawlogSource::Impl::tellUnknownPixelLabels()
 {
-  std::string names;
-  for (const auto& name : unknownPixelLabels_) names += (names.empty() ? "" : ", ") + name;
-  if (!names.empty())
+  if (!unknownPixelLabels_.empty())
     warnOnce(
-        reader.file() + ": pixel labels that are not in the label table are no objects: " + names);
+        reader.file() + ": pixel labels that are not in the label table are no objects: " +
+        firstFew(unknownPixelLabels_));
 }
 
 void RawlogSource::Impl::tellLeftOut(const std::string& file, std::uint64_t bytes)

@@ -4,6 +4,7 @@
 
 #include "keyframes/BoxCounts.h"
 #include "quadmap/base/ErrorText.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/sensors/RgbdScan.h"
 
 namespace quadmap
@@ -160,6 +161,7 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bo
     warnOfInput(text + " and were left out");
   settle();
   requireInstanceIds();
+  warnOfUnknownLabels();
   warnOfDoubtfulPoses();
   warnOfMissingDepth();
   warnOfDroppedFloors();
@@ -230,16 +232,19 @@ void ObjectSlam::requireInstanceIds() const
 /** Notes what is new in the boxes of a keyframe. */
 void ObjectSlam::lookThrough(const CObservationObjects& boxes)
 {
-  warnOfUnknownLabels(boxes);
-  for (const auto& object : boxes.objects) anyInstanceId_ |= object.instanceId.has_value();
+  for (const auto& object : boxes.objects)
+  {
+    anyInstanceId_ |= object.instanceId.has_value();
+    if (!labels_.properties(object.label).known) unknownLabels_.insert(object.label);
+  }
 }
 
-void ObjectSlam::warnOfUnknownLabels(const CObservationObjects& boxes)
+void ObjectSlam::warnOfUnknownLabels()
 {
-  for (const auto& object : boxes.objects)
-    if (!labels_.properties(object.label).known && unknownLabels_.insert(object.label).second)
-      warnOfInput(
-          "label \"" + object.label + "\" is not in the label table: neutral properties are used");
+  if (!unknownLabels_.empty())
+    warnOfInput(
+        "labels that are not in the label table: " + firstFew(unknownLabels_) +
+        "; neutral properties are used");
 }
 
 void ObjectSlam::warnOfInput(const std::string& text)

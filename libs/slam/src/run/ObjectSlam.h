@@ -129,7 +129,7 @@ class ObjectSlam : public mrpt::system::COutputLogger
   static void leaveOutAnonymous(CObservationObjects& boxes);
   void requireInstanceIds() const;
   void lookThrough(const CObservationObjects& boxes);
-  void warnOfUnknownLabels(const CObservationObjects& boxes);
+  void warnOfUnknownLabels();
 
   // The stages. Each is called from one thread at a time.
   std::vector<StagePipeline::Stage> stages();
