@@ -13,6 +13,17 @@ TEST(WordsOf, StandBetweenBlanks)
   for (const char* nothing : {"", " ", "\t \r"}) EXPECT_TRUE(wordsOf(nothing).empty());
 }
 
+TEST(QuotedWord, ShowsTheBeginningOfALongWord)
+{
+  EXPECT_EQ(quotedWord("1.5x"), "'1.5x'");
+  EXPECT_EQ(quotedWord(std::string(60, 'a')), "'" + std::string(60, 'a') + "'");
+  EXPECT_EQ(quotedWord(std::string(1'000'000, 'a')), "'" + std::string(60, 'a') + "...'");
+  EXPECT_EQ(
+      quotedWord(std::string(59, 'a') + "\xC3\xA4" + "b"), "'" + std::string(59, 'a') + "...'")
+      << "letters stay whole";
+  EXPECT_EQ(quotedWord("\x1b[2J"), "'?[2J'");
+}
+
 TEST(FirstFew, TellHowManyMoreThereAre)
 {
   std::set<std::string> names{"e", "b", "a"};

@@ -31,6 +31,8 @@ std::vector<std::string> wordsOf(std::string_view line)
   return words;
 }
 
+std::string quotedWord(const std::string& word) { return "'" + shortened(word) + "'"; }
+
 std::string firstFew(const std::set<std::string>& names)
 {
   constexpr std::size_t kFew = 5;

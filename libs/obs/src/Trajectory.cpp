@@ -50,7 +50,7 @@ double parseNumber(const std::string& word, const std::string& place)
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end || !std::isfinite(value))
-    throw std::runtime_error(place + ": '" + word + "' is not a finite number");
+    throw std::runtime_error(place + ": " + quotedWord(word) + " is not a finite number");
   return value;
 }
 
@@ -63,7 +63,7 @@ StampedPose parsePose(const std::vector<std::string>& words, const std::string& 
   for (std::size_t i = 0; i < kColumns; ++i) v[i] = parseNumber(words[i], place);
   const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);  // Eigen's constructor starts with w
   if (!(std::abs(v[0]) <= kLatestTime))
-    throw std::runtime_error(place + ": '" + words[0] + "' is no time in seconds");
+    throw std::runtime_error(place + ": " + quotedWord(words[0]) + " is no time in seconds");
   if (!(Eigen::Vector3d(v[1], v[2], v[3]).norm() <= kFarthestPosition))
     throw std::runtime_error(place + ": the position is absurdly far away");
   if (const auto why = whyNoUnitQuaternion(q))

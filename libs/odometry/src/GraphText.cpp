@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ConfigCheck.h"
-#include "quadmap/base/ErrorText.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/obs/Plausible.h"
 
 namespace quadmap
@@ -60,8 +60,7 @@ class GraphLines
     static const std::set<std::string> known = {
         "VERTEX", "VERTEX2",  "VERTEX_SE2", "VERTEX3",       "VERTEX_SE3:QUAT", "EDGE",
         "EDGE2",  "EDGE_SE2", "EDGE3",      "EDGE_SE3:QUAT", "EQUIV",           "FIX"};
-    if (known.count(entry) == 0)
-      fail(line_, "'" + oneLine(entry) + "' is no entry of a pose graph");
+    if (known.count(entry) == 0) fail(line_, quotedWord(entry) + " is no entry of a pose graph");
     std::vector<std::string> numbers;
     for (std::string word; text >> word; numbers.push_back(word)) requireNumber(word);
     requireQuaternion(entry, numbers);
@@ -75,7 +74,7 @@ class GraphLines
     constexpr double kLargest = 1e15;  // of a coordinate or an information
     const auto number = parseNumber(word);
     if (!number || !(std::abs(*number) <= kLargest))
-      fail(line_, "'" + oneLine(word) + "' is not a number of a pose graph");
+      fail(line_, quotedWord(word) + " is not a number of a pose graph");
   }
 
   /** \param numbers Those of an entry. Of too few MRPT's reader tells. */
@@ -94,7 +93,7 @@ class GraphLines
   TNodeID nodeFrom(const std::string& word) const
   {
     if (word.find_first_not_of("0123456789") != std::string::npos)
-      fail(line_, "'" + word + "' is not the number of a node");
+      fail(line_, quotedWord(word) + " is not the number of a node");
     return std::stoull(word);
   }
 

@@ -175,8 +175,8 @@ TEST_F(BoxFiles, TellsLineAndFileOfWrongLines)
     expectIn(errorOfReading("b.png"), "b.txt:" + what);
   };
   expect("0 0.5 0.5 0.5\n", "1: expected 5 columns, got 4");
-  expect("0 0.5 0.5 0.5 0.5\n80 0.5 0.5 0.5 0.5\n", "2: class 80 is none of the 80 of ");
-  expect("1.5 0.5 0.5 0.5 0.5\n", "1: class 1.5 is none");
+  expect("0 0.5 0.5 0.5 0.5\n80 0.5 0.5 0.5 0.5\n", "2: class '80' is none of the 80 of ");
+  expect("1.5 0.5 0.5 0.5 0.5\n", "1: class '1.5' is none");
   expect("0 0.5 0.5 0.5 0.5x\n", "1: '0.5x' is not a number");
   expect("0 0.1 0.1 0.2 0.1 0.2 0.2 0.1 1.2\n", "1: expected 5 columns, got 9");
   std::string many;

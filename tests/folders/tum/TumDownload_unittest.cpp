@@ -139,7 +139,7 @@ TEST_F(TumDownload, RefusesAbsurdTimes)
   write("rgb.txt", "1e300 rgb/a.png\n");
   EXPECT_EQ(
       errorOf([&] { openFrameFolder("tum", folder_); }),
-      folder_ + "/rgb.txt:1: the time 1e300 must be in 0..1e10 s");
+      folder_ + "/rgb.txt:1: the time '1e300' must be in 0..1e10 s");
 }
 
 TEST_F(TumDownloadOfOtherName, NeedsTheCameraByName)

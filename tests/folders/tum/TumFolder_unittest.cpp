@@ -281,6 +281,9 @@ TEST(TumFolder, RejectsBadCalibrations)
   expect("fx: 1\nfy\n", "is not YAML as OpenCV writes it (line 4)");
   expect(" fx: 1\nfy: 1\n", "is not YAML as OpenCV writes it (line 3)");
   expect("fx: 1\nfx: 1\n", "the key 'fx' stands there twice");
+  const std::string longKey(300, 'k');
+  expect(
+      longKey + ": 1\n" + longKey + ": 1\n", "the key '" + longKey.substr(0, 60) + "...' stands");
   expect("K1: 0.3\n" + calibration, "the key 'K1' is not known; did you mean 'k1'?");
   expect(
       "world-up: 0\n" + calibration, "the key 'world-up' is not known; did you mean 'world_up'?");
@@ -314,7 +317,7 @@ TEST(TumFolder, RejectsMissingAndMalformedLists)
       "associations.txt", "# c\n1.0 rgb/f0.png 1.0\n",
       "associations.txt:2: expected 4 columns, got 3");
   expect("associations.txt", "one rgb/f0.png 1.0 d\n", "associations.txt:1: 'one' is not a number");
-  expect("associations.txt", "1 rgb/f0.png nan d\n", "associations.txt:1: the time nan must be");
+  expect("associations.txt", "1 rgb/f0.png nan d\n", "associations.txt:1: the time 'nan' must be");
   std::string nonsense;
   for (int i = 0; i < 1001; ++i) nonsense += "nonsense\n";
   expect(

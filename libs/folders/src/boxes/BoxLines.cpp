@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "quadmap/base/ShareFiles.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/folders/ClassNames.h"
 #include "text/TextLines.h"
 
@@ -120,7 +121,8 @@ class NamedBoxes : public BoxLines
     const double id = numberIn(line, 0);
     if (!(id >= 0 && id == std::floor(id)))
       throw std::runtime_error(
-          line.place + ": the number of a class is '" + line.words[0] + "', not a whole one");
+          line.place + ": the number of a class is " + quotedWord(line.words[0]) +
+          ", not a whole one");
     const std::size_t end = line.words.size() - kBehindName;
     DetectedObject object;
     object.label = line.words[1];
@@ -128,8 +130,8 @@ class NamedBoxes : public BoxLines
     requireClassName(object.label, line.place);
     if (end == 2 && isNumber(line, 1))
       throw std::runtime_error(
-          line.place + ": the name of a class is '" + object.label +
-          "', a number; YOLO's lines have 5 columns, or 6 with the score, but no number of a "
+          line.place + ": the name of a class is " + quotedWord(object.label) +
+          ", a number; YOLO's lines have 5 columns, or 6 with the score, but no number of a "
           "track");
     object.score = numberIn(line, end);
     object.box = {
@@ -170,8 +172,8 @@ class YoloBoxes : public BoxLines
     const double id = numberIn(line, 0);
     if (!(id >= 0 && id < static_cast<double>(names_.size()) && id == std::floor(id)))
       throw std::runtime_error(mrpt::format(
-          "%s: class %s is none of the %zu of %s", line.place.c_str(), line.words[0].c_str(),
-          names_.size(), namesFile_.c_str()));
+          "%s: class %s is none of the %zu of %s", line.place.c_str(),
+          quotedWord(line.words[0]).c_str(), names_.size(), namesFile_.c_str()));
     DetectedObject object;
     object.label = names_[static_cast<std::size_t>(id)];
     const bool hasScore = columns % 2 == 0;  // as class and pairs of coordinates are an odd number

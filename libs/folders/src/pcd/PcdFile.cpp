@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "pcd/Lzf.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/obs/Plausible.h"
 #include "quadmap/sensors/CheckedReader.h"
 #include "quadmap/sensors/EncodedImage.h"
@@ -271,7 +272,7 @@ class PcdReader
       std::memcpy(to, &bits, sizeof bits);
     }
     if (result.ec == std::errc::invalid_argument || result.ptr != last)
-      reject(mrpt::format("point %zu: '%s' is not a number", point, word.c_str()));
+      reject(mrpt::format("point %zu: %s is not a number", point, quotedWord(word).c_str()));
   }
 
   std::string path_;

@@ -57,7 +57,7 @@ double numberIn(const TextLine& line, std::size_t column)
   double value = 0;
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || stop != word.data() + word.size())
-    throw std::runtime_error(line.place + ": '" + word + "' is not a number");
+    throw std::runtime_error(line.place + ": " + quotedWord(word) + " is not a number");
   return value;
 }
 
@@ -66,7 +66,7 @@ double timeIn(const TextLine& line, std::size_t column)
   const double time = numberIn(line, column);
   if (!(time >= 0 && time <= kLatestTime))
     throw std::runtime_error(
-        line.place + ": the time " + line.words[column] + " must be in 0..1e10 s");
+        line.place + ": the time " + quotedWord(line.words[column]) + " must be in 0..1e10 s");
   return time;
 }
 

@@ -14,6 +14,7 @@
 #include "quadmap/base/ConfigCheck.h"
 #include "quadmap/base/InputFile.h"
 #include "quadmap/base/SimilarWords.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/sensors/DepthUnit.h"
 #include "tum/TumFiles.h"
 
@@ -113,7 +114,7 @@ class FlatYaml
     const std::string key = trim(line.substr(0, colon));
     if (colon == std::string::npos || key.empty() || line[0] == '\t') rejectLine(number);
     const auto [at, isNew] = values_.emplace(key, trim(line.substr(colon + 1)));
-    if (!isNew) reject("the key '" + key + "' stands there twice");
+    if (!isNew) reject("the key " + quotedWord(key) + " stands there twice");
     return &at->second;
   }
 
@@ -156,7 +157,8 @@ void requireNoSlips(const FlatYaml& file)
     if (isOneOf(known, key) || isOneOf(further, key)) continue;
     auto meant = mostSimilar(key, known);
     if (!meant) meant = mostSimilar(mrpt::system::lowerCase(key), known);
-    if (meant) file.reject("the key '" + key + "' is not known; did you mean '" + *meant + "'?");
+    if (meant)
+      file.reject("the key " + quotedWord(key) + " is not known; did you mean '" + *meant + "'?");
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "frames/FolderReader.h"
+#include "quadmap/base/Words.h"
 #include "quadmap/obs/UnusableLines.h"
 #include "text/TextLines.h"
 
@@ -38,7 +39,7 @@ std::string fileIn(const TextLine& line, std::size_t column)
   const fs::path file = fs::path(line.words[column]).lexically_normal();
   if (file.is_absolute() || *file.begin() == "..")
     throw std::runtime_error(
-        line.place + ": '" + line.words[column] + "' must be a path inside the folder");
+        line.place + ": " + quotedWord(line.words[column]) + " must be a path inside the folder");
   return line.words[column];
 }
 
