@@ -6,7 +6,6 @@
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/obs/KeepGreatest.h"
 #include "quadmap/obs/TimeOrder.h"
-#include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
 {
@@ -41,16 +40,13 @@ CObservationObjects::Ptr loadBoxes(
 {
   const auto boxes = folder.boxes(frame);
   if (!boxes) return nullptr;
+  const auto unusable = folder.unusableBoxes(frame, *boxes);
   std::vector<DetectedObject> usable;
-  for (const auto& object : boxes->objects)
-  {
-    const auto& camera = boxes->cameraParams;
-    const auto why = whyUnusable(object.box, object.score, camera.ncols, camera.nrows);
-    if (why)
-      drop(report, options, folder.boxesFile(frame) + ": " + object.label + " " + *why);
+  for (std::size_t i = 0; i < boxes->objects.size(); ++i)
+    if (const auto why = unusable.find(i); why != unusable.end())
+      drop(report, options, why->second);
     else
-      usable.push_back(object);
-  }
+      usable.push_back(boxes->objects[i]);
   const std::size_t found = usable.size();
   if (keepSurest(usable) > 0 && report.crowdedImages++ == 0)
     report.firstCrowded = folder.boxesFile(frame) + " (" + std::to_string(found) + " boxes)";

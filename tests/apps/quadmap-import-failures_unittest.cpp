@@ -73,8 +73,9 @@ TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)
   expect("depth/f3.png", "x", "depth/f3.png: cannot be read as an image");
   expect(
       "detections/f3.txt", "1 cup 1 -1e300 -1e300 1e300 1e300\n",
-      "detections/f3.txt: cup (x1=-1e+300 y1=-1e+300 x2=1e+300 y2=1e+300) reaches far outside");
-  expect("detections/f3.txt", "1 cup 1 9 9 5 5\n", "detections/f3.txt: cup (x1=9 y1=9 x2=5 y2=5)");
+      "detections/f3.txt:1: cup (x1=-1e+300 y1=-1e+300 x2=1e+300 y2=1e+300) reaches far outside");
+  expect(
+      "detections/f3.txt", "1 cup 1 9 9 5 5\n", "detections/f3.txt:1: cup (x1=9 y1=9 x2=5 y2=5)");
   expect("groundtruth.txt", "1 2\n", "groundtruth.txt:1");
   expect(
       "associations.txt",
@@ -87,12 +88,13 @@ TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)
 TEST_F(QuadmapImport, KeepsGoingAndSaysWhatItDropped)
 {
   std::filesystem::remove(recording_.files.path("rgb/f3.png"));
-  recording_.files.write("detections/f1.txt", "1 cup 1 9 9 5 5\n1 cup 1 1 1 5 5\n");
+  recording_.files.write("detections/f1.txt", "\n1 cup 1 1 1 5 5\n1 cup 1 9 9 5 5\n");
   const auto result = run("tum IN -o OUT/x.rawlog --keep-going");
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("dropped: "), kNotFound);
   EXPECT_NE(result.err.find("rgb/f3.png: no such file"), kNotFound) << result.err;
-  EXPECT_NE(result.err.find("is inverted"), kNotFound) << result.err;
+  EXPECT_NE(result.err.find("f1.txt:3: cup (x1=9 y1=9 x2=5 y2=5) is inverted"), kNotFound)
+      << result.err;
   EXPECT_NE(result.out.find("(2 things dropped)"), kNotFound) << result.out;
   const auto frames = readAll(out_.path("x.rawlog"));
   ASSERT_EQ(frames.size(), 5u);

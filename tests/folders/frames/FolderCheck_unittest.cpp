@@ -163,6 +163,7 @@ TEST(FolderCheck, FindsUnusableBoxes)
                                "score",    "far",     "columns"};
   for (std::size_t i = 0; i < boxes.size(); ++i)
     EXPECT_NE(boxes[i].find(parts[i]), std::string::npos) << boxes[i];
+  EXPECT_NE(boxes[3].find("f2.txt:4: d (x1=nan"), std::string::npos) << boxes[3];
 }
 
 TEST(FolderCheck, FindsImagesWithMoreBoxesThanOneMayHave)

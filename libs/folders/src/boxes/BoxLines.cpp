@@ -97,6 +97,13 @@ class BoxLines : public BoxReader
     return file;
   }
 
+  std::vector<std::string> placesOf(const FolderFrame& frame) const override
+  {
+    std::vector<std::string> places;
+    for (const auto& line : readTextLines(fileOf(frame))) places.push_back(line.place);
+    return places;
+  }
+
  protected:
   virtual DetectedObject boxIn(const TextLine& line, const mrpt::img::TCamera& camera) const = 0;
 

@@ -27,6 +27,9 @@ class BoxReader
 
   /** The file that has or should have the boxes of an image, and where in it, for messages. */
   virtual std::string fileOf(const FolderFrame& frame) const = 0;
+  /** Where each box of boxes() stands: file and line, for messages. Empty in a form without lines,
+   * where fileOf() tells the place. */
+  virtual std::vector<std::string> placesOf(const FolderFrame& /*frame*/) const { return {}; }
   virtual std::string description() const = 0;  //!< Form and place, for messages
   /** What is taken for granted and may be wrong; empty when nothing is. */
   virtual std::string note() const { return {}; }

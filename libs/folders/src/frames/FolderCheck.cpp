@@ -13,7 +13,6 @@
 #include <stdexcept>
 
 #include "quadmap/geometry/RobustStatistics.h"
-#include "quadmap/sensors/BoxCheck.h"
 
 namespace quadmap
 {
@@ -60,13 +59,9 @@ try
   const std::string file = folder.boxesFile(frame);
   const auto boxes = folder.boxes(frame);
   if (!boxes) return problems["missing file"].push_back(file);
-  std::size_t usable = 0;
-  for (const auto& object : boxes->objects)
-    if (const auto why = whyUnusable(
-            object.box, object.score, boxes->cameraParams.ncols, boxes->cameraParams.nrows))
-      problems["box"].push_back(file + ": " + object.label + " " + *why);
-    else
-      ++usable;
+  const auto unusable = folder.unusableBoxes(frame, *boxes);
+  for (const auto& [box, why] : unusable) problems["box"].push_back(why);
+  const std::size_t usable = boxes->objects.size() - unusable.size();
   if (usable > CObservationObjects::kMostObjects)
     problems["box"].push_back(mrpt::format(
         "%s: has %zu boxes, of which the %u with the highest scores can be used", file.c_str(),

@@ -12,6 +12,7 @@
 #include "frames/RightHanded.h"
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/geometry/RotationVector.h"
+#include "quadmap/sensors/BoxCheck.h"
 #include "quadmap/sensors/RgbdScan.h"
 
 namespace quadmap
@@ -122,6 +123,24 @@ CObservationObjects::Ptr FrameFolder::boxes(std::size_t index) const
   if (rectification_)
     for (auto& object : boxes->objects) object.box = rectification_->box(object.box);
   return boxes;
+}
+
+std::map<std::size_t, std::string> FrameFolder::unusableBoxes(
+    std::size_t index, const CObservationObjects& boxes) const
+{
+  const auto& camera = boxes.cameraParams;
+  std::map<std::size_t, std::string> reasons;
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < boxes.objects.size(); ++i)
+  {
+    const auto& object = boxes.objects[i];
+    const auto why = whyUnusable(object.box, object.score, camera.ncols, camera.nrows);
+    if (!why) continue;
+    if (reasons.empty() && boxes_) places = boxes_->placesOf(frames().at(index));
+    const std::string place = i < places.size() ? places[i] : boxesFile(index);
+    reasons.emplace(i, place + ": " + object.label + " " + *why);
+  }
+  return reasons;
 }
 
 std::optional<mrpt::poses::CPose3D> FrameFolder::T_world_robot(std::size_t index) const

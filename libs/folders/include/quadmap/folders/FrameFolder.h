@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -129,6 +130,10 @@ class FrameFolder
   CObservationObjects::Ptr boxes(std::size_t frame) const;
   /** The file that has or should have the boxes of a frame, and where in it, for messages. */
   std::string boxesFile(std::size_t frame) const;
+  /** Why boxes of a frame cannot be used, with the place of each: "f1.txt:2: chair (x1=9 ...) is
+   *  inverted". By their indices in `boxes`, which are boxes(frame). */
+  std::map<std::size_t, std::string> unusableBoxes(
+      std::size_t frame, const CObservationObjects& boxes) const;
   /** Whether there are boxes in one file for all images, and none of them is of a frame. */
   bool boxesAreOfOtherImages() const;
 
