@@ -276,6 +276,12 @@ TEST(TumFolder, RejectsBadCalibrations)
   auto up = std::string(SampleRecording::kCalibration);
   up.replace(up.find("0., -1., 0."), 11, "0., 0., 0.");
   expect(up, "'world_up' must be a finite direction");
+  for (const char* rows : {"rows: 2", "rows: 1000000000", "rows: -3", "rows: x"})
+  {
+    up = SampleRecording::kCalibration;
+    up.replace(up.find("rows: 3"), 7, rows);
+    expect(up, "'world_up' must be a matrix of three numbers");
+  }
   expect("world_up: 3\n" + up.substr(0, up.find("world_up")), "'world_up' must be a matrix");
   expect("fx: [ 1, 2\n\tfoo: }", "is not YAML");
   expect("fx: 1\nfy\n", "is not YAML as OpenCV writes it (line 4)");

@@ -162,6 +162,18 @@ void requireNoSlips(const FlatYaml& file)
   }
 }
 
+/** How many numbers an !!opencv-matrix has by its rows and cols; nothing of a list, which states
+ * neither, and 0 when they are no numbers. */
+std::optional<double> statedSize(const std::string& head)
+{
+  std::optional<double> stated;
+  const auto words = wordsOf(head);
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (words[i] == "rows:" || words[i] == "cols:")
+      stated = stated.value_or(1) * FlatYaml::yamlNumber(words[i + 1]).value_or(0);
+  return stated;
+}
+
 /** The numbers between the brackets of an !!opencv-matrix or a list; nothing without the key.
  * \param what The matrix has so many numbers, in words. */
 std::optional<std::vector<double>> matrixAt(
@@ -175,7 +187,8 @@ std::optional<std::vector<double>> matrixAt(
   std::vector<std::string> words;
   if (open != std::string::npos && close != std::string::npos && open < close)
     mrpt::system::tokenize(text->substr(open + 1, close - open - 1), ", \t", words);
-  if (words.size() != size) reject();
+  const auto stated = statedSize(text->substr(0, open));
+  if (words.size() != size || (stated && *stated != static_cast<double>(size))) reject();
   std::vector<double> numbers;
   for (const auto& word : words)
   {
