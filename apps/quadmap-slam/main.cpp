@@ -78,6 +78,7 @@ void printSummary(const RawlogRunSummary& summary)
     std::printf("wrote %s/%s\n", summary.directory.c_str(), name.c_str());
 }
 
+/** Runs it. \return The exit status. \exception RunStoppedEarly See runOnRawlog(). */
 int run(SlamCli& cli)
 {
   if (cli.defaults.isSet()) throw cli::UsageError("--defaults: must be given alone");
@@ -133,6 +134,17 @@ int run(SlamCli& cli)
   return 128 + cli::stopSignal;  // the exit status by which shells report a signal
 }
 
+int runToTheEndOrStop(SlamCli& cli)
+try
+{
+  return run(cli);
+}
+catch (const RunStoppedEarly& e)
+{
+  std::cerr << "quadmap-slam: " << oneLine(e.what()) << "\n";
+  return 128 + cli::stopSignal;  // as of a run that has something to write
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -147,6 +159,6 @@ int main(int argc, char** argv)
           return 0;
         }
         SlamCli cli;
-        return cli.line.parse(argc, argv) ? run(cli) : 0;
+        return cli.line.parse(argc, argv) ? runToTheEndOrStop(cli) : 0;
       });
 }

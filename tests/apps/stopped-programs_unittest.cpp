@@ -268,6 +268,18 @@ TEST_F(StoppedPrograms, SignalsWhileTheResultIsWrittenLoseNothing)
   EXPECT_FALSE(fs::exists(out() + "/.results.partial"));
 }
 
+TEST_F(StoppedPrograms, ARunThatIsStoppedBeforeItsFirstImageTellsTheSignal)
+{
+  for (const int signal : {SIGINT, SIGTERM})
+  {
+    const auto program = start("quadmap-slam", {recording("long"), "-o", out()});
+    waitUntil([&] { return fs::exists(out()); });  // while the program looks through the recording
+    program.send(signal);
+    EXPECT_EQ(program.wait(), 128 + signal) << log();
+    fs::remove_all(out());
+  }
+}
+
 TEST_F(StoppedPrograms, QuitEndsARunAtOnceWithoutTemporaryFiles)
 {
   const auto run = startLongRun();

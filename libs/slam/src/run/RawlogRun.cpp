@@ -174,9 +174,9 @@ class RawlogRun
     const std::string& file = request_.rawlog;
     if (slam_.result().counts().frames == 0)
     {
-      if (interrupted)
-        throw std::runtime_error(
-            source_->failure().value_or(file + ": interrupted before the first image"));
+      if (const auto failure = source_->failure(); interrupted && failure)
+        throw std::runtime_error(*failure);
+      if (interrupted) throw RunStoppedEarly(file + ": interrupted before the first image");
       if (!request_.keepGoing && !source_->problems().empty())  // the survey passed over them
         throw std::runtime_error(source_->problems().front().text());
       throw std::runtime_error(file + ": " + source_->whyNoFrames(request_.sensorLabel));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -64,11 +65,18 @@ struct RawlogRunSummary
   bool interrupted = false;
 };
 
+/** The run was told to stop before it had anything to write. */
+struct RunStoppedEarly : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
 /** Runs ObjectSlam on a rawlog and writes all files of the output directory, which appear together.
  * Two runs into one directory exclude each other.
  * \exception std::invalid_argument If the method cannot continue a map.
  * \exception std::runtime_error For a broken input. The message is one line that names file, record
- * and sensor where they are known. No file is then left behind. */
+ * and sensor where they are known. No file is then left behind.
+ * \exception RunStoppedEarly When shouldStop() ends it before the first image. */
 RawlogRunSummary runOnRawlog(const RawlogRunRequest& request);
 
 }  // namespace quadmap
