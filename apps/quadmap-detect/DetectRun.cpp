@@ -5,11 +5,13 @@
 
 #include <chrono>
 #include <future>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "quadmap/base/ErrorText.h"
 #include "quadmap/base/GzipStream.h"
+#include "quadmap/base/OutputGroup.h"
 #include "quadmap/detection/FrameDetection.h"
 #include "quadmap/review/FramePicture.h"
 #include "quadmap/review/FramePictureFolder.h"
@@ -37,11 +39,11 @@ class DetectRun
       request_(request),
       detector_(detector),
       source_(request.rawlog, sourceOptions(request)),
-      output_(request.output, kCompression),
+      pictures_(picturesOf(request, files_)),
+      output_(files_.add(request.output), kCompression),
       start_(std::chrono::steady_clock::now())
   {
     source_.sendWarningsTo(request.onWarning);
-    if (!request.pictures.empty()) pictures_.emplace(request.pictures);
   }
 
   DetectSummary run()
@@ -56,6 +58,7 @@ class DetectRun
     requireFrames();
     if (pictures_) pictures_->commit();
     output_.commit();
+    files_.commit();
     summary_.framesPerSecond = framesPerSecond();
     for (const auto& problem : source_.problems()) summary_.dropped.push_back(problem.text());
     return summary_;
@@ -69,6 +72,13 @@ class DetectRun
     RgbdFrame frame;
     double progress = 0;
   };
+
+  static std::unique_ptr<FramePictureFolder> picturesOf(
+      const DetectRequest& request, OutputGroup& files)
+  {
+    if (request.pictures.empty()) return nullptr;
+    return std::make_unique<FramePictureFolder>(request.pictures, &files);
+  }
 
   /** Reads the next frame in another thread. */
   std::future<std::optional<ReadFrame>> readAhead()
@@ -140,8 +150,9 @@ class DetectRun
   const DetectRequest& request_;
   Detector& detector_;
   RawlogSource source_;
-  GzipFileWriter output_;
-  std::optional<FramePictureFolder> pictures_;
+  OutputGroup files_;
+  std::unique_ptr<FramePictureFolder> pictures_;  // null when none are drawn
+  GzipFileWriter output_;                         // may lie in the folder made for the pictures
   std::chrono::steady_clock::time_point start_;
   DetectSummary summary_;
 };

@@ -101,6 +101,19 @@ TEST_F(QuadmapDetect, DrawsPictures)
   EXPECT_FALSE(exists("a/b/frame-000003.jpg"));
 }
 
+TEST_F(QuadmapDetect, WritesTheBoxesIntoTheNewFolderOfThePictures)
+{
+  const auto rawlog = writeRecording(3);
+  const std::string arguments =
+      " --draw " + folder_.path("new") + " -o " + folder_.path("new/b.rawlog");
+  EXPECT_EQ(run(folder_.write("bad.rawlog", "nonsense") + arguments).status, 1);
+  EXPECT_FALSE(exists("new")) << "nothing of a run that fails";
+  const auto result = run(rawlog + arguments);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(exists("new/b.rawlog"));
+  EXPECT_TRUE(exists("new/frame-000002.jpg"));
+}
+
 TEST_F(QuadmapDetect, ListsTheModels)
 {
   ::setenv("QUADMAP_MODELS", folder_.folder().c_str(), 1);
