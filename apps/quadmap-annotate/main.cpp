@@ -105,7 +105,7 @@ void checkOutput(Cli& cli)
   cli::KeptFiles kept;
   kept.add(cli.result.getValue());
   if (cli.config.isSet()) kept.add(cli.config.getValue());
-  kept.requireNone("output", cli.output.getValue());
+  kept.requireNone("-o", cli.output.getValue());
 }
 
 void run(Cli& cli)

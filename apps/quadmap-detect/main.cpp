@@ -95,7 +95,7 @@ void run(Cli& cli)
   cli::requireOtherFile(request.output, request.rawlog);
   cli::KeptFiles kept;
   kept.add(cli.model.getValue());
-  kept.requireNone("output", request.output);
+  kept.requireNone("-o", request.output);
   request.pictures = cli.draw.getValue();
   request.sensorLabel = cli.sensor.getValue();
   request.keepGoing = cli.keepGoing.getValue();

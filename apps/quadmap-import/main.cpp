@@ -132,7 +132,7 @@ void checkOutput(ImportCli& cli)
   cli::KeptFiles kept;
   for (auto* input : {&cli.trajectory, &cli.labels, &cli.cameraName})
     if (input->isSet()) kept.add(input->getValue());
-  for (const std::string& file : {output, objectsFileOf(output)}) kept.requireNone("output", file);
+  for (const std::string& file : {output, objectsFileOf(output)}) kept.requireNone("-o", file);
 }
 
 int run(ImportCli& cli)

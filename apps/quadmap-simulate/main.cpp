@@ -6,7 +6,6 @@
 
 #include "../common/CommandLine.h"
 #include "../common/KeptFiles.h"
-#include "../common/OtherFile.h"
 #include "../common/ProgressBar.h"
 #include "../common/SeveralOutputs.h"
 #include "quadmap/base/ConfigCheck.h"
@@ -198,12 +197,13 @@ void report(const std::string& file, const simulator::SimulationSummary& summary
       out << "note: object " << object.id << " (" << object.label << ") is never seen\n";
 }
 
-/** The files that are named on the command line. */
+/** The files that are written, with the option that names them. */
 cli::NamedOutputs outputsOf(Cli& cli)
 {
-  cli::NamedOutputs outputs{
-      {"-o", cli.output.getValue()}
-  };
+  const simulator::SimulationFiles files(cli.output.getValue());
+  cli::NamedOutputs outputs;
+  for (const auto& file : {files.rawlog, files.boxes, files.truth, files.trajectory})
+    outputs.emplace_back("-o", file);
   if (cli.sceneFile.isSet()) outputs.emplace_back("--write-scene", cli.sceneFile.getValue());
   return outputs;
 }
@@ -219,31 +219,24 @@ simulator::Scene sceneOf(Cli& cli, std::uint64_t seed)
   return simulator::readScene(simulator::findScene(name));
 }
 
-/** \exception cli::UsageError If a file of the recording would replace the scene that is read. */
-void checkOutput(Cli& cli)
+/** \exception cli::UsageError If two outputs are one file, or one would replace the scene that is
+ * read. */
+void checkOutputs(Cli& cli)
 {
+  const cli::NamedOutputs outputs = outputsOf(cli);
+  cli::requireDifferentFiles(outputs);
   const std::string& name = cli.scene.getValue();
   if (name == simulator::kRandomRoom) return;
   cli::KeptFiles kept;
   kept.add(simulator::findScene(name));
-  const simulator::SimulationFiles files(cli.output.getValue());
-  for (const auto* file : {&files.rawlog, &files.boxes, &files.truth, &files.trajectory})
-    kept.requireNone("output", *file);
+  for (const auto& [option, output] : outputs) kept.requireNone(option, output);
 }
 
-/** The scene file that is written beside the recording, if one is asked for.
- * \exception cli::UsageError If it is one of the recording's own files. */
+/** The scene file that is written beside the recording, if one is asked for. */
 std::optional<simulator::TextBeside> sceneFileOf(Cli& cli, const simulator::Scene& scene)
 {
   if (!cli.sceneFile.isSet()) return std::nullopt;
-  const std::string& file = cli.sceneFile.getValue();
-  const simulator::SimulationFiles files(cli.output.getValue());
-  for (const auto* other : {&files.rawlog, &files.boxes, &files.truth, &files.trajectory})
-    if (cli::isOneFile(file, *other))
-      throw cli::UsageError(
-          "--write-scene: " + file + " is a file of -o " + files.rawlog +
-          " as well; give it another name");
-  return simulator::TextBeside{file, simulator::sceneText(scene)};
+  return simulator::TextBeside{cli.sceneFile.getValue(), simulator::sceneText(scene)};
 }
 
 /** \exception std::runtime_error If no camera can go the scene's way; names its file. */
@@ -262,11 +255,10 @@ catch (const std::runtime_error& e)
 
 void run(Cli& cli)
 {
-  cli::requireDifferentFiles(outputsOf(cli));
+  checkOutputs(cli);
   std::ostream& messages = cli::messagesBeside(outputsOf(cli));
   const auto seed = wholeNumber("--seed", cli.seed.getValue(), 0, 999999999999999999ULL);
   const simulator::NoiseFactors noise = noiseFactors(cli);
-  checkOutput(cli);
   simulator::Scene scene = sceneOf(cli, seed);
   const auto sceneFile = sceneFileOf(cli, scene);  // of the room, whatever images are taken in it
   setFrames(cli, scene.options.trajectory);

@@ -88,7 +88,7 @@ TEST_F(QuadmapAnnotate, ReplacesNoFileOfTheRunThatItReads)
         runProgram("quadmap-annotate", folder_.folder().string() + " -o '" + file + "'");
     EXPECT_EQ(result.status, 2) << name;
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
-    EXPECT_NE(result.err.find("which is read and stays as it is"), kNotFound) << result.err;
+    EXPECT_NE(result.err.find("-o: " + file + " is "), kNotFound) << result.err;
     for (const char* kept : {"objects.json", "report.json"})
       EXPECT_EQ(readFile(folder_.path(kept)), kept);
   }

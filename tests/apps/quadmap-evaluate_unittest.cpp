@@ -232,8 +232,8 @@ TEST_F(QuadmapEvaluate, WritesBothFilesOrNone)
   std::filesystem::copy(folder_.path("trajectory.tum"), folder_.path("trajectory_odometry.tum"));
   folder_.write("figures.json", "of an earlier call");
   const auto before = contentsOf(folder_.folder());
-  const auto result = run(
-      "DIR --objects DIR/gt.json --in-place --json DIR/figures.json --html DIR/none/page.html");
+  const auto result =
+      run("DIR --objects DIR/gt.json --in-place --json DIR/figures.json --html DIR/none/page.html");
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("none/page.html"), kNotFound) << result.err;
   EXPECT_EQ(contentsOf(folder_.folder()), before);

@@ -184,8 +184,7 @@ TEST(SimulateProgram, RefusesASceneFileThatIsOneOfTheRecording)
     EXPECT_EQ(2, result.status) << name;
     EXPECT_EQ(
         "quadmap-simulate: --write-scene: " + std::string(name) +
-            " is a file of -o a.rawlog as well; give it another name "
-            "(see quadmap-simulate --help)\n",
+            " is the file of -o as well; give each its own (see quadmap-simulate --help)\n",
         result.error);
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path("a.rawlog")));
