@@ -123,14 +123,28 @@ bool isRawlog(const std::string& source)
   return name.extension() == ".rawlog";
 }
 
+/** \exception UsageError If the output would replace an image or a list of the folder that is read.
+ * A rawlog may lie there, as no image or list is one. */
+void requireNoFileOfFolder(const std::string& output, const std::string& source)
+{
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (isRawlog(output) || !fs::is_directory(source, ignored) || !fs::exists(output, ignored))
+    return;
+  const fs::path folder = fs::canonical(output, ignored).parent_path();
+  if (fs::equivalent(folder, source, ignored))
+    throw cli::UsageError("-o: " + output + " is a file of the recording, which stays as it is");
+}
+
 /** \exception UsageError For an output that would replace what is read. */
 void checkOutput(ImportCli& cli)
 {
   const std::string& output = cli.output.getValue();
   if (output.empty()) return;  // nothing is written
   cli::requireOtherRecording(output, cli.source.getValue());
+  requireNoFileOfFolder(output, cli.source.getValue());
   cli::KeptFiles kept;
-  for (auto* input : {&cli.trajectory, &cli.labels, &cli.cameraName})
+  for (auto* input : {&cli.trajectory, &cli.labels, &cli.cameraName, &cli.detections})
     if (input->isSet()) kept.add(input->getValue());
   for (const std::string& file : {output, objectsFileOf(output)}) kept.requireNone("-o", file);
 }

@@ -53,6 +53,19 @@ TEST_F(QuadmapImport, NeverReplacesTheBoxesOfTheRecordingThatItReads)
   EXPECT_TRUE(contentsOf(out_.folder()) == before);
 }
 
+TEST_F(QuadmapImport, NeverReplacesAFileOfTheFolderThatItReads)
+{
+  const auto before = contentsOf(recording_.files.folder());
+  for (const char* file :
+       {"groundtruth.txt", "./associations.txt", "detections/../rgb/../groundtruth.txt"})
+  {
+    const auto result = run(std::string("tum IN -o IN/") + file);
+    EXPECT_EQ(result.status, 2) << file;
+    EXPECT_NE(result.err.find("is a file of the recording"), kNotFound) << result.err;
+  }
+  EXPECT_TRUE(contentsOf(recording_.files.folder()) == before);
+}
+
 TEST_F(QuadmapImport, BadInputGivesOneLineAndNoOutput)
 {
   const auto expect = [&](const std::string& file, const std::string& text, const std::string& part)

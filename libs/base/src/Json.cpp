@@ -74,7 +74,7 @@ class TreeLimit : public nlohmann::json_sax<Json>
  private:
   bool add(std::size_t bytes)
   {
-    // 20,000 keyframes with 25 boxes each, or 100,000 objects of a map with 8 labels each.
+    // 20,000 keyframes with 24 boxes each, or 100,000 objects of a map with 8 labels each.
     constexpr std::size_t kMostBytes = 700'000'000;
     bytes_ += bytes;
     if (bytes_ > kMostBytes) throw std::runtime_error("holds too many values");

@@ -226,8 +226,12 @@ TEST_F(PcdFolder, RefusesWhatItCannotUse)
   expect("SIZE 4 4 4 1", "SIZE -4 4 4 1", "each SIZE of the header must be 1, 2, 4 or 8");
   expect("COUNT 1 1 1 1", "COUNT 1 1 1 -1", "each COUNT of the header must be in 1..4096");
   expect("COUNT 1 1 1 1", "COUNT 1 1 1 4000", "ends before its last point");
-  for (const char* q : {"0", "1e300", "2"})
-    expect("VIEWPOINT 0 0 0 1", std::string("VIEWPOINT 0 0 0 ") + q, "VIEWPOINT is no pose");
+  expect("VIEWPOINT 0 0 0 1", "VIEWPOINT 0 0 0 x", "VIEWPOINT is no pose");
+  expect("VIEWPOINT 0 0 0 1", "VIEWPOINT 0 0 0 0", "the quaternion of VIEWPOINT is zero");
+  for (const char* q : {"1e300", "2", "0.94"})
+    expect(
+        "VIEWPOINT 0 0 0 1", std::string("VIEWPOINT 0 0 0 ") + q,
+        "the quaternion of VIEWPOINT has the length");
   expect("HEIGHT 24", "HEIGHT 25", "ends before its last point");
   expect("HEIGHT 24", "HEIGHT 24000\nCOUNT 1 1 1 4000 1", "has points of more than 256 MB");
   std::string names;

@@ -108,7 +108,8 @@ void takePoses(FolderContent& content, const std::string& file, double maxGap)
   try
   {
     const Trajectory trajectory = readTrajectoryInOrder(file, content.posesProblems);
-    noteIfCut(content, file);
+    if (const auto warning = warningOfCut(file); !warning.empty())
+      content.notes.push_back(file + ": " + warning);
     content.posesAreRefused = trajectory.empty() && !content.posesProblems.empty();
     for (auto& frame : content.frames)
       frame.T_world_optical = poseAt(trajectory, frame.time, maxGap);
@@ -118,12 +119,6 @@ void takePoses(FolderContent& content, const std::string& file, double maxGap)
     content.posesProblems = {e.what()};
     content.posesAreRefused = true;
   }
-}
-
-void noteIfCut(FolderContent& content, const std::string& file)
-{
-  if (const auto warning = warningOfCut(file); !warning.empty())
-    content.notes.push_back(file + ": " + warning);
 }
 
 void requireFrames(const FolderContent& content, const std::string& without)

@@ -44,9 +44,6 @@ void takeDepthAsRegistered(FolderContent& content);
  * be used, be it the file or lines of it, becomes the content's posesProblems, as the rest can. */
 void takePoses(FolderContent& content, const std::string& file, double maxGap);
 
-/** Makes a note of a list that may be cut off. */
-void noteIfCut(FolderContent& content, const std::string& file);
-
 /** \param without What is to be said of a folder without frames.
  * \exception std::runtime_error If there is none; says so, or why the first could not be used. */
 void requireFrames(const FolderContent& content, const std::string& without);

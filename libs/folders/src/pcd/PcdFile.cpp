@@ -84,11 +84,11 @@ class PcdReader
 
   void readHeader()
   {
-    constexpr int kMostLines = 1000;  // a file of nothing but line breaks has more
+    constexpr int kMostLines = 1000;  // of a header; a file of nothing but line breaks has more
     for (int lines = 0; data_.empty(); ++lines)
     {
       const auto line = lines < kMostLines ? nextLine() : std::nullopt;
-      if (!line) reject("is no PCD file, as it has no line DATA");
+      if (!line) reject("is no PCD file, as its first lines have no DATA");
       std::istringstream words(*line);
       std::string key;
       words >> key;
@@ -160,7 +160,8 @@ class PcdReader
     Eigen::Vector3d t;
     Eigen::Quaterniond q;
     words >> t.x() >> t.y() >> t.z() >> q.w() >> q.x() >> q.y() >> q.z();
-    if (!words || !t.allFinite() || whyNoUnitQuaternion(q)) reject("VIEWPOINT is no pose");
+    if (!words || !t.allFinite()) reject("VIEWPOINT is no pose");
+    if (const auto why = whyNoUnitQuaternion(q)) reject("the quaternion of VIEWPOINT " + *why);
     cloud_.viewpoint = mrpt::poses::CPose3D::FromRotationAndTranslation(
         Eigen::Matrix3d(q.normalized().toRotationMatrix()), t);
   }

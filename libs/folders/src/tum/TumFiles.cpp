@@ -71,7 +71,6 @@ std::vector<Item> readList(
       noteUnusable(unusable, path, e.what());
     }
   content.listProblems.insert(content.listProblems.end(), unusable.begin(), unusable.end());
-  noteIfCut(content, path);
   return items;
 }
 

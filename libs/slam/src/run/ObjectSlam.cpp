@@ -160,8 +160,8 @@ void ObjectSlam::finish(const CQuadricObjectMap* earlier, const std::function<bo
   else if (const auto text = odometry_.missingPoses(); !text.empty())
     warnOfInput(text + " and were left out");
   settle();
-  requireInstanceIds();
   warnOfUnknownLabels();
+  requireInstanceIds();
   warnOfDoubtfulPoses();
   warnOfMissingDepth();
   warnOfDroppedFloors();
@@ -241,10 +241,11 @@ void ObjectSlam::lookThrough(const CObservationObjects& boxes)
 
 void ObjectSlam::warnOfUnknownLabels()
 {
-  if (!unknownLabels_.empty())
-    warnOfInput(
-        "labels that are not in the label table: " + firstFew(unknownLabels_) +
-        "; neutral properties are used");
+  if (unknownLabels_.empty()) return;
+  warnOfInput(
+      "labels that are not in the label table: " + firstFew(unknownLabels_) +
+      "; neutral properties are used");
+  for (const auto& label : unknownLabels_) MRPT_LOG_DEBUG_STREAM("no known label: " << label);
 }
 
 void ObjectSlam::warnOfInput(const std::string& text)

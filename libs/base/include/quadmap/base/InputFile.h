@@ -19,7 +19,7 @@ void requireNoDevice(const std::string& path);
 std::ifstream openModestText(
     const std::string& path, std::uintmax_t mostBytes = std::uintmax_t{1} << 20);
 
-/** A list of numbers that was cut off within its last one is read with a shorter number. Other
+/** A file of numbers that was cut off within its last one is read with a shorter number. Other
  * programs may leave the last line break out, so that it is no error.
  * \return What to warn of, without the path, when a text ends within a line; else "". */
 std::string warningOfCut(const std::string& path);
