@@ -196,6 +196,27 @@ TEST_F(BenchmarkScripts, ListTheJobsForAnotherScheduler)
   EXPECT_TRUE(isDone("simulated.home.3.rgbd.ground-truth"));
 }
 
+TEST_F(BenchmarkScripts, AListWhileTheyRunTakesNoJobFromThem)
+{
+  // The first scene that is simulated asks for a list of other jobs.
+  addProgram(
+      "quadmap-simulate",
+      "while [[ $1 != -o ]]; do shift; done\n"
+      "touch \"$2\"\n"
+      "echo '{\"objects\": []}' >\"${2%.rawlog}.objects.gt.json\"\n"
+      "echo '1 0 0 0 0 0 0 1' >\"${2%.rawlog}.groundtruth.tum\"\n"
+      "mkdir '" +
+          folder_.path("asked") +
+          "' 2>/dev/null || exit 0\n" QUADMAP_SOURCE_DIR "/share/quadmap/benchmark/run --bin '" +
+          folder_.path("bin") + "' --results '" + folder_.path("results") +
+          "' --scenes approach,office --seeds 11,12,13 --list >/dev/null");
+  const auto result = run("--scenes home --seeds 1,2,3,4 --methods odometry,rgbd --observed ''");
+  ASSERT_EQ(result.status, 0) << result.err;
+  ASSERT_TRUE(std::filesystem::exists(folder_.path("asked")));
+  EXPECT_EQ(folders(), 4u * 3);
+  EXPECT_TRUE(isDone("simulated.home.4.rgbd.ground-truth"));
+}
+
 TEST_F(BenchmarkScripts, AJobNeedsNothingButTheFolderOfItsResults)
 {
   const SampleRecording recording;
