@@ -45,6 +45,7 @@ struct Seen
 {
   ObjectMeasurement measurement;
   double front = 0, back = 0, width = 0, height = 0;  // of the cuboid [m]
+  double turned = 0;                                  // its front from the wall [rad]
   FaceKind backKind = FaceKind::Unknown;
 };
 
@@ -66,6 +67,7 @@ Seen look(
   out.width = 2 * world.semiAxes()[1 - deep];
   out.height = 2 * world.semiAxes().z();
   const bool isPlus = R(0, deep) > 0;
+  out.turned = std::atan2(R(1, deep), R(0, deep)) - (isPlus ? 0 : std::copysign(M_PI, R(1, deep)));
   out.backKind =
       out.measurement.complete->faces[static_cast<std::size_t>(2 * deep) + (isPlus ? 0 : 1)].kind;
   return out;
@@ -215,6 +217,23 @@ TEST(OnWall, ThingsTooFlatToStandOutAreMeasuredToo)
   EXPECT_NEAR(seen.back - seen.front, 0.016, 1e-9) << "the least that is measured";
   EXPECT_NEAR(seen.width, 0.6, 0.02);
   EXPECT_NEAR(seen.height, 0.45, 0.02);
+}
+
+TEST(OnWall, ThingsOnAWallThatTheSegmentationMissesAreMeasuredToo)
+{
+  for (const double noise : {0.007, 0.008, 0.009, 0.010})  // at the wall 5 to 7 cm
+  {
+    const Seen seen = lookAtPicture(0.02, noise);
+    ASSERT_TRUE(seen.measurement.complete) << noise << ": " << seen.measurement.reason;
+    EXPECT_EQ(seen.measurement.reason, "flat on its wall") << noise;
+    EXPECT_NEAR(seen.front, kWall - 0.02, 0.04) << noise;
+    EXPECT_NEAR(seen.width, 0.6, 0.03) << noise;
+    EXPECT_NEAR(seen.height, 0.45, 0.03) << noise;
+    const double sigma = seen.measurement.complete->yawSigma;
+    EXPECT_GT(sigma, 0.015) << noise << ": that of a wall which is seen well";
+    EXPECT_LT(sigma, 0.06) << noise;
+    EXPECT_LT(std::abs(seen.turned), 2 * sigma) << noise;
+  }
 }
 
 }  // namespace quadmap

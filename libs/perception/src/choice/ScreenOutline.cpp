@@ -94,7 +94,6 @@ std::optional<CompleteMeasurement> plateInBox(
     const Eigen::Vector3d& up,
     const PerceptionOptions& options)
 {
-  constexpr double kWallHeading = 0.01;  // sigma of the direction of a wall [rad]
   const Eigen::Vector3d along = up.cross(onWall.wall.n).normalized();
   Eigen::Matrix3d R;
   R << along.cross(up), along, up;  // x out of the wall
@@ -105,7 +104,7 @@ std::optional<CompleteMeasurement> plateInBox(
 
   CompleteMeasurement out;
   out.yawDefined = true;
-  out.yawSigma = kWallHeading;
+  out.yawSigma = onWall.headingSigma;
   const double sigma = surfaceSigma(onFront.z(), options);
   const Eigen::Vector3d semiAxes(
       std::max(kMinHalfSize, 0.5 * onWall.distance), rectangle->halfWidth, rectangle->halfHeight);

@@ -6,6 +6,7 @@
 #include "cloud/BoxCandidates.h"
 #include "cloud/MainCluster.h"
 #include "cloud/ObjectRim.h"
+#include "cloud/WallsBehind.h"
 
 namespace quadmap
 {
@@ -119,6 +120,18 @@ class Segmenter
         [&](const auto& cell) { return belongsToOther(i, cell); });
   }
 
+  /** Of what usually hangs on a wall: the wall behind its box, and how far before it it is. */
+  std::optional<WallDistance> onWallOf(const ObjectTask& task, const ObjectCloud& object) const
+  {
+    if (task.label.support != UsualSupport::Wall) return {};
+    if (task.wall) return distanceFromWall(cloud_, object.inBox, planes_.plane(*task.wall).plane);
+    const auto wall = wallAround(cloud_, planes_, object.box, options_);
+    if (!wall) return {};
+    auto out = distanceFromWall(cloud_, object.inBox, wall->plane);
+    if (out) out->headingSigma = std::max(out->headingSigma, wall->headingSigma);
+    return out;
+  }
+
   Cut cutOut(std::size_t index)
   {
     const ObjectTask& task = tasks_[index];
@@ -128,9 +141,7 @@ class Segmenter
     out.object.coverage = coverageOf(cloud_, boxOf(index));
     out.object.box = boxOf(index);
     out.object.inBox = cloud_.cellsOf(boxOf(index));
-    if (task.wall && task.label.support == UsualSupport::Wall)
-      out.object.onWall =
-          distanceFromWall(cloud_, out.object.inBox, planes_.plane(*task.wall).plane);
+    out.object.onWall = onWallOf(task, out.object);
     if (!candidates_[index])
       candidates_[index].emplace(candidatesIn(cloud_, planes_, task, options_));
     BoxCandidates& candidates = *candidates_[index];

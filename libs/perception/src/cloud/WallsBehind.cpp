@@ -1,6 +1,7 @@
 #include "cloud/WallsBehind.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "cloud/BoxSurroundings.h"
@@ -82,8 +83,9 @@ std::vector<Plane> wallsAround(
 }
 
 /** The vertical plane through what lies on one that is nearly it, by least squares. */
-Plane refined(const Plane& wall, const TolerantPoints& around, const Eigen::Vector3d& up)
+FittedWall refined(const Plane& wall, const TolerantPoints& around, const Eigen::Vector3d& up)
 {
+  constexpr double kAlike = 3;  // depth next to each other errs alike: as one point of its square
   const Eigen::Vector3d along = up.cross(wall.n);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0, alongSquares = 0, products = 0;
@@ -101,15 +103,20 @@ Plane refined(const Plane& wall, const TolerantPoints& around, const Eigen::Vect
       alongSquares += along.dot(off) * along.dot(off);
       products += along.dot(off) * wall.n.dot(off);
     }
-  Plane out;
-  out.n = (alongSquares * wall.n - products * along).normalized();
-  out.d = -out.n.dot(mean);
+  FittedWall out;
+  out.plane.n = (alongSquares * wall.n - products * along).normalized();
+  out.plane.d = -out.plane.n.dot(mean);
+  double squares = 0;
+  for (const auto& p : around)
+    if (p.isOn(wall)) squares += std::pow(out.plane.signedDistance(p.point), 2);
+  out.headingSigma =  // (8.14)
+      kAlike * std::sqrt(squares / count / alongSquares);
   return out;
 }
 
 /** The vertical plane that most of the surroundings lies on, where the segmentation found none:
  * the best through pairs of points in a fixed order. */
-std::optional<Plane> wallThrough(const TolerantPoints& around, const Eigen::Vector3d& up)
+std::optional<FittedWall> wallThrough(const TolerantPoints& around, const Eigen::Vector3d& up)
 {
   constexpr std::size_t kTrials = 60;
   constexpr double kMinBase = 0.2;  // between the two points [m]
@@ -133,8 +140,8 @@ std::optional<Plane> wallThrough(const TolerantPoints& around, const Eigen::Vect
     bestCount = count;
     best = plane;
   }
-  if (best) best = refined(*best, around, up);
-  return best;
+  if (!best) return {};
+  return refined(*best, around, up);
 }
 
 /** Tells beyond which of the two horizontal ends of a box the image goes on. */
@@ -229,8 +236,17 @@ void dropWallsBehind(
   const auto wall = wallThrough(around, planes.up);
   if (!wall) return;
   const auto points = withTolerances(candidates.points, options);
-  if (!isOwnSide(*wall, points) && goesOnBehind(*wall, planes.up, seen, around, points))
-    drop(*wall);
+  if (!isOwnSide(wall->plane, points) && goesOnBehind(wall->plane, planes.up, seen, around, points))
+    drop(wall->plane);
+}
+
+std::optional<FittedWall> wallAround(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ImageBox& box,
+    const PerceptionOptions& options)
+{
+  return wallThrough(surroundings(cloud, planes, box, options), planes.up);
 }
 
 }  // namespace quadmap

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "cloud/BoxCandidates.h"
 #include "quadmap/perception/PerceptionOptions.h"
 
@@ -13,5 +15,20 @@ void dropWallsBehind(
     const ImageBox& box,
     const PerceptionOptions& options,
     BoxCandidates& candidates);
+
+/** A wall and how well its direction is known. */
+struct FittedWall
+{
+  Plane plane;              //!< Optical frame, normal towards the camera
+  double headingSigma = 0;  //!< [rad]
+};
+
+/** The wall that most points around a box lie on, also where the segmentation found none.
+ * \return Nothing when there is no such plane. */
+std::optional<FittedWall> wallAround(
+    const DepthCloud& cloud,
+    const ScenePlanes& planes,
+    const ImageBox& box,
+    const PerceptionOptions& options);
 
 }  // namespace quadmap

@@ -13,8 +13,9 @@ inline bool mayHangOnWall(double distance) { return distance > -0.05 && distance
 /** The wall behind a box and how far before it what the box shows is. */
 struct WallDistance
 {
-  Plane wall;           //!< Optical frame, normal towards the camera
-  double distance = 0;  //!< Median of the middle of the box, from the wall, at least 0 [m]
+  Plane wall;                  //!< Optical frame, normal towards the camera
+  double distance = 0;         //!< Median of the middle of the box, from the wall, at least 0 [m]
+  double headingSigma = 0.01;  //!< Of the wall [rad]: a large one, unless somebody knows better
 };
 
 /** \return Nothing when few depths in the middle of the box are on the wall or before it, no
