@@ -230,10 +230,23 @@ TEST(OnWall, ThingsOnAWallThatTheSegmentationMissesAreMeasuredToo)
     EXPECT_NEAR(seen.width, 0.6, 0.03) << noise;
     EXPECT_NEAR(seen.height, 0.45, 0.03) << noise;
     const double sigma = seen.measurement.complete->yawSigma;
-    EXPECT_GT(sigma, 0.015) << noise << ": that of a wall which is seen well";
+    EXPECT_GT(sigma, 0.015) << noise << ": that of a wall of the segmentation is 0.01";
     EXPECT_LT(sigma, 0.06) << noise;
     EXPECT_LT(std::abs(seen.turned), 2 * sigma) << noise;
   }
+}
+
+TEST(OnWall, WhatStandsOnATableBeforeAWallEndsBeforeIt)
+{
+  SyntheticFrame frame(1.5, 0.3);
+  frame.noise = 0.0012;
+  frame.add(kWall + 0.05, 0.0, 0.0, 0.0, {0.1, 5.0, 2.6});
+  frame.add(kWall - 0.4, 0.0, 0.0, 0.0, {0.8, 1.6, 0.75});
+  frame.add(kWall - 0.2, 0.1, 0.75, 0.0, {0.1, 0.6, 0.5});
+  const Seen seen = look(frame, frame.scan(), frame.detect(2, "picture"));
+  ASSERT_TRUE(seen.measurement.complete) << seen.measurement.reason;
+  EXPECT_NEAR(seen.front, kWall - 0.25, 0.01);
+  EXPECT_LT(seen.back, kWall - 0.05);
 }
 
 }  // namespace quadmap

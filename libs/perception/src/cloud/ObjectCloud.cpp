@@ -120,10 +120,17 @@ class Segmenter
         [&](const auto& cell) { return belongsToOther(i, cell); });
   }
 
-  /** Of what usually hangs on a wall: the wall behind its box, and how far before it it is. */
+  /** Does the object stand on a surface that is no floor? */
+  bool standsOnAThing(const ObjectTask& task) const
+  {
+    return task.support && task.support != planes_.floor && !planes_.plane(*task.support).isFloor;
+  }
+
+  /** Of what usually hangs on a wall, and stands on no table or shelf: the wall behind its box, and
+   * how far before it it is. */
   std::optional<WallDistance> onWallOf(const ObjectTask& task, const ObjectCloud& object) const
   {
-    if (task.label.support != UsualSupport::Wall) return {};
+    if (task.label.support != UsualSupport::Wall || standsOnAThing(task)) return {};
     if (task.wall) return distanceFromWall(cloud_, object.inBox, planes_.plane(*task.wall).plane);
     const auto wall = wallAround(cloud_, planes_, object.box, options_);
     if (!wall) return {};

@@ -82,10 +82,13 @@ std::vector<Plane> wallsAround(
   return out;
 }
 
-/** The vertical plane through what lies on one that is nearly it, by least squares. */
+/** The vertical plane through what lies on one that is nearly it, by least squares, with the sigma
+ * of its direction, (8.14). */
 FittedWall refined(const Plane& wall, const TolerantPoints& around, const Eigen::Vector3d& up)
 {
-  constexpr double kAlike = 3;  // depth next to each other errs alike: as one point of its square
+  // Points next to each other err alike, and those far off are left out: three times what
+  // independent ones would make it is what walls of random rooms are off by.
+  constexpr double kAlike = 3;
   const Eigen::Vector3d along = up.cross(wall.n);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0, alongSquares = 0, products = 0;
@@ -109,8 +112,7 @@ FittedWall refined(const Plane& wall, const TolerantPoints& around, const Eigen:
   double squares = 0;
   for (const auto& p : around)
     if (p.isOn(wall)) squares += std::pow(out.plane.signedDistance(p.point), 2);
-  out.headingSigma =  // (8.14)
-      kAlike * std::sqrt(squares / count / alongSquares);
+  out.headingSigma = kAlike * std::sqrt(squares / count / alongSquares);
   return out;
 }
 

@@ -23,8 +23,8 @@ struct FittedWall
   double headingSigma = 0;  //!< [rad]
 };
 
-/** The wall that most points around a box lie on, also where the segmentation found none.
- * \return Nothing when there is no such plane. */
+/** The vertical plane that more of what is around a box lies on than on others, as far as pairs of
+ * points show, also where the segmentation found none. \return Nothing when too little does. */
 std::optional<FittedWall> wallAround(
     const DepthCloud& cloud,
     const ScenePlanes& planes,

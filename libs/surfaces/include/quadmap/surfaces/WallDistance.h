@@ -15,7 +15,7 @@ struct WallDistance
 {
   Plane wall;                  //!< Optical frame, normal towards the camera
   double distance = 0;         //!< Median of the middle of the box, from the wall, at least 0 [m]
-  double headingSigma = 0.01;  //!< Of the wall [rad]: a large one, unless somebody knows better
+  double headingSigma = 0.01;  //!< Of the wall [rad]; that of a wall of many points
 };
 
 /** \return Nothing when few depths in the middle of the box are on the wall or before it, no
