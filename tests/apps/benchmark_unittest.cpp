@@ -215,6 +215,7 @@ TEST_F(BenchmarkScripts, AListWhileTheyRunTakesNoJobFromThem)
   ASSERT_TRUE(std::filesystem::exists(folder_.path("asked")));
   EXPECT_EQ(folders(), 4u * 3);
   EXPECT_TRUE(isDone("simulated.home.4.rgbd.ground-truth"));
+  EXPECT_EQ(result.err.find("no result of"), kNotFound) << result.err;
 }
 
 TEST_F(BenchmarkScripts, AJobNeedsNothingButTheFolderOfItsResults)
