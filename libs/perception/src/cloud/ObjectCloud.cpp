@@ -123,7 +123,7 @@ class Segmenter
   /** Does the object stand on a surface that is no floor? */
   bool standsOnAThing(const ObjectTask& task) const
   {
-    return task.support && task.support != planes_.floor && !planes_.plane(*task.support).isFloor;
+    return task.support && !planes_.isFloor(*task.support);
   }
 
   /** Of what usually hangs on a wall, and stands on no table or shelf: the wall behind its box, and

@@ -101,13 +101,6 @@ class SupportJudge
     return top == tops_.end() ? nullptr : top->second;
   }
 
-  bool isMainFloor(int i) const { return planes_.floor && *planes_.floor == i; }
-
-  bool isFloor(int i) const
-  {
-    return isMainFloor(i) || (planes_.plane(i).isFloor && !planes_.plane(i).isFurniture);
-  }
-
   /** Is the object under the floor of the frame, as what one sees down a flight of stairs? */
   bool isBelowFloor() const
   {
@@ -124,14 +117,14 @@ class SupportJudge
 
   double usual(int i) const
   {
-    return label_.support == UsualSupport::Floor && isFloor(i) ? kUsual : 0.0;
+    return label_.support == UsualSupport::Floor && planes_.isFloor(i) ? kUsual : 0.0;
   }
 
   /** A low top may be hidden or cut off. But the back of a chair rises a little above the table
    * that the chair was pushed under. */
   double tooLow(int i) const
   {
-    return label_.support == UsualSupport::Floor && !isFloor(i) ? kTooLowOffFloor : 0.0;
+    return label_.support == UsualSupport::Floor && !planes_.isFloor(i) ? kTooLowOffFloor : 0.0;
   }
 
   StandingEvidence evidenceOn(int i) const

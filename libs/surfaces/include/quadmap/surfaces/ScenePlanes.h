@@ -22,6 +22,12 @@ struct ScenePlanes
   std::vector<Eigen::Vector3f> seenThrough;  //!< Samples of known surfaces that are not there [m]
 
   const ScenePlane& plane(int index) const { return all.planes[static_cast<std::size_t>(index)]; }
+
+  /** Is it the floor, or another one that is no thing's top, as a platform? */
+  bool isFloor(int index) const
+  {
+    return floor == index || (plane(index).isFloor && !plane(index).isFurniture);
+  }
 };
 
 /** The up direction when nobody knows it: the normal of the plane that most of the scene lies
