@@ -9,11 +9,10 @@ using namespace quadmap;
 
 namespace
 {
-/** F1 of a random room that is mapped on drifting odometry through all programs.
- * \param noise Factor of the errors of depth. */
-double f1OfRoom(int seed, double noise)
+/** Maps a random room on drifting odometry through all programs: `out` and `out.json` in the
+ * folder. \param noise Factor of the errors of depth. */
+bool mapRoom(const TemporaryFolder& folder, int seed, double noise)
 {
-  const TemporaryFolder folder;
   const auto run = [](const std::string& program, const std::string& arguments)
   {
     const auto result = runProgram(program, arguments);
@@ -21,16 +20,20 @@ double f1OfRoom(int seed, double noise)
     return result.status == 0;
   };
   const std::string rawlog = folder.path("x.rawlog"), out = folder.path("out");
-  const std::string figures = folder.path("figures.json");
-  const bool done = run("quadmap-simulate", "random --seed " + std::to_string(seed) +
-                                                " --resolution 320x240 --frames 80 --depth-noise " +
-                                                std::to_string(noise) + " -o " + rawlog) &&
-                    run("quadmap-slam", rawlog + " -o " + out + " -v warn") &&
-                    run("quadmap-evaluate",
-                        out + " --objects " + folder.path("x.objects.gt.json") + " --trajectory " +
-                            folder.path("x.groundtruth.tum") + " --json " + figures);
-  if (!done) return -1;
-  return nlohmann::json::parse(readFile(figures))["objects"]["f1"];
+  return run("quadmap-simulate", "random --seed " + std::to_string(seed) +
+                                     " --resolution 320x240 --frames 80 --depth-noise " +
+                                     std::to_string(noise) + " -o " + rawlog) &&
+         run("quadmap-slam", rawlog + " -o " + out + " -v warn") &&
+         run("quadmap-evaluate", out + " --objects " + folder.path("x.objects.gt.json") +
+                                     " --trajectory " + folder.path("x.groundtruth.tum") +
+                                     " --json " + out + ".json");
+}
+
+double f1OfRoom(int seed, double noise)
+{
+  const TemporaryFolder folder;
+  if (!mapRoom(folder, seed, noise)) return -1;
+  return nlohmann::json::parse(readFile(folder.path("out.json")))["objects"]["f1"];
 }
 
 // Perception must not count on the noise of one camera: with twice the noise of the room's sensor
@@ -47,6 +50,16 @@ TEST(RandomRoom, TwiceTheNoiseOfDepthCostsFewObjects)
   }
   EXPECT_GE(usual, 0.93);
   EXPECT_GE(twice, usual - 0.075) << "two objects of twenty-seven";
+}
+
+TEST(RandomRoom, ExistenceAndSizesAreComparedWithTheTruth)
+{
+  const TemporaryFolder folder;
+  ASSERT_TRUE(mapRoom(folder, 2, 1));
+  const auto result = runCommand(
+      "python3 " QUADMAP_SOURCE_DIR "/tests/benchmark/existence.py " + folder.path("out"));
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("sizes of true objects are off by"), kNotFound) << result.out;
 }
 
 }  // namespace

@@ -104,10 +104,11 @@ TEST(CQuadricObjectMap, WhatIsFoundInHalfOfTheImagesFromOnePlaceIsThere)
 
 TEST(CQuadricObjectMap, SteadyFalseAlarmsFromOnePlaceAreNotReported)
 {
+  // Things that the detector takes for chairs, of other sizes than chairs.
   const std::vector<TrueObject> all = {
-      cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0),
-      cuboid("chair", {0, 0.8, 0.45}, {0.45, 0.45, 0.9}, 0),
-      cuboid("chair", {0, -0.8, 0.45}, {0.45, 0.45, 0.9}, 0)};
+      cuboid("chair", {0, 0, 0.65}, {0.30, 0.80, 1.3}, 0),
+      cuboid("chair", {0, 1.2, 0.65}, {0.30, 0.80, 1.3}, 0),
+      cuboid("chair", {0, -1.2, 0.65}, {0.30, 0.80, 1.3}, 0)};
   for (const std::size_t count : {1, 2, 3})
   {
     const std::vector<TrueObject> ghosts(all.begin(), all.begin() + static_cast<long>(count));
@@ -121,6 +122,19 @@ TEST(CQuadricObjectMap, SteadyFalseAlarmsFromOnePlaceAreNotReported)
     }
     EXPECT_EQ(map.objects().size(), count);
   }
+}
+
+TEST(CQuadricObjectMap, WhatHasTheUsualSizesIsReportedFromOnePlaceButNotFromOneImage)
+{
+  const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};
+  CQuadricObjectMap map;
+  SyntheticCamera camera(8);
+  const auto T = poseAround(0, 6);
+  map.insertObservation(camera.observe(T, chair), T);
+  ASSERT_EQ(map.objects().size(), 1u);
+  EXPECT_TRUE(map.confirmedObjects().empty());
+  for (int i = 0; i < 4; ++i) map.insertObservation(camera.observe(T, chair), T);
+  EXPECT_EQ(map.confirmedObjects().size(), 1u);
 }
 
 TEST(CQuadricObjectMap, AMissOfWhatIsAlwaysFoundSaysMore)

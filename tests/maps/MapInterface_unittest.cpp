@@ -32,7 +32,7 @@ void expectSame(const CQuadricObjectMap& a, const CQuadricObjectMap& b)
     EXPECT_EQ(x.partialCount, y->partialCount);
     EXPECT_EQ(x.missCount, y->missCount);
     EXPECT_EQ(x.orientationDefined, y->orientationDefined);
-    EXPECT_EQ(x.existenceLogOdds, y->existenceLogOdds);
+    EXPECT_NEAR(x.logOdds(), y->logOdds(), 1e-9);
     EXPECT_EQ(x.confirmed, y->confirmed);
     EXPECT_EQ(x.firstSeen, y->firstSeen);
     EXPECT_EQ(x.lastSeen, y->lastSeen);

@@ -339,7 +339,7 @@ TEST(MapMerging, WhatNeitherMapIsSureOfIsNotReported)
   Room sure = randomRoom(rng);
   sure.push_back(thing(20, "suitcase", CPose3D(4.6, 0, 0.3, 0.2, 0, 0)));
   Room doubtful = sure;
-  doubtful.back().existenceLogOdds = 2;  // both maps of one place make the same mistakes
+  doubtful.back().existenceLogOdds = 0;  // both maps of one place make the same mistakes
   CQuadricObjectMap own = mapOf(doubtful, CPose3D(), rng);
   ASSERT_TRUE(own.withLabel("suitcase").empty());
   CQuadricObjectMap both = own;
@@ -348,7 +348,7 @@ TEST(MapMerging, WhatNeitherMapIsSureOfIsNotReported)
   ASSERT_TRUE(own.mergeMap(mapOf(sure, kOther, rng, kNewer)));
   ASSERT_EQ(own.withLabel("suitcase").size(), 1u);
   EXPECT_EQ(own.objects().size(), sure.size());
-  EXPECT_EQ(own.withLabel("suitcase").front()->existenceLogOdds, 8);
+  EXPECT_EQ(own.withLabel("suitcase").front()->existenceLogOdds, 6);
 }
 
 TEST(MapMerging, KeepsDoubtsOfBothMapsInEitherOrder)
@@ -356,13 +356,13 @@ TEST(MapMerging, KeepsDoubtsOfBothMapsInEitherOrder)
   std::mt19937 rng(9);
   Room room = randomRoom(rng);
   room.push_back(thing(20, "suitcase", CPose3D(4.6, 0, 0.3, 0.2, 0, 0)));
-  room.back().existenceLogOdds = 2;
+  room.back().existenceLogOdds = 0;
   Room later = room;
   later.back().completeCount += 7;
   room.push_back(thing(21, "sink", CPose3D(-4.6, 0, 0.3, 0.2, 0, 0)));
-  room.back().existenceLogOdds = 2;
+  room.back().existenceLogOdds = 0;
   later.push_back(thing(22, "bed", CPose3D(0, 4.6, 0.3, 0.2, 0, 0)));
-  later.back().existenceLogOdds = 2;
+  later.back().existenceLogOdds = 0;
   CQuadricObjectMap ab = mapOf(room, CPose3D(), rng), ba = mapOf(later, kOther, rng, kNewer);
   const CQuadricObjectMap a = ab, b = ba;
   const unsigned newerCount = room[room.size() - 2].observations() + 7;
@@ -387,7 +387,7 @@ TEST(MapMerging, WhatTheOtherMapDoubtsItsOwnOptionsDecide)
   later.push_back(thing(22, "sink", CPose3D(0, 4.6, 0.3, 0.2, 0, 0)));
   later.back().existenceLogOdds = 4;
   CQuadricObjectMap a = mapOf(room, CPose3D(), rng), strict;
-  strict.insertionOptions.existence.confirmLogOdds = 5;
+  strict.insertionOptions.existence.confirmLogOdds = 7;
   const CQuadricObjectMap usual = mapOf(later, kOther, rng, kNewer);
   for (const auto& [id, object] : usual.objects()) strict.addObject(object);
   ASSERT_TRUE(usual.withLabel("sink").size() == 1 && strict.withLabel("sink").empty());

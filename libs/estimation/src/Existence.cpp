@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "quadmap/estimation/ObjectRules.h"
 
@@ -22,6 +23,38 @@ double existenceAfterDetections(double logOdds, double independent, const Existe
 {
   return std::min(
       options.maxLogOdds, logOdds + independent * ExistenceEvidence(options).detection());
+}
+
+double sizeEvidence(
+    const Ellipsoid& object,
+    const UprightCovariance& covariance,
+    const LabelProperties& label,
+    const ExistenceOptions& existence,
+    const EstimatorOptions& estimator)
+{
+  if (!label.known) return 0;
+  Eigen::Vector3d typical = 0.5 * label.typicalSize;
+  const Eigen::Vector3d& sizes = object.semiAxes();
+  // The sizes along x and y are named in the order that fits.
+  if ((sizes[0] - sizes[1]) * (typical[0] - typical[1]) < 0) std::swap(typical[0], typical[1]);
+  const Eigen::Vector3d deviations =
+      (sizes.array() / typical.array()).log().matrix() / label.sizeSpread;
+  const double prior = std::pow(label.sizeSpread * estimator.sizePriorSpread, 2);
+  const double wider = existence.falseAlarmSpread;
+  const auto told = [&](const Eigen::Vector3d& w)  // by the mean with weights w of the logarithms
+  {
+    const double deviation = w.dot(deviations);
+    const double variance = w.dot(covariance.bottomRightCorner<3, 3>() * w);
+    // The label is in the estimate, and what is no surer than it alone was not measured.
+    const double measured = std::max(0.0, 1 - variance / (prior * w.squaredNorm()));
+    return measured * (std::log(wider) - 0.5 * (1 - 1 / (wider * wider)) * deviation * deviation);
+  };
+  double sum = told(Eigen::Vector3d::UnitZ());
+  if (label.dominantDirection)
+    sum += told(Eigen::Vector3d::UnitX()) + told(Eigen::Vector3d::UnitY());
+  else  // what is as deep as wide, (11.18), has one width
+    sum += told({0.5, 0.5, 0});
+  return std::log((1 - existence.oddShare) * std::exp(sum) + existence.oddShare);
 }
 
 std::optional<ImageBox> outlineInImage(

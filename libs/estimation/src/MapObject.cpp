@@ -69,6 +69,6 @@ std::string mostFrequentLabel(const std::map<std::string, unsigned>& counts)
   return best;
 }
 
-double MapObject::existence() const { return 1.0 / (1.0 + std::exp(-existenceLogOdds)); }
+double MapObject::existence() const { return 1.0 / (1.0 + std::exp(-logOdds())); }
 
 }  // namespace quadmap

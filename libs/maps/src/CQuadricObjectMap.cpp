@@ -89,6 +89,7 @@ CreatedMap CQuadricObjectMap::internal_CreateFromMapDefinition(
 void CQuadricObjectMap::setLabels(LabelTable labels)
 {
   labels_ = std::make_shared<const LabelSource>(std::move(labels));
+  for (auto& entry : objects_) weighSize(entry.second);
 }
 
 const LabelTable& CQuadricObjectMap::labels() const { return labels_->table(); }

@@ -42,6 +42,7 @@ ObjectId CQuadricObjectMap::addObject(const MapObject& estimated)
   static_cast<MapObject&>(object) = estimated;
   object.id = nextId_++;
   object.object = ellipsoidOf(uprightStateOf(estimated.object));
+  weighSize(object);
   object.confirmed = isConfirmed(object);
   object.looks = ExistenceLooks(object.existenceLogOdds);
   object.estimator = ObjectEstimator::fromEstimate(
@@ -90,6 +91,7 @@ void CQuadricObjectMap::setSharedError(ObjectId id, const UprightCovariance& err
         "variance");
   object.covariance += error - object.estimator.sharedError();
   object.estimator.setSharedError(error);
+  weighSize(object);
   object.confirmed = isConfirmed(object);
 }
 
@@ -136,6 +138,7 @@ void CQuadricObjectMap::place(ObjectId id, const Ellipsoid& object)
       {uprightStateOf(entry.object), entry.covariance, 0, entry.orientationDefined},
       labels().properties(entry.label()), insertionOptions.estimator);
   entry.doubts.setZero();  // the estimator knows no more than the whole covariance says
+  weighSize(entry);
 }
 
 void CQuadricObjectMap::remove(ObjectId id)
@@ -164,6 +167,7 @@ void CQuadricObjectMap::estimate(Entry& object, bool restart)
   object.orientationDefined = result.orientationDefined;
   object.isRound = result.isRound;
   object.estimator.setRound(result.isRound);
+  weighSize(object);
   object.confirmed = isConfirmed(object);
   object.estimatedFrom = object.observations();
 }

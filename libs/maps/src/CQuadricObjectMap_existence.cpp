@@ -58,7 +58,7 @@ std::set<ObjectId> CQuadricObjectMap::countMisses(
 LookCounts CQuadricObjectMap::tellingLooks(const Entry& object) const
 {
   const auto& existence = insertionOptions.existence;
-  if (object.existenceLogOdds <= existence.confirmLogOdds) return {};
+  if (object.logOdds() <= existence.confirmLogOdds) return {};
   return object.looks.independent(existence);
 }
 
@@ -91,6 +91,7 @@ void CQuadricObjectMap::judge(const std::set<ObjectId>& looked)
     Entry& object = require(id);
     object.existenceLogOdds =
         object.looks.logOdds(detectionProbabilityByOthers(object, ofLabels), existence);
+    weighSize(object);  // the look may have brought another label
     object.confirmed = isConfirmed(object);
   }
 }
@@ -128,10 +129,19 @@ bool CQuadricObjectMap::isShownByAFreeBox(const MapObject& object, const Frame& 
   return false;
 }
 
-/** The list after (13.3). */
+/** What the sizes of an object's estimate say. Doubts make it less certain, not less likely. */
+void CQuadricObjectMap::weighSize(Entry& object) const
+{
+  object.sizeLogOdds = sizeEvidence(
+      object.object, object.covariance - object.doubts, labels().properties(object.label()),
+      insertionOptions.existence, insertionOptions.estimator);
+}
+
+/** The list at the end of "Existence". */
 bool CQuadricObjectMap::isConfirmed(const Entry& object) const
 {
   const auto& existence = insertionOptions.existence;
+  const bool many = object.observations() >= static_cast<unsigned>(existence.minObservations);
   const bool manyComplete = object.completeCount >= static_cast<unsigned>(existence.minComplete);
   const bool manyPartial =
       object.observations() >= static_cast<unsigned>(existence.minPartial) &&
@@ -141,7 +151,7 @@ bool CQuadricObjectMap::isConfirmed(const Entry& object) const
   const double centerSigma = std::sqrt(variances.head<3>().maxCoeff());
   const double sizeSigma =
       variances.tail<3>().cwiseSqrt().cwiseProduct(object.object.semiAxes()).maxCoeff();
-  return object.existenceLogOdds > existence.confirmLogOdds && (manyComplete || manyPartial) &&
+  return object.logOdds() > existence.confirmLogOdds && many && (manyComplete || manyPartial) &&
          labelAgreement(object, object.label(), labels()) >= existence.minLabelShare &&
          centerSigma < existence.maxCenterSigma && sizeSigma < existence.maxSizeSigma;
 }

@@ -9,6 +9,7 @@
 #include "MapLimits.h"
 #include "quadmap/base/ArchiveFields.h"
 #include "quadmap/base/ConfigCheck.h"
+#include "quadmap/estimation/Existence.h"
 #include "quadmap/maps/CQuadricObjectMap.h"
 #include "quadmap/obs/Plausible.h"
 
@@ -188,11 +189,17 @@ void CQuadricObjectMap::serializeTo(CArchive& out) const
   out << nextId_ << static_cast<std::uint32_t>(objects_.size());
   for (const auto& [id, object] : objects_)
   {
-    writeObject(out, object);
+    const LabelProperties label = labels().properties(object.label());
+    // Doubts are not told apart in the archive, and its sizes say less for it: looks make up.
+    MapObject kept = object;
+    kept.existenceLogOdds +=
+        object.sizeLogOdds - sizeEvidence(
+                                 object.object, object.covariance, label,
+                                 insertionOptions.existence, insertionOptions.estimator);
+    writeObject(out, kept);
     writePrior(
         out, object.estimator.summary(
-                 uprightStateOf(object.object), labels().properties(object.label()),
-                 insertionOptions.estimator, object.doubts));
+                 uprightStateOf(object.object), label, insertionOptions.estimator, object.doubts));
   }
   out.WriteAs<std::uint32_t>(objectOfInstance_.size());
   for (const auto& [instance, object] : objectOfInstance_) out << instance << object;
@@ -221,10 +228,13 @@ try
     static_cast<MapObject&>(entry) = object;
     entry.estimator = ObjectEstimator::fromSummary(readPrior(in));
     entry.looks = ExistenceLooks(object.existenceLogOdds);
+    const LabelProperties label = labels->table().properties(object.label());
+    entry.sizeLogOdds = sizeEvidence(
+        object.object, object.covariance, label, insertionOptions.existence,
+        insertionOptions.estimator);
     requireAgreement(
         entry.estimator.pullOfSummary(
-            uprightStateOf(object.object), labels->table().properties(object.label()),
-            insertionOptions.estimator),
+            uprightStateOf(object.object), label, insertionOptions.estimator),
         object);
   }
   for (auto n = readCount(in, kMostStoredObjects, "instances"); n > 0; --n)

@@ -124,6 +124,14 @@ void describeExistence(InsertionOptions& o, OptionList& list)
   list.number(
       "falseAlarmProbability", o.existence.falseAlarmProbability, {0.0001, 0.999}, "",
       "A box appears where nothing is with this probability per frame.");
+  list.number(
+      "falseAlarmSpread", o.existence.falseAlarmSpread, {1, 100}, "spreads of the label",
+      "The sizes of what does not exist spread by so many spreads of its label, and those of what "
+      "exists by one: usual sizes speak for an object. With 1 sizes do not count.");
+  list.number(
+      "oddShare", o.existence.oddShare, {kSmall, 1}, "",
+      "Share of real things whose sizes spread as much as those of false alarms. Its logarithm is "
+      "the most that unusual sizes say against an object.");
   list.angle(
       "independentViewAngle_deg", o.existence.independentViewAngle, {0.001, 180},
       "A look counts in full, whether it shows the object or not, when the camera moved this far "
@@ -146,6 +154,9 @@ void describeConfirmation(InsertionOptions& o, OptionList& list)
   list.number(
       "confirmLogOdds", o.existence.confirmLogOdds, {-1000, 1000}, "ln",
       "Objects are reported above these log-odds of their existence. 2.2 is nine to one.");
+  list.integer(
+      "minObservations", o.existence.minObservations, {1, 1000000}, "",
+      "Objects are reported with this many measurements of any kind: one image may be wrong.");
   list.integer(
       "minComplete", o.existence.minComplete, {1, 1000000}, "",
       "Objects are reported with this many complete measurements.");

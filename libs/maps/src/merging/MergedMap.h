@@ -47,7 +47,7 @@ struct MergedMap
     {
       end = std::max(end, o.object.lastSeen);
       measurements += o.object.observations();
-      logOdds += o.object.existenceLogOdds;
+      logOdds += o.object.logOdds();
     }
     return {end, measurements, logOdds};
   }

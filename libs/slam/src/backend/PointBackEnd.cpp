@@ -192,8 +192,9 @@ MapObject PointBackEnd::mapObjectOf(
   result.covariance.setZero();
   result.covariance.topLeftCorner<3, 3>() = graph.R * object.covariance * graph.R.transpose();
   result.covariance(3, 3) = kAnyYaw;
-  result.covariance.diagonal().tail<3>().setConstant(
-      spread * spread / static_cast<double>(halfSizes[0].size()));
+  // Without a complete measurement the sizes are the label's.
+  const double measured = anyComplete ? static_cast<double>(halfSizes[0].size()) : 1;
+  result.covariance.diagonal().tail<3>().setConstant(spread * spread / measured);
   return result;
 }
 

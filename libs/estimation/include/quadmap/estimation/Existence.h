@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "quadmap/estimation/EstimatorOptions.h"
 #include "quadmap/estimation/MapObject.h"
 #include "quadmap/estimation/Visibility.h"
 #include "quadmap/geometry/ImageBox.h"
@@ -31,6 +32,17 @@ class ExistenceEvidence
 /** Log-odds after so many independent detections, (13.2), bounded by maxLogOdds. */
 double existenceAfterDetections(
     double logOdds, double independent, const ExistenceOptions& options);
+
+/** Log-odds that an object's sizes add to its existence, doc/mathematics.md, (13.8): false alarms
+ * seldom have the usual sizes of their label. Sizes that nothing but the label tells add nothing.
+ * \param covariance Of an estimate with the label's prior (see labelPriorRows).
+ * \return 0 of a label that the table does not know. */
+double sizeEvidence(
+    const Ellipsoid& object,
+    const UprightCovariance& covariance,
+    const LabelProperties& label,
+    const ExistenceOptions& existence,
+    const EstimatorOptions& estimator);
 
 /** When a box that was not joined with an object shows it all the same. */
 struct ShownRule

@@ -50,12 +50,16 @@ struct MapObject
    * that files do not keep it. */
   bool isRound = false;
   double existenceLogOdds = 0;  //!< From measurements and misses
-  bool confirmed = false;       //!< Enough evidence to be reported
+  /** From its sizes, see sizeEvidence(). The estimate and the label tell, so that files do not keep
+   * it. */
+  double sizeLogOdds = 0;
+  bool confirmed = false;  //!< Enough evidence to be reported
   mrpt::Clock::time_point firstSeen, lastSeen;
 
   unsigned observations() const { return completeCount + partialCount; }
   std::string label() const { return mostFrequentLabel(labelCounts); }
-  double existence() const;  //!< Probability, in [0, 1]
+  double logOdds() const { return existenceLogOdds + sizeLogOdds; }  //!< Of its existence
+  double existence() const;                                          //!< Probability, in [0, 1]
 };
 
 }  // namespace quadmap

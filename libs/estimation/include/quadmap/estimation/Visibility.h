@@ -23,6 +23,10 @@ struct ExistenceOptions
    * [independent looks], > 0 */
   double detectionPriorWeight = 10;
   double falseAlarmProbability = 0.1;  //!< pFA: a box where nothing is, in (0, pD)
+  /** The sizes of false alarms spread this much more than those of their label, >= 1. With 1 sizes
+   * do not count. */
+  double falseAlarmSpread = 2;
+  double oddShare = 0.02;  //!< Share of real things whose sizes spread as much, in (0, 1]
   /** A detector repeats a mistake as long as it looks from the same place: a look, be it a
    * detection or a miss, counts in full when the camera has moved by this angle as seen from the
    * object since any other one. */
@@ -31,7 +35,8 @@ struct ExistenceOptions
   double repeatedViewWeight = 0.25;   //!< Share of a repeated look that is independent, in (0, 1]
   double maxLogOdds = 10;             //!< Bound, so that evidence can turn, > 0
   double confirmLogOdds = 2.2;        //!< Reported above this; 2.2 is nine to one
-  int minComplete = 1;                //!< Reported with this many complete measurements, >= 1
+  int minObservations = 2;            //!< Reported with this many measurements of any kind, >= 1
+  int minComplete = 1;                //!< ... of which this many complete, >= 1
   int minPartial = 8;                 //!< ... or with this many measurements of any kind, >= 1
   double maxCenterSigma = 0.2;        //!< Reported below this uncertainty per axis [m], > 0
 

@@ -351,6 +351,7 @@ class CQuadricObjectMap : public mrpt::maps::CMetricMap
   void mergeOverlapping(std::set<ObjectId> touched);
   void estimate(Entry& object, bool restart);
   bool isDue(const Entry& object) const;  // for another estimate
+  void weighSize(Entry& object) const;
   bool isConfirmed(const Entry& object) const;
   Entry& require(ObjectId id);
   MergedMap contents() const;
