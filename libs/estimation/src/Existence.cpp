@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "quadmap/estimation/LabelPrior.h"
 #include "quadmap/estimation/ObjectRules.h"
 
 namespace quadmap
@@ -33,12 +33,9 @@ double sizeEvidence(
     const EstimatorOptions& estimator)
 {
   if (!label.known) return 0;
-  Eigen::Vector3d typical = 0.5 * label.typicalSize;
-  const Eigen::Vector3d& sizes = object.semiAxes();
-  // The sizes along x and y are named in the order that fits.
-  if ((sizes[0] - sizes[1]) * (typical[0] - typical[1]) < 0) std::swap(typical[0], typical[1]);
+  const Eigen::Vector3d logSizes = object.semiAxes().array().log();
   const Eigen::Vector3d deviations =
-      (sizes.array() / typical.array()).log().matrix() / label.sizeSpread;
+      (logSizes - typicalLogSizes(logSizes, label)) / label.sizeSpread;
   const double prior = std::pow(label.sizeSpread * estimator.sizePriorSpread, 2);
   const double wider = existence.falseAlarmSpread;
   const auto told = [&](const Eigen::Vector3d& w)  // by the mean with weights w of the logarithms

@@ -6,13 +6,18 @@
 
 namespace quadmap
 {
+Eigen::Vector3d typicalLogSizes(const Eigen::Vector3d& logSizes, const LabelProperties& label)
+{
+  Eigen::Vector3d typical = (0.5 * label.typicalSize).array().log();
+  if ((logSizes[0] - logSizes[1]) * (typical[0] - typical[1]) < 0)
+    std::swap(typical[0], typical[1]);
+  return typical;
+}
+
 std::array<ResidualRow, kLabelPriorRows> labelPriorRows(
     const Eigen::Vector3d& logSizes, const LabelProperties& label, const EstimatorOptions& options)
 {
-  Eigen::Vector3d expected = (0.5 * label.typicalSize).array().log();
-  // The sizes along x and y are named in the order that fits.
-  if ((logSizes[0] - logSizes[1]) * (expected[0] - expected[1]) < 0)
-    std::swap(expected[0], expected[1]);
+  const Eigen::Vector3d expected = typicalLogSizes(logSizes, label);
   const double spread = label.sizeSpread * options.sizePriorSpread;
 
   std::array<ResidualRow, kLabelPriorRows> rows;

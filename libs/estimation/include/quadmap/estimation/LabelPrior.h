@@ -14,6 +14,10 @@ namespace quadmap
 /** Number of rows that labelPriorRows() gives. */
 constexpr std::size_t kLabelPriorRows = 4;
 
+/** Logarithms of the label's typical half sizes. Those along x and y are named in the order that
+ * fits. \param logSizes (ln a, ln b, ln c) of the object. */
+Eigen::Vector3d typicalLogSizes(const Eigen::Vector3d& logSizes, const LabelProperties& label);
+
 /** What the label alone says of an object's sizes, in standard deviations: three rows of the
  * typical size (doc/mathematics.md, (11.17)) and one row of the roundness (11.18), which is zero
  * when the label has a dominant direction. They come under no robust kernel.
