@@ -55,12 +55,9 @@ CandidateRule::CandidateRule(
     cloud_(cloud), planes_(planes), task_(task), options_(options)
 {
   if (task.support) support_ = &planes.plane(*task.support).plane;
-  // Planes that are not the object's own reach beyond the box. What hangs on a wall covers much of
-  // what is seen of it.
-  const double minOwnShare =
-      task.label.support == UsualSupport::Wall ? 0.85 : RoughObject::kOwnShare;
+  // Planes that are not the object's own reach beyond the box.
   for (const double share : planes.all.sharesWithin(range))
-    reachesBeyond_.push_back(share < minOwnShare);
+    reachesBeyond_.push_back(share < RoughObject::kOwnShare);
 }
 
 bool CandidateRule::isMaskedOut(int c, int r) const

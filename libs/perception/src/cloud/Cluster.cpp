@@ -1,7 +1,5 @@
 #include "cloud/Cluster.h"
 
-#include <algorithm>
-
 #include "cloud/Precision.h"
 
 namespace quadmap
@@ -14,20 +12,13 @@ bool isFragment(const Cluster& cluster, const Cluster& main)
          cluster.farthest < main.farthest + kEndSlack;
 }
 
-bool isFront(
-    const Cluster& cluster,
-    const Cluster& main,
-    const LabelProperties& label,
-    const Eigen::Vector2d& down)
+bool isFront(const Cluster& cluster, const Cluster& main, const Eigen::Vector2d& down)
 {
   constexpr double kMinBreadth = 0.7;  // of the main part's
-  const double depth =
-      std::max(label.typicalSize.x(), label.typicalSize.y()) * (1.0 + label.sizeSpread);
   const Span across = main.across(down);
   return cluster.leaking == 0 &&
          across.common(cluster.across(down)) > kMinBreadth * across.length() &&
-         cluster.lowest(down) > main.lowest(down) && cluster.farthest < main.farthest &&
-         cluster.nearest > main.farthest - depth;
+         cluster.lowest(down) > main.lowest(down) && cluster.farthest < main.farthest;
 }
 
 }  // namespace quadmap

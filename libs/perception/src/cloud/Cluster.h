@@ -65,10 +65,6 @@ bool isFragment(const Cluster& cluster, const Cluster& main);
  * angle for the sensor. Its front is a broad part, nearer than the main cluster, that ends within
  * the box and reaches lower. What hides an object goes on outside the object's box, or is narrower.
  * \param down In the image. */
-bool isFront(
-    const Cluster& cluster,
-    const Cluster& main,
-    const LabelProperties& label,
-    const Eigen::Vector2d& down);
+bool isFront(const Cluster& cluster, const Cluster& main, const Eigen::Vector2d& down);
 
 }  // namespace quadmap

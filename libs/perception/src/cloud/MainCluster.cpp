@@ -151,7 +151,7 @@ class ClusterChoice
     for (const auto& cluster : clusters)
       isPart.push_back(
           isFragment(cluster, main) ||
-          (cluster.count >= options_.minPoints && isFront(cluster, main, task_.label, down)));
+          (cluster.count >= options_.minPoints && isFront(cluster, main, down)));
     std::optional<PlaneExtent> top;
     if (candidates_.rule.top())
       top = topExtent(*candidates_.rule.top(), candidates_.points, options_);

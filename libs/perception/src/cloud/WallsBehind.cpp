@@ -188,20 +188,14 @@ bool goesOnBehind(
          (!seen.right || on.max()[0] < enclosing.max()[0] + kEndSlack);
 }
 
-/** Could it be the object's own side, with most of the object on it, nothing before it, or
- * something behind it? */
+/** Could it be the object's own side, with something of the object behind it? */
 bool isOwnSide(const Plane& wall, const TolerantPoints& points)
 {
-  constexpr double kMaxOn = 0.5, kMaxBefore = 0.05, kMaxBehind = 0.02;  // shares of the candidates
-  const auto all = static_cast<double>(points.size());
-  const auto before = std::count_if(
-      points.begin(), points.end(),
-      [&](const auto& p) { return wall.signedDistance(p.point) > 2 * p.tolerance; });
+  constexpr double kMaxBehind = 0.02;  // share of the candidates
   const auto behind = std::count_if(
       points.begin(), points.end(),
       [&](const auto& p) { return wall.signedDistance(p.point) < -p.tolerance; });
-  return (countOn(wall, points) > kMaxOn * all && static_cast<double>(before) < kMaxBefore * all) ||
-         static_cast<double>(behind) > kMaxBehind * all;
+  return static_cast<double>(behind) > kMaxBehind * static_cast<double>(points.size());
 }
 
 }  // namespace

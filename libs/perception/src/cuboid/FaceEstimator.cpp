@@ -155,31 +155,20 @@ double FaceEstimator::shellDepth() const
 /** A face that shows by its own points: it is at their median. */
 std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
 {
-  constexpr double kStill = 1e-4;  // [m]
   const auto& across = acrossOf(face);
   FaceEstimate out;
   out.source = FaceSource::Surface;
-  out.position = extreme(face) - 0.5 * shellDepth();
   std::vector<double> shell;
-  // The outermost points are those that err most: the shell moves inwards to where most are.
-  for (double before = extreme(face); before - out.position > kStill;)
-  {
-    before = out.position;
-    shell.clear();
-    double shift = 0;
-    for (std::size_t i = 0; i < size(); ++i)
-      if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - before) < 0.5 * shellDepth())
-      {
-        shell.push_back(along(face, i));
-        shift += across[i];
-      }
-    if (shell.empty()) return {};
-    out.shift = shift / static_cast<double>(shell.size());
-    out.position = median(shell);
-  }
-  if (static_cast<double>(shell.size()) <
-      std::max<double>(kFewestOfSurface, 0.03 * static_cast<double>(size())))
-    return {};
+  double shift = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cosine(face, i) > kFaceCosine && along(face, i) > extreme(face) - shellDepth())
+    {
+      shell.push_back(along(face, i));
+      shift += across[i];
+    }
+  if (shell.size() < kFewestOfSurface) return {};
+  out.shift = shift / static_cast<double>(shell.size());
+  out.position = median(shell);
   out.worth = {
       FaceKind::Measured,
       face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
@@ -239,30 +228,15 @@ std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
   return out;
 }
 
-/** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims and handles,
- * and what lies above the noise is their end. \param shell Heights of the points that face up [m].
- */
+/** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims, and what lies
+ * above the noise is their end. \param shell Heights of the points that face up [m]. */
 void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
 {
-  const double depthSigma = options_.depthSigma(range_);
-  const double count = static_cast<double>(shell.size());
-  const double noise = std::max(madSigma(shell), depthSigma);
-  const double high = quantile(std::move(shell), kMost) -
-                      normalQuantile(kMost) * std::abs(facingAway(kTop)) * depthSigma;
-  if (high > top.position)
-  {
-    top.worth.sigma = std::hypot(top.worth.sigma, 0.5 * (high - top.position));
-    top.position = high;
-  }
-  constexpr double kMinOut = 0.01, kMinShare = 0.01;  // [m], of the surface
-  std::vector<double> beyond;
-  for (const double x : points_[kTop / 2])
-    if (x > top.position + std::max(kMinOut, 3.5 * noise)) beyond.push_back(x);
-  if (static_cast<double>(beyond.size()) > std::max(6.0, kMinShare * count))
-  {
-    top.position = quantile(std::move(beyond), 0.9);
-    top.worth.sigma = std::hypot(top.worth.sigma, protrusionSigma(cell()));
-  }
+  const double noise = std::abs(facingAway(kTop)) * options_.depthSigma(range_);
+  const double high = quantile(std::move(shell), kMost) - normalQuantile(kMost) * noise;
+  if (high <= top.position) return;
+  top.worth.sigma = std::hypot(top.worth.sigma, 0.5 * (high - top.position));
+  top.position = high;
 }
 
 /** Each point tells where the outermost one is, equation (8.7). */

@@ -68,9 +68,6 @@ inline double horizontalTopSigma(double range, const PerceptionOptions& options)
   return std::hypot(0.0007, 0.10 * options.depthSigma(range));
 }
 
-/** Something narrow that stands out of a face. \param cell Size of a cell on the object [m]. */
-inline double protrusionSigma(double cell) { return std::hypot(0.005, cell); }
-
 inline double roundSurfaceSigma(double range, double radius, const PerceptionOptions& options)
 {
   return std::hypot(0.06 * radius, surfaceSigma(range, options));

@@ -85,11 +85,8 @@ struct RimSearch
   /** Equation (8.10). \param outwards Step to the next cell. */
   RimPoint rimPast(const Cell& onTop, const Cell& outwards) const
   {
-    const Eigen::Vector2d p = seenAt(onTop);
     const Eigen::Vector2d out = onPlane(onTop + outwards) - onPlane(onTop);
-    // Towards the camera the top ends in a side, of which the last cell may show the upper part.
-    const bool isNear = out.dot(p) < 0;
-    return {isNear ? p : Eigen::Vector2d(p + 0.5 * out), out};
+    return {seenAt(onTop) + 0.5 * out, out};
   }
   Eigen::Vector2d seenAt(const Cell& cell) const
   {
