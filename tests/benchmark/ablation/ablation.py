@@ -4,7 +4,7 @@
   ablation.py --check             each rule of rules/*.json still fits the sources
   ablation.py [OPTION]... DIR     builds and runs in DIR; writes DIR/results.json and prints the table
     --rooms N --first-seed S      random rooms, drifting odometry, 320x240 (default: 4, from 301)
-    --rules A,B                   these only
+    --rules A,B                   these only; A+B+C: these at once
     --jobs N                      at a time (default: number of cores)
     --page FILE                   the table goes here
 
@@ -51,6 +51,21 @@ def switched_off(rule, root):
     return texts
 
 
+def chosen(names):
+    """The rules of those names; of A+B one that switches off both. Raises ValueError when there is no such rule, or
+    when the edits of one leave nothing for those of another."""
+    rules, out = {rule["rule"]: rule for rule in read_rules()}, []
+    for name in names:
+        parts = [rules.get(part) for part in name.split("+")]
+        if None in parts:
+            raise ValueError(f"{name}: no such rule")
+        out.append({"rule": name, "equation": "; ".join(filter(None, (part["equation"] for part in parts))),
+                    "what": "; ".join(part["what"] for part in parts),
+                    "edits": [edit for part in parts for edit in part["edits"]]})
+        switched_off(out[-1], ROOT)
+    return out
+
+
 def check():
     wrong, names = [], set()
     for rule in read_rules():
@@ -72,7 +87,7 @@ def run(*command, **options):
 
 
 class Bench:
-    """Programs with all rules, libraries without one, recordings, and what came out, in one folder."""
+    """Programs, libraries with all rules and without one, recordings, and what came out, in one folder."""
 
     def __init__(self, folder):
         self.folder, self.lock = folder, threading.Lock()
@@ -91,8 +106,8 @@ class Bench:
         run("cmake", "--preset", "release", "-DQUADMAP_BUILD_TESTS=OFF", "-DQUADMAP_TOGETHER=ON", cwd=self.source)
         run("cmake", "--build", self.build, "--target", "programs")
 
-    def library_without(self, rule):
-        """Folder with the library of perception that does without the rule."""
+    def libraries_without(self, rule):
+        """Folder with the libraries that do without the rule."""
         folder = self.folder / "libraries" / rule["rule"]
         with self.lock:  # one folder of sources
             if not folder.exists():
@@ -104,9 +119,11 @@ class Bench:
         try:
             for name, text in switched_off(rule, self.source).items():
                 (self.source / name).write_text(text)
-            run("cmake", "--build", self.build, "--target", "quadmap_perception")
+            run("cmake", "--build", self.build, "--target", "programs")
             folder.mkdir(parents=True)
-            shutil.copy(self.build / "lib/libquadmap-perception.so.0", folder)
+            # All of them: rules are in several, and those of the build change with the next rule.
+            for library in (self.build / "lib").glob("libquadmap-*.so.0"):
+                shutil.copy(library, folder)
         finally:
             for name, text in kept.items():
                 (self.source / name).write_text(text)
@@ -150,10 +167,10 @@ class Bench:
                 (folder / f"x.{name}").rename(folder / name)
         return folder
 
-    def measure(self, rule, library, recording, poses):
+    def measure(self, rule, libraries, recording, poses):
         """F1, Trans [m], Shape and the worth, F1 times the IoU in 3D, of one run."""
         out = self.folder / "runs" / rule / recording.name
-        environment = dict(os.environ, LD_LIBRARY_PATH=str(library or ""))
+        environment = dict(os.environ, LD_LIBRARY_PATH=str(libraries))
         shutil.rmtree(out, ignore_errors=True)
         out.parent.mkdir(parents=True, exist_ok=True)
         odometry = "ground-truth" if poses == "ground-truth" else "rawlog"
@@ -182,9 +199,9 @@ def run_all(bench, rules, rooms, jobs):
     def without(rule):
         nonlocal left
         missing = [name for name in recordings if name not in bench.results.get(rule["rule"], {})]
-        library = bench.library_without(rule) if rule["edits"] and missing else None
+        libraries = bench.libraries_without(rule) if missing else None
         for name in missing:
-            bench.keep(rule["rule"], name, bench.measure(rule["rule"], library, *recordings[name]))
+            bench.keep(rule["rule"], name, bench.measure(rule["rule"], libraries, *recordings[name]))
         left -= 1
         print(f"\r{left} rules left ", end="", file=sys.stderr, flush=True)
 
@@ -231,8 +248,10 @@ def main():
     choice = parser.parse_args()
     if choice.check or not choice.folder:
         sys.exit(check() if choice.check else parser.error("a folder is needed"))
-    names = set(choice.rules.split(",")) if choice.rules else None
-    rules = [rule for rule in read_rules() if names is None or rule["rule"] in names]
+    try:
+        rules = chosen(choice.rules.split(",")) if choice.rules else read_rules()
+    except ValueError as error:
+        parser.error(str(error))
     bench = Bench(choice.folder)
     rooms = range(choice.first_seed, choice.first_seed + choice.rooms)
     text = table(bench, rules, run_all(bench, rules, rooms, choice.jobs))
