@@ -137,6 +137,28 @@ TEST(CQuadricObjectMap, WhatHasTheUsualSizesIsReportedFromOnePlaceButNotFromOneI
   EXPECT_EQ(map.confirmedObjects().size(), 1u);
 }
 
+TEST(CQuadricObjectMap, AnotherLabelAndOtherSizesAreWeighedAnew)
+{
+  CQuadricObjectMap map;
+  const auto sizesOf = [&](const std::string& label) {
+    return Ellipsoid({0, 0, 0.5, 0, 0, 0}, map.labels().properties(label).typicalSize / 2);
+  };
+  MapObject object;
+  object.object = sizesOf("chair");
+  object.covariance *= 1e-6;
+  object.labelCounts = {
+      {"chair", 9}
+  };
+  object.completeCount = 9;
+  object.existenceLogOdds = 6;
+  const ObjectId id = map.addObject(object);
+  EXPECT_GT(map.find(id)->logOdds(), 7);
+  map.relabel(id, "cup");
+  EXPECT_LT(map.find(id)->logOdds(), 5) << "no cup is as large as a chair";
+  map.place(id, sizesOf("cup"));
+  EXPECT_GT(map.find(id)->logOdds(), 7);
+}
+
 TEST(CQuadricObjectMap, AMissOfWhatIsAlwaysFoundSaysMore)
 {
   const std::vector<TrueObject> chair = {cuboid("chair", {0, 0, 0.45}, {0.45, 0.45, 0.9}, 0)};

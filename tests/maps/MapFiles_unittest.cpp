@@ -63,6 +63,7 @@ TEST(MapFiles, ReadsArchiveVersionZero)
   }));
   EXPECT_EQ(chair.observations(), 69u);
   EXPECT_NEAR(chair.existenceLogOdds, 10, 1e-9);
+  EXPECT_GT(chair.sizeLogOdds, 1) << "archives hold no evidence of sizes, it is weighed anew";
   EXPECT_NEAR(chair.covariance(0, 0), 1.5700334516038793e-05, 1e-15);
   const Eigen::Vector3d center(0.6187274808786561, -0.7479527411719227, 0.44131296558033606);
   const Eigen::Vector3d size(0.463850763628054, 0.46095516975434186, 0.9209850918509315);
