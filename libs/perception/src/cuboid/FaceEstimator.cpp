@@ -155,20 +155,29 @@ double FaceEstimator::shellDepth() const
 /** A face that shows by its own points: it is at their median. */
 std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
 {
+  constexpr double kStill = 1e-4;  // [m]
   const auto& across = acrossOf(face);
   FaceEstimate out;
   out.source = FaceSource::Surface;
+  out.position = extreme(face) - 0.5 * shellDepth();
   std::vector<double> shell;
-  double shift = 0;
-  for (std::size_t i = 0; i < size(); ++i)
-    if (cosine(face, i) > kFaceCosine && along(face, i) > extreme(face) - shellDepth())
-    {
-      shell.push_back(along(face, i));
-      shift += across[i];
-    }
+  // The outermost points are those that err most: the shell moves inwards to where most are.
+  for (double before = extreme(face); before - out.position > kStill;)
+  {
+    before = out.position;
+    shell.clear();
+    double shift = 0;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - before) < 0.5 * shellDepth())
+      {
+        shell.push_back(along(face, i));
+        shift += across[i];
+      }
+    if (shell.empty()) return {};
+    out.shift = shift / static_cast<double>(shell.size());
+    out.position = median(shell);
+  }
   if (shell.size() < kFewestOfSurface) return {};
-  out.shift = shift / static_cast<double>(shell.size());
-  out.position = median(shell);
   out.worth = {
       FaceKind::Measured,
       face == kTop ? topSurfaceSigma(range_, options_) : surfaceSigma(range_, options_)};
