@@ -177,7 +177,8 @@ class ClusterChoice
     const int c = outside(cell.c, range.c0, range.c1), r = outside(cell.r, range.r0, range.r1);
     if (range.contains(c, r) || !cloud_.inside(c, r) || !cloud_.valid(c, r)) return false;
     const double z = cloud_.depth(cell.c, cell.r);
-    if (std::abs(cloud_.depth(c, r) - z) > options_.clusterTolerance + 3.0 * options_.depthSigma(z))
+    if (std::abs(cloud_.depth(c, r) - z) >
+        options_.clusterTolerance + kBeyondChance * options_.depthSigma(z))
       return false;
     return !task_.support ||
            planes_.plane(*task_.support).plane.signedDistance(cloud_.point(c, r).cast<double>()) >

@@ -18,6 +18,16 @@ constexpr int kSample = 400;
 /** Share of an object's points that are stray ones, at either end of any direction. */
 constexpr double kStrayShare = 0.02;
 
+/** Share of a surface's points that its rim, where depth bleeds, does not have. */
+constexpr double kWithoutRim = 0.95;
+
+/** An end of an object is open when more than this share of what makes it up is cut by the image,
+ * hidden, or of another thing. */
+constexpr double kOpenShare = 0.3;
+
+/** What is off by more standard deviations is not so by chance: of normal errors one in 400 is. */
+constexpr double kBeyondChance = 3.0;
+
 /** Ends of things, of their parts and of surfaces are known to this [m]. */
 constexpr double kEndSlack = 0.05;
 

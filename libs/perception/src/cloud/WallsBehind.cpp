@@ -191,11 +191,10 @@ bool goesOnBehind(
 /** Could it be the object's own side, with something of the object behind it? */
 bool isOwnSide(const Plane& wall, const TolerantPoints& points)
 {
-  constexpr double kMaxBehind = 0.02;  // share of the candidates
   const auto behind = std::count_if(
       points.begin(), points.end(),
       [&](const auto& p) { return wall.signedDistance(p.point) < -p.tolerance; });
-  return static_cast<double>(behind) > kMaxBehind * static_cast<double>(points.size());
+  return static_cast<double>(behind) > kStrayShare * static_cast<double>(points.size());
 }
 
 }  // namespace

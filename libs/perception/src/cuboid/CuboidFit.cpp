@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "cuboid/FaceEstimator.h"
 #include "cuboid/FaceSigmas.h"
 #include "cuboid/HeadingEstimate.h"
@@ -44,14 +45,12 @@ void completeRound(Faces& faces, const FaceEstimator& estimator)
  * are wider above. */
 void placeHiddenPart(Faces& faces, const FaceEstimator& estimator, const LabelProperties& label)
 {
-  constexpr double kMaxHidden = 0.3;   // of the height
   constexpr double kMinHidden = 0.06;  // [m]; points near the support count as the support's
-  constexpr double kSideDoubt = 0.03;  // [m]
   const double top = faces[kTop].position;
   const double bottom = faces[kBottom].worth.kind == FaceKind::Support
                             ? -faces[kBottom].position
                             : top - label.typicalSize.z();
-  if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kMaxHidden * (top - bottom))) return;
+  if (estimator.lowestSeen() - bottom < std::max(kMinHidden, kOpenShare * (top - bottom))) return;
   const bool isOpen = label.dominantDirection && estimator.isFootInSight();
   const auto before = estimator.distanceOfWhatHidesFoot();
   const bool isTucked = before && *before < label.typicalSize.head<2>().minCoeff();
@@ -63,7 +62,7 @@ void placeHiddenPart(Faces& faces, const FaceEstimator& estimator, const LabelPr
       worth.kind = FaceKind::Measured;
     else if ((isOpen || away < -kTurnedAway) && worth.kind == FaceKind::Measured)
       worth.kind = FaceKind::AtLeast;
-    worth.sigma += kSideDoubt;
+    worth.sigma += kEndWidth;
   }
 }
 

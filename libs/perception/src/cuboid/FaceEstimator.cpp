@@ -15,8 +15,6 @@ namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
 constexpr double kFaceCosine = 0.85;  // of the normals of a face's own points
-constexpr double kMost = 0.95;        // share of a top's or leaning side's points
-constexpr double kOfFront = 0.95;     // share of a screen's points; its rim has up to one in twenty
 
 }  // namespace
 
@@ -85,14 +83,13 @@ double FaceEstimator::lowestSeen() const { return -extreme(kBottom); }
 
 bool FaceEstimator::isFootInSight() const
 {
-  constexpr double kMaxHidden = 0.3;  // share of what lies below the lowest that is visible
   const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
-  const Eigen::Vector3d lower = middle + 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
+  const Eigen::Vector3d lower = middle + stepTowards(kBottom);
   const Eigen::Vector2d down = cloud_.camera().project(lower) - cloud_.camera().project(middle);
   std::vector<double> visible;
   for (const auto& cell : cells_) visible.push_back(down.dot(Eigen::Vector2d(cell.c, cell.r)));
   const double lowest = quantile(std::move(visible), 1.0 - kStrayShare);
-  const double tolerance = 3.0 * options_.depthSigma(range_);
+  const double tolerance = kBeyondChance * options_.depthSigma(range_);
   int below = 0, hidden = 0;
   for (int r = object_.inBox.r0; r < object_.inBox.r1; ++r)
     for (int c = object_.inBox.c0; c < object_.inBox.c1; ++c)
@@ -103,7 +100,7 @@ bool FaceEstimator::isFootInSight() const
       const Eigen::Vector3d p = cloud_.point(c, r).cast<double>();
       hidden += isOnSupport(p, tolerance) ? 0 : 1;
     }
-  return hidden < kMaxHidden * below;
+  return hidden < kOpenShare * below;
 }
 
 bool FaceEstimator::isOnSupport(const Eigen::Vector3d& p, double tolerance) const
@@ -133,7 +130,7 @@ FaceEstimate FaceEstimator::face(std::size_t face) const
  * the box can. The end is then that of another thing, which touches the object. */
 bool FaceEstimator::endsOutsideBox(std::size_t face) const
 {
-  constexpr double kEnd = 0.02, kMaxOutside = 0.3;  // [m], share of the end's points
+  constexpr double kEnd = 0.02;  // [m]
   if (object_.leak == 0) return false;
   int end = 0, outside = 0;
   for (std::size_t i = 0; i < size(); ++i)
@@ -142,14 +139,14 @@ bool FaceEstimator::endsOutsideBox(std::size_t face) const
     ++end;
     outside += object_.inBox.contains(cells_[i].c, cells_[i].r) ? 0 : 1;
   }
-  return outside > kMaxOutside * end;
+  return outside > kOpenShare * end;
 }
 
 /** The shell of a face's own points: what lies deeper is another part, as the apron below a table's
  * edge [m]. */
 double FaceEstimator::shellDepth() const
 {
-  return std::max(0.03, 4.0 * options_.depthSigma(range_));
+  return std::max(kEndWidth, 4.0 * options_.depthSigma(range_));
 }
 
 /** A face that shows by its own points: it is at their median. */
@@ -191,12 +188,12 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
 
 std::optional<FaceEstimator::LeaningSide> FaceEstimator::leaningSide(std::size_t face) const
 {
-  constexpr double kSigmas = 3.0;
   std::vector<Eigen::Vector2d> own;  // height, and along the outward normal
   for (std::size_t i = 0; i < size(); ++i)
     if (cosine(face, i) > kFaceCosine) own.emplace_back(points_[kTop / 2][i], along(face, i));
   const auto line = fitLine(own, shellDepth());
-  if (!line || std::abs(line->angle) < std::max(kUpright, kSigmas * std::sqrt(line->variance)))
+  if (!line ||
+      std::abs(line->angle) < std::max(kUpright, kBeyondChance * std::sqrt(line->variance)))
     return {};
   const double slope = std::tan(line->angle);
   std::vector<double> offsets;
@@ -216,7 +213,8 @@ void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
     if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - end) < 0.5 * shellDepth())
       ends.push_back(end);
   }
-  if (!ends.empty()) side.position = std::max(side.position, quantile(std::move(ends), kMost));
+  if (!ends.empty())
+    side.position = std::max(side.position, quantile(std::move(ends), kWithoutRim));
 }
 
 std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
@@ -231,8 +229,8 @@ std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
     reach.push_back(along(back, i));
     behind.push_back(reach.back() + (leaning ? leaning->at(points_[kTop / 2][i]) : side->position));
   }
-  if (quantile(std::move(behind), kOfFront) > shellDepth()) return {};
-  FrontReach out{quantile(std::move(reach), kOfFront), {}};
+  if (quantile(std::move(behind), kWithoutRim) > shellDepth()) return {};
+  FrontReach out{quantile(std::move(reach), kWithoutRim), {}};
   if (leaning) out.lean = leaning->angle;
   return out;
 }
@@ -242,7 +240,7 @@ std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
 void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
 {
   const double noise = std::abs(facingAway(kTop)) * options_.depthSigma(range_);
-  const double high = quantile(std::move(shell), kMost) - normalQuantile(kMost) * noise;
+  const double high = quantile(std::move(shell), kWithoutRim) - normalQuantile(kWithoutRim) * noise;
   if (high <= top.position) return;
   top.worth.sigma = std::hypot(top.worth.sigma, 0.5 * (high - top.position));
   top.position = high;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cloud/ObjectCloud.h"
+#include "cloud/Precision.h"
 #include "cuboid/UprightCloud.h"
 #include "quadmap/obs/ObjectMeasurement.h"
 #include "quadmap/perception/PerceptionOptions.h"
@@ -123,6 +124,11 @@ class FaceEstimator
   /** The coordinates along a face, horizontally (along the top: to the front). */
   const std::vector<double>& acrossOf(std::size_t face) const { return points_[face < 2 ? 1 : 0]; }
   std::size_t size() const { return cells_.size(); }
+  /** A short way along a face's outward normal, in the optical frame [m]. */
+  Eigen::Vector3d stepTowards(std::size_t face) const
+  {
+    return kEndSlack * R_obj_optical_.transpose() * normalOf(face);
+  }
   Outline outlineTowards(std::size_t face) const;
   bool endsOutsideBox(std::size_t face) const;
   double outlineSigmaOf(std::size_t face, double perCell) const;

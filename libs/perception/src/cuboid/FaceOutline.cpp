@@ -13,8 +13,6 @@ namespace quadmap
 {
 namespace
 {
-constexpr double kMaxCut = 0.3;  // share of the lines whose ends make an end of the object
-
 /** Extent of the middle 90 % of some values. */
 double spread(std::vector<double> values)
 {
@@ -27,17 +25,15 @@ double spread(std::vector<double> values)
 /** Cuts the object into lines of cells that run in the image as the outward normal does. */
 FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
 {
-  constexpr double kStep = 0.05;  // [m]
-  const Eigen::Vector3d n = normalOf(face);
   const Eigen::Vector3d middle = R_obj_optical_.transpose() * centroid_;
-  const Eigen::Vector3d ahead = middle + kStep * R_obj_optical_.transpose() * n;
+  const Eigen::Vector3d ahead = middle + stepTowards(face);
   Outline out;
   const auto& camera = cloud_.camera();
   if (ahead.z() < 0.1) return out;
   const Eigen::Vector2d step =
       (camera.project(ahead) - camera.project(middle)) / static_cast<double>(cloud_.stride());
   const double cells = step.norm();
-  out.metresPerCell = kStep / std::max(cells, 1e-3);
+  out.metresPerCell = kEndSlack / std::max(cells, 1e-3);
   const Eigen::Vector2d across(-step.y() / std::max(cells, 1e-9), step.x() / std::max(cells, 1e-9));
 
   // No cell is farther from the first line than the image is long, either way.
@@ -62,7 +58,7 @@ FaceEstimator::Outline FaceEstimator::outlineTowards(std::size_t face) const
  * that reach `from` [m] count. */
 double FaceEstimator::cutShare(const Outline& outline, std::size_t face, double from) const
 {
-  const Eigen::Vector3d ahead = 0.05 * R_obj_optical_.transpose() * normalOf(face);
+  const Eigen::Vector3d ahead = stepTowards(face);
   int cut = 0, all = 0;
   for (const auto& line : outline.lines)
   {
@@ -88,13 +84,12 @@ double FaceEstimator::noiseAt(std::size_t face, double position, std::size_t n) 
 /** A face that shows by its outline only: it is where the lines end, with (8.8) and (8.9). */
 FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) const
 {
-  constexpr double kStrayLines = 0.04;        // share; flying pixels
-  constexpr double kMaxMetresPerCell = 0.05;  // coarser outlines say nothing [m]
+  constexpr double kStrayLines = 0.04;  // share; flying pixels
   FaceEstimate out;
   if (outline.lines.empty())  // right behind the camera's plane
   {
     for (std::size_t i = 0; i < size(); ++i) out.position = std::max(out.position, along(face, i));
-    out.worth = {FaceKind::AtLeast, outlineSigma(kMaxMetresPerCell, range_, options_)};
+    out.worth = {FaceKind::AtLeast, outlineSigma(kEndSlack, range_, options_)};
     return out;
   }
   const std::size_t stray = std::min(
@@ -103,7 +98,7 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
   const double outermost = outline.lines[stray].along;
   const double away = facingAway(face);
   out.source = away > kTurnedAway ? FaceSource::FarEdge : FaceSource::Outline;
-  const double perCell = std::min(outline.metresPerCell, kMaxMetresPerCell);
+  const double perCell = std::min(outline.metresPerCell, kEndSlack);  // coarser ones say nothing
   out.position = outermost + outlineShift(away, perCell) - noiseAt(face, outermost, stray);
   const auto& across = acrossOf(face);
   double count = 0;
@@ -114,7 +109,7 @@ FaceEstimate FaceEstimator::outline(std::size_t face, const Outline& outline) co
     ++count;
   }
   out.shift /= count;
-  out.isCut = cutShare(outline, face, outermost - kEndWidth) > kMaxCut;
+  out.isCut = cutShare(outline, face, outermost - kEndWidth) > kOpenShare;
   const bool isOpen = out.isCut || (away > kTurnedAway && !leadsUp(face, outermost));
   out.worth.kind = isOpen ? FaceKind::AtLeast : FaceKind::Measured;
   // A slanted cut leaves few lines their ends; nothing is known beyond them.
@@ -130,7 +125,7 @@ FaceEstimate FaceEstimator::endInBox() const
     if (object_.inBox.contains(cells_[i].c, cells_[i].r)) down.push_back(along(kBottom, i));
   FaceEstimate out;
   out.position = down.empty() ? extreme(kBottom) : quantile(std::move(down), 1.0 - kStrayShare);
-  out.isCut = cutShare(outlineTowards(kBottom), kBottom, out.position - kEndWidth) > kMaxCut;
+  out.isCut = cutShare(outlineTowards(kBottom), kBottom, out.position - kEndWidth) > kOpenShare;
   return out;
 }
 
@@ -216,8 +211,8 @@ FaceEstimator::Beyond FaceEstimator::beyond(
     if (!measured_.contains(c, r)) return {Beyond::Border, p};
     if (object_.mask.contains(c, r) || !cloud_.valid(c, r) || cloud_.isFlyingPixel(c, r)) continue;
     const Eigen::Vector3d q = cloud_.point(c, r).cast<double>();
-    const double noise = 3.0 * options_.depthSigma(p.z());
-    const bool isNearer = !isOnSupport(q, noise) && q.z() < p.z() + 0.03 + noise;
+    const double noise = kBeyondChance * options_.depthSigma(p.z());
+    const bool isNearer = !isOnSupport(q, noise) && q.z() < p.z() + kEndWidth + noise;
     return {isNearer ? Beyond::Nearer : Beyond::Background, q};
   }
   return {Beyond::Background, p};
@@ -225,7 +220,7 @@ FaceEstimator::Beyond FaceEstimator::beyond(
 
 std::optional<double> FaceEstimator::distanceOfWhatHidesFoot() const
 {
-  const Eigen::Vector3d ahead = 0.05 * R_obj_optical_.transpose() * normalOf(kBottom);
+  const Eigen::Vector3d ahead = stepTowards(kBottom);
   const Outline lines = outlineTowards(kBottom);
   std::vector<double> distances;
   for (const auto& line : lines.lines)

@@ -159,11 +159,11 @@ std::optional<LineFit> flatHeading(
 
 HeadingEstimate estimateHeading(const UprightCloud& cloud, const PerceptionOptions& options)
 {
-  constexpr double kMinMass = 40.0, kMinSignificance = 2.5;
+  constexpr double kMinSignificance = 2.5;
   const NormalPeak normals = peakOfNormals(cloud);
   HeadingEstimate out;
   out.dominance = normals.peak.dominance;
-  if (normals.peak.mass >= kMinMass && out.dominance >= options.yawMinDominance &&
+  if (normals.peak.mass >= 2.0 * kFewestOfSurface && out.dominance >= options.yawMinDominance &&
       normals.significance() > kMinSignificance)
   {
     out.defined = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/Precision.h"
 #include "cuboid/CuboidFit.h"
 #include "quadmap/geometry/PinholeCamera.h"
 #include "quadmap/geometry/Projection.h"
@@ -60,7 +61,6 @@ std::optional<double> HeldUp::bottomInBox(double from, const Faces& faces) const
 
 std::optional<double> HeldUp::bottomOf(const Faces& faces) const
 {
-  constexpr double kContradicts = 3.0;  // standard deviations: by chance one edge in 700
   if (faces[kBottom].worth.kind != FaceKind::Support || label_.support == UsualSupport::Floor)
     return {};
   const FaceEstimate end = estimator_.endInBox();
@@ -75,7 +75,7 @@ std::optional<double> HeldUp::bottomOf(const Faces& faces) const
   }
   // A box is a rectangle, and of a screen seen at an angle it shows some of the foot as well.
   const double from = bottom.value_or(support);
-  if (overhang(from, faces) > kContradicts * edgeSigma_)
+  if (overhang(from, faces) > kBeyondChance * edgeSigma_)
     if (const auto inBox = bottomInBox(from, faces)) bottom = inBox;
   if (!bottom) return {};
   // What mostly goes on below its box, and is not clear of the support, stands: the box is wrong.

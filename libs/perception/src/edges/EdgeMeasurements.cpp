@@ -20,9 +20,6 @@ namespace
 /** The object is in contact with something nearer that stands along more of an edge than this
  * share. */
 constexpr double kContactShare = 0.1;
-/** A box edge that is farther from the border of the image than this is not cut by it [sigmas of
- * the edge, equation (9.1)]. */
-constexpr double kBorderSigmas = 3.0;
 
 /** An edge looks down when the direction out of the box over it does by 30 degrees or more. Of
  * turned cameras two edges do [sine]. */
@@ -151,7 +148,7 @@ class EdgeJudge
     const double margin = options_.borderMarginIn(camera.width);
     if (margin == 0 || distance >= margin) return false;
     const double sigma = options_.edgeSigmaIn(camera.width, sizeAcross(edge));
-    return depth <= 0 || distance < kBorderSigmas * sigma;
+    return depth <= 0 || distance < kBeyondChance * sigma;
   }
 
   double sizeAcross(BoxEdge edge) const { return isUpright(edge) ? box_.width() : box_.height(); }

@@ -132,7 +132,7 @@ double absentShare(
   int lines = 0;
   for (std::size_t i = 0; i < lowest; i += step, ++lines)
   {
-    const double margin = 0.10 + 3.0 * options.depthSigma(points[i].z());
+    const double margin = 0.10 + kBeyondChance * options.depthSigma(points[i].z());
     const double height = plane.signedDistance(points[i]);
     const auto isFree = [&](double share)
     {
