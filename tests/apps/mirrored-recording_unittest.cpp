@@ -2,6 +2,7 @@
 // points up in them, so that the world of its true poses is a mirror image.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../odometry/visual/HomeFrames.h"
@@ -78,12 +79,18 @@ json evaluated(const TemporaryFolder& folder, const std::string& run, const std:
   return json::parse(readFile(figures));
 }
 
-/** Maps a recording by visual odometry. \return Its report, and the figures of its evaluation. */
+/** Maps a recording by visual odometry. All objects are reported, however little is known of where
+ * they end: of a bed whose far end no image shows, the rounding of flow decides otherwise. \return
+ * Its report, and the figures of its evaluation. */
 std::pair<json, json> mapped(const TemporaryFolder& folder, const std::string& name)
 {
   const auto out = folder.path(name);
-  const auto slam =
-      runProgram("quadmap-slam", out + ".rawlog --odometry visual --every 1 -o " + out);
+  std::ofstream(out + ".ini") << "[CQuadricObjectMap_insertOpts]\n"
+                                 "maxCenterSigma = 100\n"
+                                 "maxSizeSigma = 100\n";
+  const auto slam = runProgram(
+      "quadmap-slam",
+      out + ".rawlog --odometry visual --every 1 --config " + out + ".ini -o " + out);
   EXPECT_EQ(slam.status, 0) << slam.err;
   return {json::parse(readFile(out + "/report.json")), evaluated(folder, name, name)};
 }
@@ -98,7 +105,7 @@ TEST(MirroredRecording, VisualOdometryMapsItAsTheOriginal)
   const auto [mirroredReport, figures] = mapped(folder, "mirrored");
   EXPECT_EQ(report["visual_odometry"]["up"], "floor seen");
   EXPECT_EQ(mirroredReport["visual_odometry"]["up"], "floor seen");
-  EXPECT_GT(expected["objects"]["f1"], 0.5) << "some objects are out of sight";
+  EXPECT_GT(expected["objects"]["f1"], 0.9);
   EXPECT_EQ(figures["objects"]["f1"], expected["objects"]["f1"]);
   const double ate = expected["trajectory"]["ate_rmse_m"];
   EXPECT_LT(figures["trajectory"]["ate_rmse_m"], 1.5 * ate)
