@@ -9,11 +9,19 @@ namespace quadmap
 /** Fewer cells of the depth image, or of a sample of them, tell nothing. */
 constexpr std::size_t kFewestCells = 12;
 
+/** What has a normal this near to a surface's is that surface's own [cosine]: by rims and noise
+ * normals are off by up to 30 degrees. */
+constexpr double kOwnNormal = 0.85;
+
 /** Fewer points do not tell where a surface or its rim is. */
 constexpr std::size_t kFewestOfSurface = 20;
 
 /** As many points give a share or a quantile as well as all do. */
 constexpr int kSample = 400;
+
+/** Sensors mix the depths of so many neighbouring cells: they err alike, and along edges depth is
+ * bled, ragged or missing. */
+constexpr int kMixedCells = 3;
 
 /** Share of an object's points that are stray ones, at either end of any direction. */
 constexpr double kStrayShare = 0.02;

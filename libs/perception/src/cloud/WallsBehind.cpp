@@ -43,12 +43,11 @@ TolerantPoints surroundings(
         planes.horizontal.begin(), planes.horizontal.end(),
         [&](int i) { return p.isOn(planes.plane(i).plane); });
   };
-  constexpr int kStep = 3;  // cells
   const auto outer = cloud.cellsOf(withSurroundings(box));
   const auto inner = cloud.cellsOf(box);
   TolerantPoints out;
-  for (int r = outer.r0; r < outer.r1; r += kStep)
-    for (int c = outer.c0; c < outer.c1; c += kStep)
+  for (int r = outer.r0; r < outer.r1; r += kMixedCells)
+    for (int c = outer.c0; c < outer.c1; c += kMixedCells)
     {
       if (inner.contains(c, r) || !cloud.valid(c, r)) continue;
       const Eigen::Vector3d p = cloud.point(c, r).cast<double>();

@@ -14,7 +14,6 @@ namespace quadmap
 namespace
 {
 constexpr double kTailShare = 0.005;  // of the points, cut as stray ones
-constexpr double kFaceCosine = 0.85;  // of the normals of a face's own points
 
 }  // namespace
 
@@ -165,7 +164,7 @@ std::optional<FaceEstimate> FaceEstimator::surface(std::size_t face) const
     shell.clear();
     double shift = 0;
     for (std::size_t i = 0; i < size(); ++i)
-      if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - before) < 0.5 * shellDepth())
+      if (cosine(face, i) > kOwnNormal && std::abs(along(face, i) - before) < 0.5 * shellDepth())
       {
         shell.push_back(along(face, i));
         shift += across[i];
@@ -190,7 +189,7 @@ std::optional<FaceEstimator::LeaningSide> FaceEstimator::leaningSide(std::size_t
 {
   std::vector<Eigen::Vector2d> own;  // height, and along the outward normal
   for (std::size_t i = 0; i < size(); ++i)
-    if (cosine(face, i) > kFaceCosine) own.emplace_back(points_[kTop / 2][i], along(face, i));
+    if (cosine(face, i) > kOwnNormal) own.emplace_back(points_[kTop / 2][i], along(face, i));
   const auto line = fitLine(own, shellDepth());
   if (!line ||
       std::abs(line->angle) < std::max(kUpright, kBeyondChance * std::sqrt(line->variance)))
@@ -210,7 +209,7 @@ void FaceEstimator::reachOfLeaning(std::size_t face, FaceEstimate& side) const
   for (std::size_t i = 0; i < size(); ++i)
   {
     const double end = leaning->at(points_[kTop / 2][i]);
-    if (cosine(face, i) > kFaceCosine && std::abs(along(face, i) - end) < 0.5 * shellDepth())
+    if (cosine(face, i) > kOwnNormal && std::abs(along(face, i) - end) < 0.5 * shellDepth())
       ends.push_back(end);
   }
   if (!ends.empty())
@@ -251,7 +250,7 @@ std::optional<FaceEstimate> FaceEstimator::nearSideOfRound(std::size_t face, dou
 {
   std::vector<double> outermost;
   for (std::size_t i = 0; i < size(); ++i)
-    if (cosine(face, i) > kFaceCosine)
+    if (cosine(face, i) > kOwnNormal)
       outermost.push_back(along(face, i) + radius * (1.0 - cosine(face, i)));
   if (outermost.size() < kFewestOfSurface) return {};
   FaceEstimate out;

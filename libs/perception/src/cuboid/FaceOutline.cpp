@@ -173,7 +173,6 @@ bool FaceEstimator::leadsUp(std::size_t face, double position) const
  * ends before the image does. */
 DepthCloud::CellRange FaceEstimator::measuredPart(const DepthCloud& cloud)
 {
-  constexpr int kRagged = 3;     // cells at the rim of that part
   constexpr int kMinShare = 10;  // one of so many cells has depth
   constexpr int kWidest = 12;    // one of so many columns or rows is without
   const int columns = cloud.columns(), rows = cloud.rows();
@@ -189,7 +188,7 @@ DepthCloud::CellRange FaceEstimator::measuredPart(const DepthCloud& cloud)
   while (columns - out.c1 < columns / kWidest && isBlind(out.c1 - 1, 0, true)) --out.c1;
   while (out.r0 < rows / kWidest && isBlind(0, out.r0, false)) ++out.r0;
   while (rows - out.r1 < rows / kWidest && isBlind(0, out.r1 - 1, false)) --out.r1;
-  return {out.c0 + kRagged, out.r0 + kRagged, out.c1 - kRagged, out.r1 - kRagged};
+  return {out.c0 + kMixedCells, out.r0 + kMixedCells, out.c1 - kMixedCells, out.r1 - kMixedCells};
 }
 
 /** What the image shows next to a cell at the rim of the object. */

@@ -35,13 +35,12 @@ struct NormalPeak
 
 NormalPeak peakOfNormals(const UprightCloud& cloud)
 {
-  constexpr double kMinHorizontality = 0.8;
   HeadingHistogram histogram;
   for (const auto& normal : cloud.normals)
   {
     if (!normal) continue;
     const double horizontal = normal->head<2>().norm();
-    if (horizontal > kMinHorizontality)
+    if (horizontal > kOwnNormal)
       histogram.add(std::atan2(normal->y(), normal->x()), horizontal * horizontal);
   }
   NormalPeak out;
@@ -55,7 +54,7 @@ NormalPeak peakOfNormals(const UprightCloud& cloud)
  * box may cut askew. */
 std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
 {
-  constexpr double kMaxNormalAngle = 20.0 * M_PI / 180.0, kShell = 0.04;  // [m]
+  constexpr double kShell = 0.04;  // [m]
   const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
   std::vector<std::size_t> own;
   std::vector<double> slopes;
@@ -64,7 +63,7 @@ std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
     if (!cloud.normals[i]) continue;
     const Eigen::Vector3d& normal = *cloud.normals[i];
     const double ahead = normal.head<2>().dot(n);
-    if (ahead <= std::cos(kMaxNormalAngle)) continue;
+    if (ahead <= kOwnNormal) continue;
     own.push_back(i);
     slopes.push_back(normal.z() / ahead);
   }

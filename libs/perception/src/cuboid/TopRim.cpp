@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloud/Precision.h"
+#include "cuboid/FaceSigmas.h"
 #include "cuboid/HeadingByLines.h"
 #include "quadmap/geometry/DensestWindow.h"
 #include "quadmap/geometry/RobustStatistics.h"
@@ -47,18 +48,17 @@ struct RimSearch
     std::vector<RimPoint> out;
     // What looks past the rim lies outside a tight box.
     const auto& box = object.inBox;
-    const int c0 = std::max(0, box.c0 - kMaxGap - 1), r0 = std::max(0, box.r0 - kMaxGap - 1);
-    const int c1 = std::min(cloud.columns(), box.c1 + kMaxGap + 1);
-    const int r1 = std::min(cloud.rows(), box.r1 + kMaxGap + 1);
-    constexpr int kLines = 200;  // are enough
-    const int every = 1 + (r1 - r0 + c1 - c0) / kLines;
+    const int c0 = std::max(0, box.c0 - kMixedCells - 1),
+              r0 = std::max(0, box.r0 - kMixedCells - 1);
+    const int c1 = std::min(cloud.columns(), box.c1 + kMixedCells + 1);
+    const int r1 = std::min(cloud.rows(), box.r1 + kMixedCells + 1);
+    const int every = 1 + (r1 - r0 + c1 - c0) / kSample;
     for (int r = r0; r < r1; r += every) walk({c0, r}, {1, 0}, c1 - c0, out);
     for (int c = c0; c < c1; c += every) walk({c, r0}, {0, 1}, r1 - r0, out);
     return out;
   }
 
-  using Cell = Eigen::Vector2i;      // column, row
-  static constexpr int kMaxGap = 4;  // cells; the shadow beside an edge is without depth
+  using Cell = Eigen::Vector2i;  // column, row
 
   void walk(const Cell& first, const Cell& step, int count, std::vector<RimPoint>& out) const
   {
@@ -70,7 +70,7 @@ struct RimSearch
       const Shows now = shows(cell.x(), cell.y());
       if (now == Shows::Nothing) continue;
       const Cell previous = first + last * step;
-      if (last >= 0 && i - last <= kMaxGap + 1)
+      if (last >= 0 && i - last <= kMixedCells + 1)
       {
         if (before == Shows::Top && now == Shows::Past)
           out.push_back(rimPast(previous, step));
@@ -114,10 +114,9 @@ TopRim::TopRim(
 
 std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
 {
-  constexpr double kMinOut = 0.3;  // cosine
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < rim_.size(); ++i)
-    if (rim_[i].out.dot(normal) > kMinOut * rim_[i].out.norm())
+    if (rim_[i].out.dot(normal) > kTurnedAway * rim_[i].out.norm())
       order.emplace_back(rim_[i].p.dot(normal), i);
   std::sort(order.begin(), order.end());
   std::vector<double> positions;

@@ -15,10 +15,8 @@ constexpr double kMinSize = 5;     // [px of an image 640 wide]
 double cuboidBeyond(const HiddenEvidence& e)
 {
   constexpr double kError_px = 6, kErrorShare = 0.1;
-  // What lies further inside or outside is another thing, or not well fitted.
-  constexpr double kMinShort_px = -30, kMaxShort_px = 10;
-  const double beyond = e.cuboidBeyond_px + std::clamp(e.cloudShort_px, kMinShort_px, kMaxShort_px);
-  return e.cuboidFit * beyond / (kError_px + kErrorShare * e.size_px);
+  return e.cuboidFit * (e.cuboidBeyond_px + e.cloudShort_px) /
+         (kError_px + kErrorShare * e.size_px);
 }
 
 }  // namespace

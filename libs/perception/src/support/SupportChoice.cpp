@@ -16,31 +16,21 @@ namespace quadmap
 {
 namespace
 {
-// Evidence is added up in natural logarithms of odds; each kind is bounded, so that no single one
-// decides against all others.
-constexpr double kCovered = 4.0;          // the surface reaches under the object
-constexpr double kBelow = -8.0;           // per share of the object that lies under the surface
-constexpr double kGap = -1.5;             // a gap between them: something nearer may carry it
-constexpr double kGapScale = 0.10;        // [m]
-constexpr double kAbsent = -4.0;          // the object would show in the gap, and does not
-constexpr double kTouching = 1.5;         // the surface shows around the object's foot
-constexpr double kUsual = 4.0;            // it is where such objects usually stand
-constexpr double kTooTall = -2.0;         // for its kind, from the surface up, at most
-constexpr double kTooLowOffFloor = -4.0;  // at most, of what stands on floors above anything else
-constexpr double kAnything = 2.0;  // it stands on something out of sight; a support must exceed it
-constexpr double kOnWall = 3.0;    // the wall shows around the object
-constexpr double kNearWall = 1.0;  // the object is as near to it as what hangs on it
+// Evidence is added up in natural logarithms of odds. Each kind is bounded, so that no single one
+// decides against all others, and is weak or strong: finer weights decide no better.
+constexpr double kWeak = 1.5;
+constexpr double kStrong = 4.0;
 
 /** The log-odds that the height of an object above a surface adds, equation (6.2); <= 0.
- * \param height Of the object's top above the surface [m]. \param tooLow Most of what too low a top
- *  adds. */
+ * \param height Of the object's top above the surface [m]. \param tooLow What too low a top takes
+ * away at most. */
 double heightPenalty(double height, const LabelProperties& label, double tooLow)
 {
   constexpr double kMinSpread = 0.3;
   // Of a top that is not above the surface it is -infinity: as much too low as can be.
   const double ratio = std::log(std::max(0.0, height) / label.typicalSize.z());
   const double deviation = ratio / std::max(kMinSpread, label.sizeSpread);
-  return (ratio > 0 ? kTooTall : tooLow) * std::min(1.0, 0.25 * deviation * deviation);
+  return -(ratio > 0 ? kWeak : tooLow) * std::min(1.0, 0.25 * deviation * deviation);
 }
 
 /** The detections whose tops are planes of the scene, by the index of the plane. */
@@ -72,7 +62,7 @@ class SupportJudge
   BoxSupport decide() const
   {
     BoxSupport out;
-    double best = kAnything;
+    double best = kWeak;  // for it to stand on something out of sight
     for (const int i : planes_.horizontal)
     {
       if (ownerOf(i) == &detection_) continue;
@@ -117,14 +107,14 @@ class SupportJudge
 
   double usual(int i) const
   {
-    return label_.support == UsualSupport::Floor && planes_.isFloor(i) ? kUsual : 0.0;
+    return label_.support == UsualSupport::Floor && planes_.isFloor(i) ? kStrong : 0.0;
   }
 
   /** A low top may be hidden or cut off. But the back of a chair rises a little above the table
    * that the chair was pushed under. */
   double tooLow(int i) const
   {
-    return label_.support == UsualSupport::Floor && !planes_.isFloor(i) ? kTooLowOffFloor : 0.0;
+    return label_.support == UsualSupport::Floor && !planes_.isFloor(i) ? kStrong : 0.0;
   }
 
   StandingEvidence evidenceOn(int i) const
@@ -140,16 +130,18 @@ class SupportJudge
   {
     const auto e = evidenceOn(i);
     if (e.endsAbove()) return -std::numeric_limits<double>::infinity();
-    return kCovered * e.covered + kBelow * e.below + kGap * (1 - std::exp(-e.gap / kGapScale)) +
-           kAbsent * e.absent * std::min(1.0, e.gap / kGapScale) +
-           kTouching * touching(planes_.plane(i).plane) + usual(i) +
+    constexpr double kGapScale = 0.10;  // [m]
+    // Where there is a gap, something nearer may carry the object.
+    return kStrong * (e.covered - 2 * e.below) - kWeak * (1 - std::exp(-e.gap / kGapScale)) -
+           kStrong * e.absent * std::min(1.0, e.gap / kGapScale) +
+           kWeak * touching(planes_.plane(i).plane) + usual(i) +
            heightPenalty(e.top, label_, tooLow(i));
   }
 
   /** The log-odds that an object lies on a plane so flat that its points are the plane's. */
   double flatScore(int i) const
   {
-    return (kCovered + kTouching) * touching(planes_.plane(i).plane) + usual(i);
+    return (kStrong + kWeak) * touching(planes_.plane(i).plane) + usual(i);
   }
 
   double touching(const Plane& plane) const { return shareOn(ring_, plane, Ring::LowerHalf); }
@@ -166,7 +158,7 @@ class SupportJudge
       const double distance = median(std::move(distances));
       if (!mayHangOnWall(distance)) return 0;
     }
-    return kOnWall * shareOn(ring_, wall, Ring::All) + kNearWall;
+    return kWeak * (shareOn(ring_, wall, Ring::All) + 1);
   }
 
   const DepthCloud& cloud_;

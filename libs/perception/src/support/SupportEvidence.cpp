@@ -225,7 +225,6 @@ std::optional<ScenePlane> topOf(
     const ImageBox& box,
     const PerceptionOptions& options)
 {
-  constexpr double kFacesUp = 0.9;     // cosine
   constexpr double kThickness = 0.02;  // of the layer of points that is one surface [m]
   constexpr int kFinest = 4;           // times more cells than elsewhere: tops are small
   const auto range = cloud.cellsOf(box);
@@ -239,7 +238,7 @@ std::optional<ScenePlane> topOf(
       const int plane = planes.all.planeAt(cloud, c, r, options.onPlane(p.z()));
       if (plane >= 0 && !object.owns(plane)) continue;
       const auto normal = cloud.normal(c, r);
-      if (normal && normal->cast<double>().dot(planes.up) >= kFacesUp) points.push_back(p);
+      if (normal && normal->cast<double>().dot(planes.up) >= kOwnNormal) points.push_back(p);
     }
   sortAlong(planes.up, points);
   std::vector<double> heights;
