@@ -6,7 +6,7 @@
     --rooms N --first-seed S      random rooms, drifting odometry, 320x240 (default: 4, from 301)
     --rules A,B                   these only; A+B+C: these at once
     --jobs N                      at a time (default: number of cores)
-    --page FILE                   the table goes here
+    --page FILE                   the table replaces the last one of this page
 
 A rule is {"rule", "equation", "what", "edits": [{"file", "from", "to"}]}: the edits switch it off. Real
 recordings are taken from $QUADMAP_TEST_DATA, poses given. What is done already is not done again.
@@ -236,6 +236,16 @@ def table(bench, rules, recordings):
     return "\n".join(lines) + "\n"
 
 
+def put_on(page, text):
+    """Replaces the last table of a page, or makes a page of it."""
+    lines = page.read_text().splitlines(keepends=True) if page.exists() else []
+    end = max((i + 1 for i, line in enumerate(lines) if line.startswith("|")), default=len(lines))
+    begin = end
+    while begin > 0 and lines[begin - 1].startswith("|"):
+        begin -= 1
+    page.write_text("".join(lines[:begin]) + text + "".join(lines[end:]))
+
+
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("folder", nargs="?", type=lambda name: pathlib.Path(name).resolve())
@@ -255,7 +265,7 @@ def main():
     bench = Bench(choice.folder)
     rooms = range(choice.first_seed, choice.first_seed + choice.rooms)
     text = table(bench, rules, run_all(bench, rules, rooms, choice.jobs))
-    choice.page.write_text(text) if choice.page else print(text)
+    put_on(choice.page, text) if choice.page else print(text)
 
 
 if __name__ == "__main__":
