@@ -167,10 +167,11 @@ class ClusterChoice
   /** Is a cell at the rim of the range, with the same surface going on outside? */
   bool goesOn(const ObjectCloud::Cell& cell) const
   {
+    constexpr int kReach = 2;  // cells
     const auto outside = [&](int at, int first, int end)
     {
-      if (at < first + candidates_.step) return first - kMixedCells;
-      return at >= end - candidates_.step ? end - 1 + kMixedCells : at;
+      if (at < first + candidates_.step) return first - kReach;
+      return at >= end - candidates_.step ? end - 1 + kReach : at;
     };
     const auto& range = candidates_.range;
     const int c = outside(cell.c, range.c0, range.c1), r = outside(cell.r, range.r0, range.r1);

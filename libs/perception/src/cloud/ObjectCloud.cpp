@@ -6,7 +6,6 @@
 #include "cloud/BoxCandidates.h"
 #include "cloud/MainCluster.h"
 #include "cloud/ObjectRim.h"
-#include "cloud/Precision.h"
 #include "cloud/WallsBehind.h"
 
 namespace quadmap
@@ -188,7 +187,8 @@ class Segmenter
 
 std::vector<double> sampleOf(const std::vector<Eigen::Vector3d>& points, int axis)
 {
-  const std::size_t step = sampleStep(points.size());
+  constexpr std::size_t kMost = 800;
+  const std::size_t step = 1 + points.size() / kMost;
   std::vector<double> out;
   out.reserve(points.size() / step + 1);
   for (std::size_t i = 0; i < points.size(); i += step) out.push_back(points[i][axis]);

@@ -54,7 +54,7 @@ NormalPeak peakOfNormals(const UprightCloud& cloud)
  * box may cut askew. */
 std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
 {
-  constexpr double kShell = 0.04;  // [m]
+  constexpr double kMaxNormalAngle = 20.0 * M_PI / 180.0, kShell = 0.04;  // [m]
   const Eigen::Vector2d n(std::cos(heading), std::sin(heading)), t(-n.y(), n.x());
   std::vector<std::size_t> own;
   std::vector<double> slopes;
@@ -63,7 +63,7 @@ std::optional<LineFit> faceLine(const UprightCloud& cloud, double heading)
     if (!cloud.normals[i]) continue;
     const Eigen::Vector3d& normal = *cloud.normals[i];
     const double ahead = normal.head<2>().dot(n);
-    if (ahead <= kOwnNormal) continue;
+    if (ahead <= std::cos(kMaxNormalAngle)) continue;
     own.push_back(i);
     slopes.push_back(normal.z() / ahead);
   }

@@ -52,7 +52,8 @@ struct RimSearch
               r0 = std::max(0, box.r0 - kMixedCells - 1);
     const int c1 = std::min(cloud.columns(), box.c1 + kMixedCells + 1);
     const int r1 = std::min(cloud.rows(), box.r1 + kMixedCells + 1);
-    const int every = 1 + (r1 - r0 + c1 - c0) / kSample;
+    constexpr int kLines = 200;  // are enough
+    const int every = 1 + (r1 - r0 + c1 - c0) / kLines;
     for (int r = r0; r < r1; r += every) walk({c0, r}, {1, 0}, c1 - c0, out);
     for (int c = c0; c < c1; c += every) walk({c, r0}, {0, 1}, r1 - r0, out);
     return out;
