@@ -2,7 +2,6 @@
 // points up in them, so that the world of its true poses is a mirror image.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../odometry/visual/HomeFrames.h"
@@ -79,18 +78,17 @@ json evaluated(const TemporaryFolder& folder, const std::string& run, const std:
   return json::parse(readFile(figures));
 }
 
-/** Maps a recording by visual odometry. All objects are reported, however little is known of where
- * they end: of a bed whose far end no image shows, the rounding of flow decides otherwise. \return
- * Its report, and the figures of its evaluation. */
+/** Maps a recording by visual odometry. All objects are reported, also those whose ends are hardly
+ * known: of a bed whose far end no image shows, the rounding of flow would decide. \return Its
+ * report, and the figures of its evaluation. */
 std::pair<json, json> mapped(const TemporaryFolder& folder, const std::string& name)
 {
   const auto out = folder.path(name);
-  std::ofstream(out + ".ini") << "[CQuadricObjectMap_insertOpts]\n"
-                                 "maxCenterSigma = 100\n"
-                                 "maxSizeSigma = 100\n";
+  const auto options = folder.write(
+      name + ".ini", "[CQuadricObjectMap_insertOpts]\nmaxCenterSigma = 100\nmaxSizeSigma = 100\n");
   const auto slam = runProgram(
       "quadmap-slam",
-      out + ".rawlog --odometry visual --every 1 --config " + out + ".ini -o " + out);
+      out + ".rawlog --odometry visual --every 1 --config " + options + " -o " + out);
   EXPECT_EQ(slam.status, 0) << slam.err;
   return {json::parse(readFile(out + "/report.json")), evaluated(folder, name, name)};
 }

@@ -9,14 +9,14 @@ namespace quadmap
 /** Fewer cells of the depth image, or of a sample of them, tell nothing. */
 constexpr std::size_t kFewestCells = 12;
 
-/** What has a normal this near to a surface's is that surface's own [cosine]: by rims and noise
- * normals are off by up to 30 degrees. */
+/** What has a normal this near to a surface's is that surface's own [cosine]: at rims and in
+ * noise normals are off by up to 32 degrees. */
 constexpr double kOwnNormal = 0.85;
 
 /** Fewer points do not tell where a surface or its rim is. */
 constexpr std::size_t kFewestOfSurface = 20;
 
-/** As many points give a share or a quantile as well as all do. */
+/** As many points give what may err by a few per cent as well as all do. */
 constexpr int kSample = 400;
 
 /** Sensors mix the depths of so many neighbouring cells: they err alike, and along edges depth is
@@ -30,10 +30,10 @@ constexpr double kStrayShare = 0.02;
 constexpr double kWithoutRim = 0.95;
 
 /** An end of an object is open when more than this share of what makes it up is cut by the image,
- * hidden, or of another thing. */
+ * hidden, or belongs to another thing. */
 constexpr double kOpenShare = 0.3;
 
-/** What is off by more standard deviations is not so by chance: of normal errors one in 400 is. */
+/** What is off by more standard deviations is not so by chance: of normal errors one in 370 is. */
 constexpr double kBeyondChance = 3.0;
 
 /** Ends of things, of their parts and of surfaces are known to this [m]. */

@@ -234,8 +234,9 @@ std::optional<FrontReach> FaceEstimator::reachOfFront(std::size_t back) const
   return out;
 }
 
-/** Moves a top up to its highest parts, equation (8.6). Tops are round, or have rims, and what lies
- * above the noise is their end. \param shell Heights of the points that face up [m]. */
+/** Moves a top up to its highest parts, equation (8.6). Tops are round, or have raised
+ * borders, and what lies above the noise is their end. \param shell Heights of the points that face
+ * up [m]. */
 void FaceEstimator::raiseTop(std::vector<double> shell, FaceEstimate& top) const
 {
   const double noise = std::abs(facingAway(kTop)) * options_.depthSigma(range_);

@@ -124,7 +124,7 @@ class FaceEstimator
   /** The coordinates along a face, horizontally (along the top: to the front). */
   const std::vector<double>& acrossOf(std::size_t face) const { return points_[face < 2 ? 1 : 0]; }
   std::size_t size() const { return cells_.size(); }
-  /** A short way along a face's outward normal, in the optical frame [m]. */
+  /** The step kEndSlack along a face's outward normal, in the optical frame [m]. */
   Eigen::Vector3d stepTowards(std::size_t face) const
   {
     return kEndSlack * R_obj_optical_.transpose() * normalOf(face);

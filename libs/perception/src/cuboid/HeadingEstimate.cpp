@@ -40,7 +40,7 @@ NormalPeak peakOfNormals(const UprightCloud& cloud)
   {
     if (!normal) continue;
     const double horizontal = normal->head<2>().norm();
-    if (horizontal > kOwnNormal)
+    if (horizontal > kOwnNormal)  // of a vertical surface
       histogram.add(std::atan2(normal->y(), normal->x()), horizontal * horizontal);
   }
   NormalPeak out;

@@ -115,6 +115,7 @@ TopRim::TopRim(
 
 std::vector<RimPoint> TopRim::sidePoints(const Eigen::Vector2d& normal) const
 {
+  // Points of the rim that do not look past this side tell nothing of it.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < rim_.size(); ++i)
     if (rim_[i].out.dot(normal) > kTurnedAway * rim_[i].out.norm())

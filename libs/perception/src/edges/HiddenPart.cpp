@@ -15,15 +15,16 @@ constexpr double kMinSize = 5;     // [px of an image 640 wide]
 double cuboidBeyond(const HiddenEvidence& e)
 {
   constexpr double kError_px = 6, kErrorShare = 0.1;
-  return e.cuboidFit * (e.cuboidBeyond_px + e.cloudShort_px) /
-         (kError_px + kErrorShare * e.size_px);
+  const double beyond = e.cuboidBeyond_px + e.cloudShort_px;
+  return e.cuboidFit * beyond / (kError_px + kErrorShare * e.size_px);
 }
 
 }  // namespace
 
 // The weights come from a logistic regression over simulated rooms, together with ten more pieces
-// of evidence, which were left out later; the first one of the sides was then raised by 0.1.
-// `observation_tables edge-weights` fits them anew (doc/benchmarks.md, "Box edges").
+// of evidence and bounds of cloudShort_px, which were left out later; the first one of the
+// sides was then raised by 0.1. `observation_tables edge-weights` fits them anew
+// (doc/benchmarks.md, "Box edges").
 std::vector<HiddenTerm> hiddenTerms(ObjectSide side, const HiddenEvidence& e)
 {
   const double cuboid = cuboidBeyond(e);

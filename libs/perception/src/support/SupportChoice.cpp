@@ -17,7 +17,8 @@ namespace quadmap
 namespace
 {
 // Evidence is added up in natural logarithms of odds. Each kind is bounded, so that no single one
-// decides against all others, and is weak or strong: finer weights decide no better.
+// decides against all others, and is weak or strong (what lies below a surface is twice as strong):
+// finer weights decide no better.
 constexpr double kWeak = 1.5;
 constexpr double kStrong = 4.0;
 
@@ -62,7 +63,7 @@ class SupportJudge
   BoxSupport decide() const
   {
     BoxSupport out;
-    double best = kWeak;  // for it to stand on something out of sight
+    double best = kWeak;  // a support must be likelier than something out of sight
     for (const int i : planes_.horizontal)
     {
       if (ownerOf(i) == &detection_) continue;
@@ -158,7 +159,7 @@ class SupportJudge
       const double distance = median(std::move(distances));
       if (!mayHangOnWall(distance)) return 0;
     }
-    return kWeak * (shareOn(ring_, wall, Ring::All) + 1);
+    return kStrong * shareOn(ring_, wall, Ring::All);
   }
 
   const DepthCloud& cloud_;
