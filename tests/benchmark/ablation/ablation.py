@@ -6,7 +6,7 @@
     --rooms N --first-seed S      random rooms, drifting odometry, 320x240 (default: 4, from 301)
     --rules A,B                   these only; A+B+C: these at once
     --jobs N                      at a time (default: number of cores)
-    --page FILE                   the table replaces the last one of this page
+    --page FILE                   the table, of all rules, replaces the last one of this page
 
 A rule is {"rule", "equation", "what", "edits": [{"file", "from", "to"}]}: the edits switch it off. Real
 recordings are taken from $QUADMAP_TEST_DATA, poses given. What is done already is not done again.
@@ -258,6 +258,8 @@ def main():
     choice = parser.parse_args()
     if choice.check or not choice.folder:
         sys.exit(check() if choice.check else parser.error("a folder is needed"))
+    if choice.rules and choice.page:
+        parser.error("a page has the table of all rules: --page goes without --rules")
     try:
         rules = chosen(choice.rules.split(",")) if choice.rules else read_rules()
     except ValueError as error:
